@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/evolution/chromosome.h"
+#include "core/trial/fitness.h"
+#include "core/trial/outcome.h"
+
+namespace trapwright::study {
+
+/// One evaluated individual of a generation.
+struct IndividualRecord {
+    evolution::Chromosome chromosome;
+    trial::Fitness fitness;
+    int overlaps = 0;      // triangle pairs... F_C = -overlaps
+    int trials = 0;        // simulated; 0 if the track was not simulated
+    int finished = 0;
+    int fellOff = 0;
+    int stuck = 0;         // stuck or timed out
+
+    friend bool operator==(const IndividualRecord&, const IndividualRecord&) = default;
+};
+
+/// The curves of Figures 6 and 7 (decision 9).
+struct GenerationStatistics {
+    trial::Fitness best;                      // of the winner
+    trial::Fitness topMean;                   // arithmetic mean of the top 30 %
+    evolution::StrategyValues topStrategy;    // geometric mean of the top 30 %
+};
+
+/// One whole generation, evaluated.
+struct GenerationRecord {
+    int index = 0;                            // from 0
+    std::vector<IndividualRecord> individuals;
+    int winner = 0;                           // index into individuals; the lowest among equals
+    GenerationStatistics statistics;
+    double seconds = 0.0;                     // wall time; the only field that may differ between equal runs
+};
+
+/// A winner re-simulated with many trials (paper, section 6.1.1).
+struct SelectionEntry {
+    int generation = 0;
+    int individual = 0;
+    trial::Fitness fitness;                   // from the many trials
+    int trials = 0;
+    int finished = 0;
+    int oriented = 0;                         // finished within the tolerance of the modal orientation
+    base::Quaternion modalOrientation = base::Quaternion::Identity();
+};
+
+/// All winners that were re-simulated, best first.
+struct SelectionRecord {
+    std::string engine;
+    std::vector<SelectionEntry> entries;
+};
+
+/// One row of the paper's Tables 2 and 3.
+struct ValidationRow {
+    int pose = 0;                             // index into the part's stable poses
+    int trials = 0;                           // T
+    int failures = 0;                         // F = wrong + stuck + fellOff
+    int wrongOrientation = 0;
+    int stuck = 0;
+    int fellOff = 0;
+};
+
+/// The table of one individual.
+struct ValidationRecord {
+    int generation = 0;
+    int individual = 0;
+    std::string engine;
+    base::Quaternion expectedOrientation = base::Quaternion::Identity();
+    double tolerance = 0.0;                   // [rad]
+    std::vector<ValidationRow> rows;
+};
+
+}  // namespace trapwright::study

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/base/random.h"
+#include "core/part/part.h"
+#include "core/track/track.h"
+#include "core/trial/drive.h"
+
+namespace trapwright::trial {
+
+/// The material pair. Sources of the values are in core/study/presets.cpp.
+struct ContactParameters {
+    double staticFriction = 0.5;
+    double kineticFriction = 0.5;
+    double restitution = 0.3;
+};
+
+/// When a trial ends (paper, section 3.4; decision 10).
+struct Termination {
+    double timeLimit = 10.0;        // simulated [s]
+    double stuckTime = 1.5;         // without stuckProgress: stuck [s]
+    double stuckProgress = 1e-3;    // along the track [m]
+};
+
+/// Where and how one part starts: at rest in the room, in this pose of the track at its mean position (room
+/// axes), displaced with the track by the drive's phase.
+struct TrialStart {
+    base::Pose pose;                // part frame to room
+    double phase = 0.0;             // of the drive at time 0 [rad]
+};
+
+/// One simulated run to be made. Scales are relative to the batch's part and contact parameters.
+struct TrialSpec {
+    base::StreamKey stream;         // names the trial for ever; its start was drawn from it
+    TrialStart start;
+    double frictionScale = 1.0;
+    double restitutionScale = 1.0;
+    double massScale = 1.0;
+};
+
+/// One track and N trials on it. Immutable values: a batch can be sent to another process.
+struct TrialBatch {
+    std::shared_ptr<const track::Track> track;
+    std::shared_ptr<const part::Part> part;
+    Drive drive;
+    ContactParameters contact;
+    Termination termination;
+    double gravity = base::kStandardGravity;  // [m/s^2]
+    std::vector<TrialSpec> trials;
+};
+
+}  // namespace trapwright::trial

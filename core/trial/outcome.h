@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/base/math.h"
+
+namespace trapwright::trial {
+
+enum class Ending { finished, fellOff, stuck, timedOut };
+
+/// "finished", "fell off", "stuck", "timed out".
+std::string_view endingName(Ending ending);
+
+/// How one trial ended. Poses are in track coordinates: position (x, y, z) of FeederShape, rotation in the
+/// tangent frame at the part's x (decision 7).
+struct Outcome {
+    Ending ending = Ending::stuck;
+    base::Pose initial;     // at the start
+    base::Pose farthest;    // when it had come farthest along the track (paper, section 3.4)
+    double time = 0.0;      // simulated [s]
+
+    friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+/// One moment of a replay. Pose in the room, track displacement and all.
+struct TrajectorySample {
+    double time = 0.0;              // [s]
+    base::Pose room;                // part frame to room
+    base::Pose track;               // as in Outcome, relative to the vibrating track
+    base::Vec3 drive = base::Vec3::Zero();  // displacement of the track at the bowl radius in (x, y, z) [m]
+    int contacts = 0;
+};
+
+struct Trajectory {
+    std::vector<TrajectorySample> samples;
+    Outcome outcome;
+};
+
+}  // namespace trapwright::trial
