@@ -6,7 +6,8 @@
 
 namespace trapwright::geometry {
 
-/// A face of a convex polytope: the points p with normal . p = offset, polytope on the side normal . p <= offset.
+/// A face of a convex polytope: the points p with normal . p = offset, polytope on the side normal . p <=
+/// offset.
 struct PolytopeFace {
     base::Vec3 normal;      // outward, unit
     double offset;          // [m]

@@ -14,7 +14,8 @@ base::Vec3 triangleNormal(const TriangleMesh& mesh, std::size_t index) {
 Box calcBoundingBox(const TriangleMesh& mesh) {
     Box box;
     for (const Triangle& triangle : mesh.triangles)
-        for (const int vertex : triangle) box.include(mesh.vertices[vertex]);
+        for (const int vertex : triangle)
+            box.include(mesh.vertices[vertex]);
     return box;
 }
 

@@ -30,15 +30,16 @@ struct Termination {
 struct TrialStart {
     base::Pose pose;                // part frame to room
     double phase = 0.0;             // of the drive at time 0 [rad]
+    base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room; at rest when learning [m/s]
+    base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
 };
 
-/// One simulated run to be made. Scales are relative to the batch's part and contact parameters.
+/// One simulated run to be made. Scales are relative to the batch's contact parameters.
 struct TrialSpec {
     base::StreamKey stream;         // names the trial for ever; its start was drawn from it
     TrialStart start;
     double frictionScale = 1.0;
     double restitutionScale = 1.0;
-    double massScale = 1.0;
 };
 
 /// One track and N trials on it. Immutable values: a batch can be sent to another process.

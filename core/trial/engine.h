@@ -11,6 +11,12 @@
 
 namespace trapwright::trial {
 
+/// What every engine can be told. 0 leaves the choice to the engine.
+struct EngineOptions {
+    unsigned threads = 0;      // 0: all processors
+    double step = 0.0;         // of simulated time [s]; 0: the engine's own
+};
+
 /// A rigid-body simulator that judges tracks. Takes whole batches, so that it may use threads, wide
 /// instructions or other machines as it likes. The outcome of a trial depends on its batch's parameters and its own
 /// TrialSpec alone: not on the threads, nor on the other trials. Safe to call from several threads.

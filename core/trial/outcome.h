@@ -29,7 +29,9 @@ struct TrajectorySample {
     base::Pose room;                // part frame to room
     base::Pose track;               // as in Outcome, relative to the vibrating track
     base::Vec3 drive = base::Vec3::Zero();  // displacement of the track at the bowl radius in (x, y, z) [m]
-    int contacts = 0;
+    base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room [m/s]
+    base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
+    int contacts = 0;                                 // that carried an impulse in the step before
 };
 
 struct Trajectory {
