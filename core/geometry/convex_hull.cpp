@@ -1,0 +1,137 @@
+#include "core/geometry/convex_hull.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <string>
+
+#include "core/geometry/mass_properties.h"
+#include "core/geometry/polygon_faces.h"
+
+namespace trapwright::geometry {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+constexpr double kCoplanarTolerance = 1e-6;  // of the size; the coordinates of an STL file are good to 1e-7
+constexpr double kFlatTolerance = 1e-9;      // of the size
+
+bool isBefore(const base::Vec3& a, const base::Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+/// The greatest distance of any point from the plane of three far points, over their spread; 0 if all are one
+/// point.
+double calcRelativeThickness(const std::vector<base::Vec3>& points) {
+    const auto findFarthest = [&](auto&& distance) {
+        return *std::max_element(points.begin(), points.end(), [&](const base::Vec3& a, const base::Vec3& b) {
+            return distance(a) < distance(b);
+        });
+    };
+    const base::Vec3& a = points.front();
+    const base::Vec3 b = findFarthest([&](const base::Vec3& p) { return (p - a).norm(); });
+    const double size = (b - a).norm();
+    if (size == 0.0) return 0.0;
+    const base::Vec3 direction = (b - a) / size;
+    const base::Vec3 c = findFarthest([&](const base::Vec3& p) { return direction.cross(p - a).norm(); });
+    const base::Vec3 normal = direction.cross(c - a);
+    if (normal.norm() <= kFlatTolerance * size) return 0.0;
+    const base::Vec3 d = findFarthest([&](const base::Vec3& p) { return std::abs(normal.dot(p - a)); });
+    return std::abs(normal.normalized().dot(d - a)) / size;
+}
+
+TriangleMesh computeHullTriangles(const std::vector<base::Vec3>& points) {
+    std::vector<Kernel::Point_3> input;
+    input.reserve(points.size());
+    for (const base::Vec3& p : points)
+        input.emplace_back(p.x(), p.y(), p.z());
+
+    std::vector<Kernel::Point_3> corners;
+    std::vector<std::array<std::size_t, 3>> triangles;
+    CGAL::convex_hull_3(input.begin(), input.end(), corners, triangles);
+
+    // CGAL's numbering follows the input's order; ours follows the coordinates.
+    TriangleMesh mesh;
+    for (const Kernel::Point_3& p : corners)
+        mesh.vertices.emplace_back(p.x(), p.y(), p.z());
+    const std::vector<base::Vec3> unsorted = mesh.vertices;
+    std::sort(mesh.vertices.begin(), mesh.vertices.end(), isBefore);
+    for (const auto& triangle : triangles) {
+        Triangle t{};
+        for (int k = 0; k < 3; ++k)
+            t[k] = static_cast<int>(std::lower_bound(mesh.vertices.begin(), mesh.vertices.end(),
+                                                     unsorted[triangle[k]], isBefore) -
+                                    mesh.vertices.begin());
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        mesh.triangles.push_back(t);
+    }
+    std::sort(mesh.triangles.begin(), mesh.triangles.end());
+    return mesh;
+}
+
+}  // namespace
+
+base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> points) {
+    std::vector<base::Vec3> sorted(points.begin(), points.end());
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        if (!sorted[i].allFinite())
+            return base::Error{"No convex hull: the coordinates of point " + std::to_string(i) +
+                               " are not finite numbers. Repair the part's file."};
+    std::sort(sorted.begin(), sorted.end(), isBefore);
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    if (sorted.size() < 4 || calcRelativeThickness(sorted) <= kFlatTolerance)
+        return base::Error{
+            "No convex hull: the " + std::to_string(sorted.size()) +
+            " different points lie in one plane and enclose no volume. Use a part that is a solid."};
+
+    try {
+        const TriangleMesh hull = computeHullTriangles(sorted);
+        const double size = (calcBoundingBox(hull).size()).norm();
+        for (double tolerance = kCoplanarTolerance * size; tolerance > 1e-12 * size; tolerance *= 0.1)
+            if (auto polytope = mergeCoplanarTriangles(hull, tolerance)) return std::move(*polytope);
+        if (auto polytope = mergeCoplanarTriangles(hull, -1.0)) return std::move(*polytope);
+        return base::Error{"No convex hull: the hull of " + std::to_string(sorted.size()) +
+                           " points has no clean faces. Use a part with fewer tiny triangles."};
+    } catch (const std::exception& failure) {
+        return base::Error{std::string("No convex hull: CGAL gave up: ") + failure.what() +
+                           ". Repair the part's mesh."};
+    }
+}
+
+base::Result<ConvexPolytope> computeConvexHull(const TriangleMesh& mesh) {
+    std::vector<base::Vec3> points;
+    points.reserve(3 * mesh.triangles.size());
+    for (const Triangle& triangle : mesh.triangles)
+        for (const int vertex : triangle)
+            points.push_back(mesh.vertices[vertex]);
+    return computeConvexHull(points);
+}
+
+TriangleMesh toMesh(const ConvexPolytope& polytope) {
+    TriangleMesh mesh;
+    mesh.vertices = polytope.vertices;
+    for (const PolytopeFace& face : polytope.faces)
+        for (std::size_t i = 1; i + 1 < face.loop.size(); ++i)
+            mesh.triangles.push_back({face.loop[0], face.loop[i], face.loop[i + 1]});
+    return mesh;
+}
+
+bool isConvex(const TriangleMesh& mesh, double relativeTolerance) {
+    const auto hull = computeConvexHull(mesh);
+    if (!hull) return false;
+    const double hullVolume = calcMassProperties(toMesh(*hull), 1.0).volume;
+    const double volume = calcMassProperties(mesh, 1.0).volume;
+    return std::abs(hullVolume - volume) <= relativeTolerance * hullVolume;
+}
+
+bool contains(const ConvexPolytope& polytope, const base::Vec3& point, double margin) {
+    return std::all_of(polytope.faces.begin(), polytope.faces.end(), [&](const PolytopeFace& face) {
+        return face.normal.dot(point) <= face.offset + margin;
+    });
+}
+
+}  // namespace trapwright::geometry
