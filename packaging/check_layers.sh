@@ -1,0 +1,129 @@
+#!/usr/bin/env bash
+# Checks what the build cannot: which folder may include which, where foreign libraries may appear, that no folders
+# depend on each other in a circle, and that no file grows past 400 lines.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+sources=$(packaging/list_sources.sh)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Folder, then what it may include; a prefix stands for everything below it, and the most exact line counts.
+cat > "$work/layers" << 'RULES'
+core            core
+core/base       core/base
+core/evolution  core/base core/evolution core/stats
+core/geometry   core/base core/geometry
+core/part       core/base core/geometry core/part
+core/stats      core/base core/stats
+core/track      core/base core/geometry core/track
+sim             core/base core/geometry core/part core/track core/trial sim
+ui              core ui
+app             core sim ui app
+tests           core sim ui app tests
+RULES
+
+# Library, the folders that may include it ("one": a single one, whichever it is), and its headers. None of them
+# may be included by a header of ours: who includes that header would come to know the library as well.
+cat > "$work/libraries" << 'RULES'
+assimp       core/part      ^assimp/
+OpenCASCADE  core/part      [.]hxx$
+CGAL         core/geometry  ^CGAL/
+SQLite       core/store     ^(SQLiteCpp/|sqlite3)
+Simbody      sim/simbody    ^(Simbody[.]h|SimTK|simbody/|simmath/)
+VTK          ui/scene       ^vtk
+Highway      sim/native     ^hwy/
+Random123    core/base      ^Random123/
+HACD         one            (^|/)hacd[A-Z]
+lib3mf       one            (^|/)(lib3mf|NMR_|Model/COM/)
+RULES
+
+# shellcheck disable=SC2086  # one argument per source: none of their names has a space
+awk -v layersFile="$work/layers" -v librariesFile="$work/libraries" -v edgesFile="$work/edges" '
+    function complain(message) {
+        printf "%s:%d: %s\n", FILENAME, FNR, message
+        complaints++
+    }
+    function isBelow(path, folder) { return path == folder || index(path, folder "/") == 1 }
+    function folderOf(path,    parts) {
+        split(path, parts, "/")
+        return parts[1] "/" parts[2]
+    }
+    # The longest rule that covers the folder.
+    function allowedFor(folder,    i, best) {
+        best = ""
+        for (i in allowed) if (isBelow(folder, i) && length(i) > length(best)) best = i
+        return best == "" ? "" : allowed[best]
+    }
+    function checkOurs(target,    i, n, list, permitted) {
+        permitted = allowedFor(here)
+        n = split(permitted, list, " ")
+        for (i = 1; i <= n; i++) {
+            if (isBelow(target, list[i])) {
+                if (folderOf(target) != here) print here, folderOf(target) > edgesFile
+                return
+            }
+        }
+        complain(here " must not know " target "; it may include: " permitted)
+    }
+    # A test may use the libraries of the folder that it tests.
+    function checkForeign(header,    i, tested) {
+        tested = here
+        if (here == "tests/core" || here == "tests/sim" || here == "tests/ui") {
+            split(FILENAME, path, "/")
+            tested = path[2] "/" path[3]
+        }
+        if (header ~ /^(Qt|Q[A-Z])/ && (isBelow(here, "core") || isBelow(here, "sim"))) {
+            complain("core and sim know no Qt: " header)
+        }
+        for (i = 1; i <= libraries; i++) {
+            if (header !~ pattern[i]) continue
+            if (home[i] == "one") home[i] = tested
+            if (tested != home[i]) complain(library[i] " is known by " home[i] " alone: " header)
+            if (FILENAME ~ /[.]h$/) complain(library[i] " belongs into .cpp files, not into a header: " header)
+        }
+    }
+    BEGIN {
+        while ((getline line < layersFile) > 0) {
+            folder = line
+            sub(/ .*/, "", folder)
+            sub(/^[^ ]+ +/, "", line)
+            allowed[folder] = line
+        }
+        while ((getline line < librariesFile) > 0) {
+            split(line, words, " ")
+            library[++libraries] = words[1]
+            home[libraries] = words[2]
+            pattern[libraries] = words[3]
+        }
+    }
+    FNR == 1 { here = folderOf(FILENAME) }
+    FNR == 401 { complain("longer than 400 lines; split it by subject") }
+    /^[ \t]*#[ \t]*include[ \t]*["<]/ {
+        target = $0
+        sub(/^[^"<]*["<]/, "", target)
+        sub(/[">].*/, "", target)
+        if (target ~ /^[.][.]?\//) {
+            complain("name the file from the root of the project: " target)
+        } else if (target ~ /^(core|sim|ui|app|tests)\//) {
+            checkOurs(target)
+        } else {
+            checkForeign(target)
+        }
+    }
+    END { exit complaints > 0 }
+' $sources >&2 || layersBroken=1
+
+touch "$work/edges"
+if ! { grep -v '^\(app\|tests\)/' "$work/edges" || true; } | sort -u | tsort > /dev/null 2> "$work/circle"; then
+    echo "These folders depend on each other in a circle:" >&2
+    sed -n 's|^tsort: \([a-z].*/.*\)|    \1|p' "$work/circle" >&2
+    layersBroken=1
+fi
+
+if [[ -n ${layersBroken:-} ]]; then
+    echo "check_layers: the layering or the size of the files above is not as it must be." >&2
+    exit 1
+fi
+echo "check_layers: $(wc -l <<< "$sources") files keep to their layers."

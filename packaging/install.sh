@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Installs with apt everything that building, running and testing Trapwright needs on Debian 12.
+set -euo pipefail
+
+packages=(
+    # tools
+    build-essential ccache clang-format-14 clang-tidy-14 cmake git ninja-build pkg-config
+    # numbers and random streams
+    libboost-dev libeigen3-dev librandom123-dev
+    # parts and tracks: reading, repairing, taking apart, writing
+    lib3mf-dev libassimp-dev libbullet-dev libbullet-extras-dev libcgal-dev
+    libocct-data-exchange-dev libocct-foundation-dev libocct-modeling-algorithms-dev libocct-modeling-data-dev
+    # simulation
+    libsimbody-dev
+    # studies and the command line
+    libcli11-dev libfmt-dev libspdlog-dev libsqlite3-dev libsqlitecpp-dev nlohmann-json3-dev
+    # tests
+    qt6-base-dev
+)
+
+usage() {
+    cat <<USAGE
+Usage: packaging/install.sh
+
+Installs, as root or through sudo, the Debian 12 packages that Trapwright is built, run and tested with.
+Does nothing when all of them are there. The packages:
+
+$(printf '%s\n' "${packages[@]}" | sort | fmt -w 100)
+USAGE
+}
+
+fail() {
+    printf 'install.sh: %s\n' "$@" >&2
+    exit 1
+}
+
+for argument in "$@"; do
+    case "$argument" in
+        -h | --help)
+            usage
+            exit 0
+            ;;
+        *) fail "unknown option '$argument'. See packaging/install.sh --help." ;;
+    esac
+done
+
+if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+    fail "this system has no apt. Install what packaging/install.sh --help lists with your own package manager," \
+        "then: cmake --preset release && cmake --build --preset release"
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+    state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2> /dev/null || true)
+    [[ $state == installed ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+    exit 0
+fi
+
+asRoot=()
+if ((EUID != 0)); then
+    command -v sudo > /dev/null ||
+        fail "these packages are missing and installing them needs root or sudo: ${missing[*]}"
+    asRoot=(sudo)
+fi
+# Waiting for the lock: a fresh machine is often still busy with its own upgrades.
+apt=(env DEBIAN_FRONTEND=noninteractive apt-get --quiet --yes -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3)
+
+echo "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
+# An unreachable third-party source must not stop us, so what decides is whether the packages are found.
+"${asRoot[@]}" "${apt[@]}" update < /dev/null ||
+    echo "install.sh: apt could not refresh every package list; going on with what it has." >&2
+for package in "${missing[@]}"; do
+    if ! apt-cache show "$package" > /dev/null 2>&1; then
+        fail "apt does not know the package '$package'." \
+            "Is the network there, is this Debian 12 (bookworm), and is 'main' in /etc/apt/sources.list?"
+    fi
+done
+if ! "${asRoot[@]}" "${apt[@]}" install --no-install-recommends "${missing[@]}" < /dev/null; then
+    fail "apt could not install everything; its messages are above. Check the network and the disk's free space," \
+        "then run packaging/install.sh again: it goes on where it stopped."
+fi

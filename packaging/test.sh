@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs, builds and runs every check and every test. Ends with ctest's summary; exits non-zero if anything failed.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+usage() {
+    cat << 'USAGE'
+Usage: packaging/test.sh [CTEST-OPTION...]
+
+Installs what is missing, builds the release preset, checks format, layers and clang-tidy, and runs every test.
+Options go to ctest, for instance: packaging/test.sh -R core_track
+USAGE
+}
+
+case "${1:-}" in
+    -h | --help)
+        usage
+        exit 0
+        ;;
+esac
+
+"$root/packaging/install.sh"
+"$root/packaging/build.sh" release
+
+# A failed check does not keep the tests from being run: one round shows everything there is to mend.
+failed=()
+for check in check_format check_layers check_tidy; do
+    "$root/packaging/$check.sh" || failed+=("$check")
+done
+# The tests are run last so that their summary ends the output.
+cd "$root"
+ctest --preset release --parallel "$(nproc)" --no-tests=error "$@" || failed+=(ctest)
+
+if ((${#failed[@]} > 0)); then
+    echo "test.sh: failed: ${failed[*]}" >&2
+    exit 1
+fi
