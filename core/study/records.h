@@ -14,39 +14,39 @@ namespace trapwright::study {
 struct IndividualRecord {
     evolution::Chromosome chromosome;
     trial::Fitness fitness;
-    int overlaps = 0;      // triangle pairs... F_C = -overlaps
-    int trials = 0;        // simulated; 0 if the track was not simulated
+    int overlaps = 0;  // triangle pairs... F_C = -overlaps
+    int trials = 0;    // simulated; 0 if the track was not simulated
     int finished = 0;
     int fellOff = 0;
-    int stuck = 0;         // stuck or timed out
+    int stuck = 0;  // stuck or timed out
 
     friend bool operator==(const IndividualRecord&, const IndividualRecord&) = default;
 };
 
 /// The curves of Figures 6 and 7 (decision 9).
 struct GenerationStatistics {
-    trial::Fitness best;                      // of the winner
-    trial::Fitness topMean;                   // arithmetic mean of the top 30 %
-    evolution::StrategyValues topStrategy;    // geometric mean of the top 30 %
+    trial::Fitness best;                    // of the winner
+    trial::Fitness topMean;                 // arithmetic mean of the top 30 %
+    evolution::StrategyValues topStrategy;  // geometric mean of the top 30 %
 };
 
 /// One whole generation, evaluated.
 struct GenerationRecord {
-    int index = 0;                            // from 0
+    int index = 0;  // from 0
     std::vector<IndividualRecord> individuals;
-    int winner = 0;                           // index into individuals; the lowest among equals
+    int winner = 0;  // index into individuals; the lowest among equals
     GenerationStatistics statistics;
-    double seconds = 0.0;                     // wall time; the only field that may differ between equal runs
+    double seconds = 0.0;  // wall time; the only field that may differ between equal runs
 };
 
 /// A winner re-simulated with many trials (paper, section 6.1.1).
 struct SelectionEntry {
     int generation = 0;
     int individual = 0;
-    trial::Fitness fitness;                   // from the many trials
+    trial::Fitness fitness;  // from the many trials
     int trials = 0;
     int finished = 0;
-    int oriented = 0;                         // finished within the tolerance of the modal orientation
+    int oriented = 0;  // finished within the tolerance of the modal orientation
     base::Quaternion modalOrientation = base::Quaternion::Identity();
 };
 
@@ -58,9 +58,9 @@ struct SelectionRecord {
 
 /// One row of the paper's Tables 2 and 3.
 struct ValidationRow {
-    int pose = 0;                             // index into the part's stable poses
-    int trials = 0;                           // T
-    int failures = 0;                         // F = wrong + stuck + fellOff
+    int pose = 0;      // index into the part's stable poses
+    int trials = 0;    // T
+    int failures = 0;  // F = wrong + stuck + fellOff
     int wrongOrientation = 0;
     int stuck = 0;
     int fellOff = 0;
@@ -72,7 +72,7 @@ struct ValidationRecord {
     int individual = 0;
     std::string engine;
     base::Quaternion expectedOrientation = base::Quaternion::Identity();
-    double tolerance = 0.0;                   // [rad]
+    double tolerance = 0.0;  // [rad]
     std::vector<ValidationRow> rows;
 };
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/part/part.h"
+#include "core/track/encoding.h"
 #include "core/track/feeder_shape.h"
 #include "core/trial/batch.h"
 #include "core/trial/fitness.h"
@@ -12,22 +14,22 @@
 
 namespace trapwright::study {
 
-/// How gene 1's y becomes a place in the box (decision 1).
-enum class PointEncoding { strip, free };
+using PointEncoding = track::PointEncoding;
 
 /// The track's form (paper, Table 1 and section 3.1; decisions 1-4). Lengths in metres.
 struct TrackSettings {
     track::FeederShape shape;
-    int crossSections = 5;             // functional ones
+    int crossSections = 5;  // functional ones
     int pointsPerSection = 8;
     double minSegmentLength = 15e-3;
     double maxSegmentLength = 36e-3;
     double segmentWidth = 60e-3;
     double segmentHeight = 30e-3;
     double leadInLength = 80e-3;
-    double startFromLeadInEnd = 20e-3; // the start point's distance before the trap; 60 mm of lead-in stay behind it
+    double startFromLeadInEnd =
+        20e-3;  // the start point's distance before the trap; 60 mm of lead-in stay behind it
     int leadOutSegments = 2;
-    double baseThickness = 3e-3;       // of the solid below z = 0
+    double baseThickness = 3e-3;  // of the solid below z = 0
     PointEncoding encoding = PointEncoding::strip;
 
     friend bool operator==(const TrackSettings& a, const TrackSettings& b);
@@ -35,12 +37,12 @@ struct TrackSettings {
 
 /// The genetic algorithm's settings (paper, Table 1; decisions 5, 6, 8).
 struct EvolutionSettings {
-    int populationSize = 100;          // P
-    int trialsPerEvaluation = 100;     // N
-    int tournamentSize = 6;            // s
-    double staticMutation = 0.002;     // p_sm
-    double smoothingLimit = 0.3;       // upper limit of p_s; 1 in the paper
-    double mutationFloor = 0.0005;     // floor of p_dm; 0 in the paper
+    int populationSize = 100;       // P
+    int trialsPerEvaluation = 100;  // N
+    int tournamentSize = 6;         // s
+    double staticMutation = 0.002;  // p_sm
+    double smoothingLimit = 0.3;    // upper limit of p_s; 1 in the paper
+    double mutationFloor = 0.0005;  // floor of p_dm; 0 in the paper
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0
     int generations = 200;
@@ -54,7 +56,7 @@ struct SimulationSettings {
     trial::Drive drive;
     trial::ContactParameters contact;
     trial::Termination termination;
-    trial::StartPolicy start;          // of learning trials
+    trial::StartPolicy start;  // of learning trials
     double gravity = base::kStandardGravity;
     std::string engine = "simbody";
 
@@ -63,7 +65,7 @@ struct SimulationSettings {
 
 /// After learning (paper, sections 6.1.1 and 6.2; decision 11).
 struct ValidationSettings {
-    int selectionWinners = 10;         // how many of the highest winners are re-simulated
+    int selectionWinners = 10;  // how many of the highest winners are re-simulated
     int selectionTrials = 1000;
     int trialsPerPose = 1000;
     double tolerance = 25.0 * base::kDegree;  // of the expected orientation [rad]
@@ -73,10 +75,10 @@ struct ValidationSettings {
 
 /// The part as given by the user; the mesh itself is kept beside it in the study.
 struct PartSettings {
-    std::string file;                  // absolute path or bundled name ("cuboid")
-    std::string units;                 // "mm", "m", "inch", ... as used on import
-    double density = 1040.0;           // [kg/m^3]
-    double symmetryTolerance = 0.01;   // relative to the part's size
+    std::string file;                 // absolute path or bundled name ("cuboid")
+    std::string units;                // "mm", "m", "inch", ... as used on import
+    double density = 1040.0;          // [kg/m^3]
+    double symmetryTolerance = 0.01;  // relative to the part's size
 
     friend bool operator==(const PartSettings&, const PartSettings&) = default;
 };
@@ -92,18 +94,21 @@ struct Settings {
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 
-/// Every violated range, as sentences that name the parameter, its value and what is allowed. Empty if all is well.
+/// Every violated range, as sentences that name the parameter as its JSON key, its value and what is allowed.
+/// Empty if all is well.
 std::vector<std::string> findProblems(const Settings& settings);
+/// Why this part cannot be fed on tracks of these settings (it is larger than the track, would start in the
+/// trap ...).
+std::vector<std::string> findPartProblems(const Settings& settings, const part::Part& part);
+/// What is allowed but unwise, in the same form: less than 60 mm of lead-in behind the start point.
+std::vector<std::string> findRecommendations(const Settings& settings);
 
 /// JSON in people's units (mm, degrees), one key per field, unit in the key: "segmentWidth_mm".
+/// settingsFromJson gives equal settings back, to the last bit; an angle so if it is a multiple of
+/// base::kDegree by some double, as every angle is that was entered in degrees.
 std::string toJson(const Settings& settings);
-/// Reads what toJson writes. Keys that are left out keep the values of `base`; an unknown key or a wrong type is an error that names it.
+/// Reads what toJson writes. Keys that are left out keep the values of `base`; an unknown key or a wrong type
+/// is an error that names it. Ranges are not looked at: findProblems does that.
 base::Result<Settings> settingsFromJson(const std::string& text, const Settings& base);
-
-/// Table 1: "cuboid" and "cone".
-base::Result<Settings> presetSettings(const std::string& name);
-/// Changes settings to the paper's own choices where the defaults go past it: free points, plain angle, p_s up
-/// to 1, no floor under p_dm, overlapping tracks simulated, a bowl of 175 mm.
-Settings paperMode(Settings settings);
 
 }  // namespace trapwright::study

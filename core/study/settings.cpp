@@ -1,0 +1,31 @@
+#include "core/study/settings.h"
+
+#include <tuple>
+
+namespace trapwright::study {
+
+bool operator==(const TrackSettings& a, const TrackSettings& b) {
+    const auto fields = [](const TrackSettings& s) {
+        return std::tie(s.shape.type, s.shape.bowlRadius, s.shape.conveying, s.crossSections,
+                        s.pointsPerSection, s.minSegmentLength, s.maxSegmentLength, s.segmentWidth,
+                        s.segmentHeight, s.leadInLength, s.startFromLeadInEnd, s.leadOutSegments,
+                        s.baseThickness, s.encoding);
+    };
+    return fields(a) == fields(b);
+}
+
+bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
+    const auto fields = [](const SimulationSettings& s) {
+        return std::tie(s.drive.frequency, s.drive.halfStroke, s.drive.angle, s.contact.staticFriction,
+                        s.contact.kineticFriction, s.contact.restitution, s.termination.timeLimit,
+                        s.termination.stuckTime, s.termination.stuckProgress, s.start.tilt, s.start.lateral,
+                        s.gravity, s.engine);
+    };
+    const auto& poseA = a.start.nearPose;
+    const auto& poseB = b.start.nearPose;
+    const bool samePose =
+        poseA.has_value() == poseB.has_value() && (!poseA || poseA->coeffs() == poseB->coeffs());
+    return samePose && fields(a) == fields(b);
+}
+
+}  // namespace trapwright::study

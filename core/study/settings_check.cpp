@@ -1,0 +1,170 @@
+#include <cmath>
+
+#include "core/study/settings.h"
+#include "core/study/settings_fields.h"
+
+namespace trapwright::study {
+
+namespace {
+
+std::string shown(double value, FileUnit unit) {
+    if (std::isnan(value)) return "not a number";
+    if (std::isinf(value)) return value > 0 ? "infinite" : "minus infinity";
+    return fileText(value, unit);
+}
+
+std::string millimetres(double value) {
+    return shown(std::round(value * 1e7) / 1e7, FileUnit::millimetre) + " mm";
+}
+
+/// Holds every field against its range.
+class RangeCheck {
+ public:
+    std::vector<std::string> problems;
+
+    void text(std::string_view key, const std::string& value) {
+        // A study may be set up before a part is chosen; an engine is always needed.
+        if (key == "simulation.engine" && value.empty())
+            problems.emplace_back("simulation.engine is empty; name an engine, e.g. simbody.");
+    }
+    void number(const NumberField& field, double value) {
+        // The bounds as SI values go through the same text as the value, so that a bound itself is allowed.
+        const double low = *siValue(fileText(field.low, FileUnit::none), field.unit);
+        const double high = *siValue(fileText(field.high, FileUnit::none), field.unit);
+        if (value >= low && value <= high) return;  // false for NaN
+        add(field.key, shown(value, field.unit), shown(field.low, FileUnit::none),
+            shown(field.high, FileUnit::none));
+    }
+    void count(const CountField& field, int value) {
+        if (value >= field.low && value <= field.high) return;
+        add(field.key, std::to_string(value), std::to_string(field.low), std::to_string(field.high));
+    }
+    void rotation(std::string_view key, const std::optional<base::Quaternion>& value) {
+        constexpr double kUnitLength = 1e-6;
+        if (value && !(std::abs(value->norm() - 1.0) <= kUnitLength)) {
+            problems.push_back(std::string(key) + " has the length " + shown(value->norm(), FileUnit::none) +
+                               "; a rotation [w, x, y, z] must have the length 1.");
+        }
+    }
+    void seed(std::string_view, std::uint64_t) {}
+    void flag(std::string_view, bool) {}
+    template <class Enum, std::size_t N>
+    void choice(std::string_view, Enum, const Choices<Enum, N>&) {}
+
+ private:
+    void add(std::string_view key, const std::string& value, const std::string& low,
+             const std::string& high) {
+        problems.push_back(std::string(key) + " is " + value + "; it must be from " + low + " to " + high +
+                           ".");
+    }
+};
+
+std::vector<std::string> findTrackProblems(const TrackSettings& track) {
+    std::vector<std::string> problems;
+    if (track.minSegmentLength > track.maxSegmentLength) {
+        problems.push_back("track.minSegmentLength_mm is " +
+                           shown(track.minSegmentLength, FileUnit::millimetre) +
+                           "; it must not be more than track.maxSegmentLength_mm, which is " +
+                           shown(track.maxSegmentLength, FileUnit::millimetre) + ".");
+    }
+    if (track.startFromLeadInEnd >= track.leadInLength) {
+        problems.push_back(
+            "track.startFromLeadInEnd_mm is " + shown(track.startFromLeadInEnd, FileUnit::millimetre) +
+            "; the start must lie on the lead-in, so it must be less than track.leadInLength_mm, which is " +
+            shown(track.leadInLength, FileUnit::millimetre) + ".");
+    }
+    if (track.shape.type == track::FeederType::bowl) {
+        const double radius = track.shape.bowlRadius;
+        if (track.segmentWidth / 2 >= radius) {
+            problems.push_back("track.segmentWidth_mm is " + shown(track.segmentWidth, FileUnit::millimetre) +
+                               "; on a bowl it must be less than twice track.bowlRadius_mm, which is " +
+                               shown(radius, FileUnit::millimetre) + ".");
+        }
+        const double longest =
+            track.leadInLength + (track.crossSections + track.leadOutSegments) * track.maxSegmentLength;
+        const double turn = 2.0 * base::kPi * radius;
+        if (longest >= turn) {
+            problems.push_back("track.bowlRadius_mm is " + shown(radius, FileUnit::millimetre) +
+                               ": one turn of that bowl is " + millimetres(turn) +
+                               " and the longest track of these settings is " + millimetres(longest) +
+                               ". Enlarge the radius or shorten the segments, the lead-in or the lead-out.");
+        }
+    }
+    return problems;
+}
+
+}  // namespace
+
+std::vector<std::string> findProblems(const Settings& settings) {
+    RangeCheck ranges;
+    visitFields(ranges, settings);
+    std::vector<std::string> problems = std::move(ranges.problems);
+
+    const std::vector<std::string> track = findTrackProblems(settings.track);
+    problems.insert(problems.end(), track.begin(), track.end());
+    const EvolutionSettings& evolution = settings.evolution;
+    if (evolution.populationSize > 0 && evolution.tournamentSize > evolution.populationSize) {
+        problems.push_back("evolution.tournamentSize is " + std::to_string(evolution.tournamentSize) +
+                           "; it must not be more than evolution.populationSize, which is " +
+                           std::to_string(evolution.populationSize) + ".");
+    }
+    const trial::ContactParameters& contact = settings.simulation.contact;
+    if (contact.kineticFriction > contact.staticFriction) {
+        problems.push_back("simulation.contact.kineticFriction is " +
+                           shown(contact.kineticFriction, FileUnit::none) +
+                           "; it must not be more than simulation.contact.staticFriction, which is " +
+                           shown(contact.staticFriction, FileUnit::none) + ".");
+    }
+    if (settings.track.segmentWidth > 0 &&
+        settings.simulation.start.lateral > settings.track.segmentWidth / 2) {
+        problems.push_back("simulation.start.lateral_mm is " +
+                           shown(settings.simulation.start.lateral, FileUnit::millimetre) +
+                           "; parts would start beside the track, so it must not be more than half of "
+                           "track.segmentWidth_mm, which is " +
+                           shown(settings.track.segmentWidth, FileUnit::millimetre) + ".");
+    }
+    return problems;
+}
+
+std::vector<std::string> findPartProblems(const Settings& settings, const part::Part& part) {
+    std::vector<std::string> problems;
+    const TrackSettings& track = settings.track;
+    const double radius = part.boundingRadius;
+    const std::string size =
+        "The part " + part.name + " reaches " + millimetres(radius) + " from its centre of mass";
+    const double behind = track.leadInLength - track.startFromLeadInEnd;
+    if (radius + settings.simulation.start.lateral > track.segmentWidth / 2) {
+        problems.push_back(size + " and starts up to " + millimetres(settings.simulation.start.lateral) +
+                           " beside the middle: it is too large for a track " +
+                           millimetres(track.segmentWidth) + " wide. Set track.segmentWidth_mm to at least " +
+                           millimetres(2 * (radius + settings.simulation.start.lateral)) +
+                           ", or check the units of the part's file.");
+    }
+    if (radius > track.startFromLeadInEnd) {
+        problems.push_back(size + ", which is more than track.startFromLeadInEnd_mm (" +
+                           shown(track.startFromLeadInEnd, FileUnit::millimetre) +
+                           "): it could start inside the trap. Set that to at least " + millimetres(radius) +
+                           ".");
+    }
+    if (radius > behind) {
+        problems.push_back(
+            size + ", and only " + millimetres(behind) +
+            " of lead-in lie behind the start point. Lengthen track.leadInLength_mm to at least " +
+            millimetres(radius + track.startFromLeadInEnd) + ".");
+    }
+    return problems;
+}
+
+std::vector<std::string> findRecommendations(const Settings& settings) {
+    // Parts drift back at first; with less room behind them some are lost at the track's beginning.
+    constexpr double kRoomBehindStart = 60e-3;
+    constexpr double kRounding = 1e-9;
+    const double behind = settings.track.leadInLength - settings.track.startFromLeadInEnd;
+    if (behind >= kRoomBehindStart - kRounding) return {};
+    return {
+        "Only " + millimetres(behind) +
+        " of lead-in lie behind the start point (track.leadInLength_mm minus "
+        "track.startFromLeadInEnd_mm); at least 60 mm are recommended, because parts drift back at first."};
+}
+
+}  // namespace trapwright::study

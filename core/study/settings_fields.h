@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "core/study/number_text.h"
+#include "core/study/settings.h"
+
+namespace trapwright::study {
+
+/// A number's key in files ("track.segmentWidth_mm"), its unit there and its allowed range in that unit.
+struct NumberField {
+    std::string_view key;
+    FileUnit unit = FileUnit::none;
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// A whole number's key and allowed range.
+struct CountField {
+    std::string_view key;
+    int low = 0;
+    int high = 0;
+};
+
+template <class Enum, std::size_t N>
+using Choices = std::array<std::pair<std::string_view, Enum>, N>;
+
+/// The one list of all settings: visits every field in the order of the file. The JSON writer, the JSON
+/// reader and the range check are visitors, so that a key, its unit and its range cannot fall apart.
+/// SettingsType is Settings or const Settings.
+template <class Visitor, class SettingsType>
+void visitFields(Visitor& v, SettingsType& s) {
+    constexpr auto mm = FileUnit::millimetre;
+    constexpr auto degree = FileUnit::degree;
+    constexpr auto none = FileUnit::none;
+
+    v.text("part.file", s.part.file);
+    v.text("part.units", s.part.units);
+    v.number({"part.density_kg_m3", none, 1.0, 30000.0}, s.part.density);
+    v.number({"part.symmetryTolerance", none, 1e-6, 0.2}, s.part.symmetryTolerance);
+
+    v.choice("track.feeder", s.track.shape.type,
+             Choices<track::FeederType, 2>{
+                 {{"linear", track::FeederType::linear}, {"bowl", track::FeederType::bowl}}});
+    v.number({"track.bowlRadius_mm", mm, 10.0, 5000.0}, s.track.shape.bowlRadius);
+    v.choice("track.conveying", s.track.shape.conveying,
+             Choices<track::Conveying, 2>{{{"clockwise", track::Conveying::clockwise},
+                                           {"anticlockwise", track::Conveying::anticlockwise}}});
+    v.count({"track.crossSections", 1, 200}, s.track.crossSections);
+    v.count({"track.pointsPerSection", 2, 200}, s.track.pointsPerSection);
+    v.number({"track.minSegmentLength_mm", mm, 0.1, 1000.0}, s.track.minSegmentLength);
+    v.number({"track.maxSegmentLength_mm", mm, 0.1, 1000.0}, s.track.maxSegmentLength);
+    v.number({"track.segmentWidth_mm", mm, 1.0, 1000.0}, s.track.segmentWidth);
+    v.number({"track.segmentHeight_mm", mm, 0.1, 1000.0}, s.track.segmentHeight);
+    v.number({"track.leadInLength_mm", mm, 1.0, 2000.0}, s.track.leadInLength);
+    v.number({"track.startFromLeadInEnd_mm", mm, 0.1, 2000.0}, s.track.startFromLeadInEnd);
+    v.count({"track.leadOutSegments", 1, 50}, s.track.leadOutSegments);
+    v.number({"track.baseThickness_mm", mm, 0.1, 100.0}, s.track.baseThickness);
+    v.choice("track.encoding", s.track.encoding,
+             Choices<PointEncoding, 2>{{{"strip", PointEncoding::strip}, {"free", PointEncoding::free}}});
+
+    v.count({"evolution.populationSize", 2, 100000}, s.evolution.populationSize);
+    v.count({"evolution.trialsPerEvaluation", 1, 1000000}, s.evolution.trialsPerEvaluation);
+    v.count({"evolution.tournamentSize", 1, 100000}, s.evolution.tournamentSize);
+    v.number({"evolution.staticMutation", none, 0.0, 1.0}, s.evolution.staticMutation);
+    v.number({"evolution.smoothingLimit", none, 0.0, 1.0}, s.evolution.smoothingLimit);
+    v.number({"evolution.mutationFloor", none, 0.0, 1.0}, s.evolution.mutationFloor);
+    v.choice("evolution.orientationDistance", s.evolution.orientationDistance,
+             Choices<trial::OrientationDistance, 2>{{{"symmetric", trial::OrientationDistance::symmetric},
+                                                     {"plain", trial::OrientationDistance::plain}}});
+    v.flag("evolution.simulateOverlapping", s.evolution.simulateOverlapping);
+    v.count({"evolution.generations", 1, 1000000}, s.evolution.generations);
+    v.seed("evolution.seed", s.evolution.seed);
+
+    auto& drive = s.simulation.drive;
+    v.number({"simulation.drive.frequency_Hz", none, 1.0, 1000.0}, drive.frequency);
+    v.number({"simulation.drive.halfStroke_mm", mm, 0.001, 10.0}, drive.halfStroke);
+    v.number({"simulation.drive.angle_deg", degree, 0.1, 89.0}, drive.angle);
+    auto& contact = s.simulation.contact;
+    v.number({"simulation.contact.staticFriction", none, 0.0, 2.0}, contact.staticFriction);
+    v.number({"simulation.contact.kineticFriction", none, 0.0, 2.0}, contact.kineticFriction);
+    v.number({"simulation.contact.restitution", none, 0.0, 1.0}, contact.restitution);
+    auto& termination = s.simulation.termination;
+    v.number({"simulation.termination.timeLimit_s", none, 0.1, 600.0}, termination.timeLimit);
+    v.number({"simulation.termination.stuckTime_s", none, 0.05, 600.0}, termination.stuckTime);
+    v.number({"simulation.termination.stuckProgress_mm", mm, 0.001, 100.0}, termination.stuckProgress);
+    auto& start = s.simulation.start;
+    v.rotation("simulation.start.nearPose", start.nearPose);
+    v.number({"simulation.start.tilt_deg", degree, 0.0, 90.0}, start.tilt);
+    v.number({"simulation.start.lateral_mm", mm, 0.0, 500.0}, start.lateral);
+    v.number({"simulation.gravity_m_s2", none, 0.1, 100.0}, s.simulation.gravity);
+    v.text("simulation.engine", s.simulation.engine);
+
+    v.count({"validation.selectionWinners", 1, 10000}, s.validation.selectionWinners);
+    v.count({"validation.selectionTrials", 1, 1000000}, s.validation.selectionTrials);
+    v.count({"validation.trialsPerPose", 1, 1000000}, s.validation.trialsPerPose);
+    v.number({"validation.tolerance_deg", degree, 0.1, 180.0}, s.validation.tolerance);
+}
+
+}  // namespace trapwright::study

@@ -1,0 +1,206 @@
+#include <QtTest>
+#include <limits>
+
+#include "core/study/presets.h"
+#include "core/study/settings.h"
+
+using namespace trapwright;
+using study::Settings;
+
+namespace {
+
+part::Part partOfRadius(double radius) {
+    part::Part part;
+    part.name = "block";
+    part.boundingRadius = radius;
+    return part;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+    std::string all;
+    for (const std::string& line : lines)
+        all += line + "\n";
+    return all;
+}
+
+}  // namespace
+
+using Change = void (*)(Settings&);
+Q_DECLARE_METATYPE(Change)
+
+class SettingsCheckTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void presetsAreTable1() {
+        const Settings cuboid = study::presetSettings("cuboid").value();
+        const Settings cone = study::presetSettings("cone").value();
+        for (const Settings& s : {cuboid, cone}) {
+            QCOMPARE(s.track.crossSections, 5);
+            QCOMPARE(s.track.pointsPerSection, 8);
+            QCOMPARE(s.track.maxSegmentLength, 0.036);
+            QCOMPARE(s.track.segmentWidth, 0.060);
+            QCOMPARE(s.track.segmentHeight, 0.030);
+            QCOMPARE(s.track.shape.bowlRadius, 0.175);
+            QCOMPARE(s.evolution.trialsPerEvaluation, 100);
+            QCOMPARE(s.evolution.populationSize, 100);
+            QCOMPARE(s.evolution.tournamentSize, 6);
+            QCOMPARE(s.simulation.drive.frequency, 50.0);
+            QCOMPARE(s.simulation.drive.angle, 12.0 * base::kDegree);
+            QCOMPARE(s.simulation.drive.halfStroke, 0.8e-3);
+            QVERIFY2(study::findProblems(s).empty(), joined(study::findProblems(s)).c_str());
+            QVERIFY(study::findProblems(study::paperMode(s)).empty());
+            QVERIFY(study::findRecommendations(s).empty());
+        }
+        QCOMPARE(cuboid.track.minSegmentLength, 0.015);
+        QCOMPARE(cone.track.minSegmentLength, 0.022);
+        QCOMPARE(cuboid.evolution.staticMutation, 0.002);
+        QCOMPARE(cone.evolution.staticMutation, 0.001);
+        QCOMPARE(cuboid.part.file, std::string("cuboid"));
+        QCOMPARE(cone.part.file, std::string("cone"));
+        QVERIFY(cone.part.density > 8000.0);
+
+        for (const std::string_view name : study::presetNames())
+            QVERIFY(study::presetSettings(std::string(name)).ok());
+        QVERIFY(study::presetSettings("cube").error().message.find("\"cuboid\"") != std::string::npos);
+    }
+
+    void paperModeIsThePapersChoices() {
+        const Settings s = study::paperMode(study::presetSettings("cuboid").value());
+        QVERIFY(s.track.encoding == study::PointEncoding::free);
+        QVERIFY(s.track.shape.type == track::FeederType::bowl);
+        QCOMPARE(s.track.shape.bowlRadius, 0.175);
+        QVERIFY(s.evolution.orientationDistance == trial::OrientationDistance::plain);
+        QCOMPARE(s.evolution.smoothingLimit, 1.0);
+        QCOMPARE(s.evolution.mutationFloor, 0.0);
+        QVERIFY(s.evolution.simulateOverlapping);
+    }
+
+    void materialsAreFoundByName() {
+        const auto abs = study::findContactPreset("abs-on-printed-plastic");
+        QVERIFY(abs.ok());
+        QCOMPARE(abs->contact.staticFriction, 0.5);
+        QCOMPARE(abs->contact.restitution, 0.3);
+        for (const study::ContactPreset& preset : study::contactPresets())
+            QVERIFY(!preset.source.empty());
+        QVERIFY(study::findContactPreset("glass").error().message.find("\"brass-on-printed-plastic\"") !=
+                std::string::npos);
+    }
+
+    void rangesAreHeld_data() {
+        QTest::addColumn<Change>("change");
+        QTest::addColumn<QString>("expected");
+        const auto row = [](const char* name, Change change, const char* expected) {
+            QTest::newRow(name) << change << QString(expected);
+        };
+        row(
+            "negative population", [](Settings& s) { s.evolution.populationSize = -5; },
+            "evolution.populationSize is -5; it must be from 2 to 100000.");
+        row(
+            "negative length", [](Settings& s) { s.track.segmentWidth = -3e-3; },
+            "track.segmentWidth_mm is -3; it must be from 1 to 1000.");
+        row(
+            "not a number",
+            [](Settings& s) { s.track.segmentHeight = std::numeric_limits<double>::quiet_NaN(); },
+            "track.segmentHeight_mm is not a number; it must be from 0.1 to 1000.");
+        row(
+            "infinite", [](Settings& s) { s.simulation.gravity = std::numeric_limits<double>::infinity(); },
+            "simulation.gravity_m_s2 is infinite; it must be from 0.1 to 100.");
+        row(
+            "angle", [](Settings& s) { s.simulation.drive.angle = 95 * base::kDegree; },
+            "simulation.drive.angle_deg is 95; it must be from 0.1 to 89.");
+        row(
+            "mutation", [](Settings& s) { s.evolution.staticMutation = 1.5; },
+            "evolution.staticMutation is 1.5; it must be from 0 to 1.");
+        row(
+            "lengths crossed", [](Settings& s) { s.track.minSegmentLength = 40e-3; },
+            "track.minSegmentLength_mm is 40; it must not be more than track.maxSegmentLength_mm, which is "
+            "36.");
+        row(
+            "start in the trap", [](Settings& s) { s.track.startFromLeadInEnd = 80e-3; },
+            "track.startFromLeadInEnd_mm is 80; the start must lie on the lead-in, so it must be less than "
+            "track.leadInLength_mm, which is 80.");
+        row(
+            "tournament", [](Settings& s) { s.evolution.populationSize = 4; },
+            "evolution.tournamentSize is 6; it must not be more than evolution.populationSize, which is 4.");
+        row(
+            "friction", [](Settings& s) { s.simulation.contact.kineticFriction = 0.75; },
+            "simulation.contact.kineticFriction is 0.75; it must not be more than "
+            "simulation.contact.staticFriction, which is 0.5.");
+        row(
+            "start beside", [](Settings& s) { s.simulation.start.lateral = 31e-3; },
+            "simulation.start.lateral_mm is 31; parts would start beside the track, so it must not be more "
+            "than half of track.segmentWidth_mm, which is 60.");
+        row(
+            "no rotation", [](Settings& s) { s.simulation.start.nearPose = base::Quaternion(2, 0, 0, 0); },
+            "simulation.start.nearPose has the length 2; a rotation [w, x, y, z] must have the length 1.");
+        row(
+            "no engine", [](Settings& s) { s.simulation.engine.clear(); },
+            "simulation.engine is empty; name an engine, e.g. simbody.");
+        row(
+            "wide bowl",
+            [](Settings& s) {
+                s.track.shape.type = track::FeederType::bowl;
+                s.track.segmentWidth = 0.35;
+            },
+            "track.segmentWidth_mm is 350; on a bowl it must be less than twice track.bowlRadius_mm, which "
+            "is 175.");
+        row(
+            "long bowl",
+            [](Settings& s) {
+                s.track.shape.type = track::FeederType::bowl;
+                s.track.crossSections = 27;
+            },
+            "track.bowlRadius_mm is 175: one turn of that bowl is 1099.5574 mm and the longest track of "
+            "these settings is 1124 mm. "
+            "Enlarge the radius or shorten the segments, the lead-in or the lead-out.");
+    }
+    void rangesAreHeld() {
+        QFETCH(Change, change);
+        QFETCH(QString, expected);
+        Settings settings;
+        QVERIFY(study::findProblems(settings).empty());
+        change(settings);
+        const auto problems = study::findProblems(settings);
+        QCOMPARE(QString::fromStdString(joined(problems)), expected + "\n");
+    }
+
+    void boundsThemselvesAreAllowed() {
+        Settings settings;
+        settings.track.segmentHeight = 0.1e-3;
+        settings.simulation.drive.halfStroke = 0.001e-3;
+        settings.simulation.drive.angle = 0.1 * base::kDegree;
+        settings.validation.tolerance = 180.0 * base::kDegree;
+        QVERIFY2(study::findProblems(settings).empty(), joined(study::findProblems(settings)).c_str());
+    }
+
+    void roomBehindTheStartIsRecommended() {
+        Settings settings;
+        settings.track.startFromLeadInEnd = 21e-3;
+        const auto lines = study::findRecommendations(settings);
+        QCOMPARE(lines.size(), std::size_t{1});
+        QVERIFY2(lines[0].find("59 mm") != std::string::npos, lines[0].c_str());
+        QVERIFY(study::findProblems(settings).empty());
+    }
+
+    void partMustFit_data() {
+        QTest::addColumn<double>("radius");
+        QTest::addColumn<int>("problems");
+        QTest::addColumn<QString>("named");
+        QTest::newRow("cuboid") << 7.5e-3 << 0 << "";
+        QTest::newRow("reaches the trap") << 21e-3 << 1 << "track.startFromLeadInEnd_mm (20)";
+        QTest::newRow("wider than the track") << 29e-3 << 2 << "Set track.segmentWidth_mm to at least 62 mm";
+        QTest::newRow("in metres") << 7.5 << 3 << "check the units";
+    }
+    void partMustFit() {
+        QFETCH(double, radius);
+        QFETCH(int, problems);
+        QFETCH(QString, named);
+        const auto found = study::findPartProblems(Settings{}, partOfRadius(radius));
+        QCOMPARE(static_cast<int>(found.size()), problems);
+        QVERIFY2(QString::fromStdString(joined(found)).contains(named), joined(found).c_str());
+    }
+};
+
+QTEST_APPLESS_MAIN(SettingsCheckTest)
+#include "settings_check_test.moc"
