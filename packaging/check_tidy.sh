@@ -129,7 +129,7 @@ xargs -r -d '\n' -n 2 -P "$(nproc)" bash -c '
         touch "$3"
         echo "    $2: passed, $((SECONDS - started)) s"
     else
-        printf "    %s: failed\n%s\n" "$2" "$(grep -vE "^[0-9]+ warnings? (generated|treated)" <<< "$messages")" >&2
+        printf "    %s: failed\n%s\n" "$2" "$(grep -vE "^([0-9]+ (warning|error)|Error while processing|Found compiler error)" <<< "$messages")" >&2
         exit 1
     fi
 ' check "$build" < "$work/jobs" || status=1

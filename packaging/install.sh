@@ -10,6 +10,8 @@ packages=(
     # parts and tracks: reading, repairing, taking apart, writing
     lib3mf-dev libassimp-dev libbullet-dev libbullet-extras-dev libcgal-dev
     libocct-data-exchange-dev libocct-foundation-dev libocct-modeling-algorithms-dev libocct-modeling-data-dev
+    # what OpenCASCADE's and lib3mf's packages link to, but leave out of their dependencies
+    libtbb-dev libzip-dev
     # simulation
     libsimbody-dev
     # studies and the command line
