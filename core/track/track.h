@@ -14,25 +14,28 @@ struct CrossSection {
     std::vector<base::Vec2> points;
 };
 
-/// Lead-in, trap and lead-out as one closed, oriented solid. Immutable once built (buildTrack in track_builder.h).
+/// Lead-in, trap and lead-out as one closed, oriented solid. Immutable once built (track_builder.h).
 struct Track {
     FeederShape shape;
-    std::vector<CrossSection> sections;   // all of them: lead-in's two, the trap's, the lead-out's duplicates
-    int firstTrapSection = 1;             // index of the lead-in's end, where the trap begins
-    int lastTrapSection = 1;              // index of the last functional section
-    geometry::TriangleMesh solid;         // in the room, drive at its mean position [m]
-    std::size_t surfaceTriangles = 0;     // the solid's first triangles are the surface, the others sides, ends and base
-    double start = 0.0;                   // x where parts are placed [m]
-    double finish = 0.0;                  // x of the finish line [m]
-    double width = 0.0;                   // of a segment [m]
-    double height = 0.0;                  // of a segment [m]
+    std::vector<CrossSection> sections;  // all of them: lead-in's two, the trap's, the lead-out's duplicates
+    int firstTrapSection = 1;            // index of the lead-in's end, where the trap begins
+    int lastTrapSection = 1;             // index of the last functional section
+    geometry::TriangleMesh solid;        // in the room, drive at its mean position [m]
+    std::size_t surfaceTriangles = 0;    // the solid's first triangles; the others are sides, ends and base
+    double start = 0.0;                  // x where parts are placed [m]
+    double finish = 0.0;                 // x of the finish line [m]
+    double width = 0.0;                  // of a segment [m]
+    double height = 0.0;                 // of a segment [m]
+    double baseThickness = 0.0;          // of the solid below z = 0 [m]
 
     [[nodiscard]] double begin() const { return sections.front().x; }
     [[nodiscard]] double end() const { return sections.back().x; }
 };
 
-/// Distance from x to the finish line in segments, the current one counted by its fraction (paper, Eq. 3;
-/// decision 9); 0 at or past the finish. x before the track counts as its beginning.
+/// Distance from x to the finish line in segments, the first and the last one counted by the fraction that
+/// lies between (paper, Eq. 3; decision 9); 0 at or past the finish. x before the track counts as its
+/// beginning. The lead-in counts as one segment; a bowl's interpolated sub-sections (track_solid.h) do not
+/// count.
 double segmentsToFinish(const Track& track, double x);
 
 }  // namespace trapwright::track

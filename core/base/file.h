@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace trapwright::base {
+
+/// The whole content of a file. An error that names the file and the system's reason.
+Result<std::string> readFile(const std::filesystem::path& path);
+
+/// Puts `content` where `path` is, or leaves there what was: the content is written to a new file beside it,
+/// synced and renamed. An error (full disk, read-only folder) names the file and the system's reason.
+Status writeFile(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace trapwright::base

@@ -1,0 +1,136 @@
+#include "core/track/track_builder.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+
+#include "core/track/track_solid.h"
+
+namespace trapwright::track {
+
+namespace {
+
+double inMillimetres(double length) {
+    return length / base::kMillimetre;
+}
+
+base::Status checkParameters(const TrackParameters& parameters) {
+    const struct {
+        const char* name;
+        double value;
+    } lengths[] = {{"segment width", parameters.width},
+                   {"segment height", parameters.height},
+                   {"lead-in length", parameters.leadInLength},
+                   {"lead-out segment length", parameters.leadOutSegmentLength},
+                   {"base thickness", parameters.baseThickness}};
+    for (const auto& [name, value] : lengths) {
+        if (!(value > 0.0 && std::isfinite(value))) {
+            return base::Error{
+                fmt::format("The {} is {:g} mm; it must be greater than 0.", name, inMillimetres(value))};
+        }
+    }
+    if (!(parameters.startFromLeadInEnd >= 0.0 && parameters.startFromLeadInEnd < parameters.leadInLength)) {
+        return base::Error{fmt::format(
+            "The start's distance from the lead-in's end is {:g} mm; it must be at least 0 and less than the "
+            "lead-in "
+            "length ({:g} mm).",
+            inMillimetres(parameters.startFromLeadInEnd), inMillimetres(parameters.leadInLength))};
+    }
+    if (parameters.leadOutSegments < 1) {
+        return base::Error{
+            fmt::format("The number of lead-out segments is {}; the finish line needs at least 1.",
+                        parameters.leadOutSegments)};
+    }
+    return base::success();
+}
+
+base::Status checkTrap(std::span<const CrossSection> trap) {
+    if (trap.empty()) return base::Error{"The trap has no cross-section; it needs at least 1."};
+    const std::size_t points = trap.front().points.size();
+    if (points < 2) {
+        return base::Error{
+            fmt::format("The number of points per cross-section is {}; a surface needs at least 2.", points)};
+    }
+    double previous = 0.0;
+    for (std::size_t i = 0; i < trap.size(); ++i) {
+        if (trap[i].points.size() != points) {
+            return base::Error{
+                fmt::format("Cross-section {} has {} points, the first one {}; all need as many.", i + 1,
+                            trap[i].points.size(), points)};
+        }
+        if (!(trap[i].x > previous && std::isfinite(trap[i].x))) {
+            return base::Error{
+                fmt::format("Cross-section {} is at x = {:g} mm; it must be beyond {:g} mm, where the one "
+                            "before it is.",
+                            i + 1, inMillimetres(trap[i].x), inMillimetres(previous))};
+        }
+        previous = trap[i].x;
+    }
+    return base::success();
+}
+
+CrossSection makeFlatSection(double x, double width, double z, std::size_t points) {
+    CrossSection section{x, {}};
+    for (std::size_t j = 0; j < points; ++j) {
+        const double t = static_cast<double>(j) / static_cast<double>(points - 1);
+        section.points.emplace_back((t - 0.5) * width, z);
+    }
+    return section;
+}
+
+}  // namespace
+
+base::Status checkShape(const FeederShape& shape, double length, double width) {
+    if (shape.type == FeederType::linear) return base::success();
+    if (!(shape.bowlRadius > 0.5 * width && std::isfinite(shape.bowlRadius))) {
+        return base::Error{fmt::format(
+            "The bowl radius is {:g} mm; it must be greater than half the segment width ({:g} mm).",
+            inMillimetres(shape.bowlRadius), inMillimetres(0.5 * width))};
+    }
+    const double circumference = 2.0 * base::kPi * shape.bowlRadius;
+    if (!(length < circumference)) {
+        return base::Error{fmt::format(
+            "The track is {:.1f} mm long but the bowl's circumference at a bowl radius of {:g} mm is only "
+            "{:.1f} mm; use "
+            "fewer or shorter segments or a larger bowl.",
+            inMillimetres(length), inMillimetres(shape.bowlRadius), inMillimetres(circumference))};
+    }
+    return base::success();
+}
+
+base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap) {
+    if (auto status = checkParameters(parameters); !status) return status.error();
+    if (auto status = checkTrap(trap); !status) return status.error();
+    const double length = parameters.leadInLength + trap.back().x +
+                          parameters.leadOutSegments * parameters.leadOutSegmentLength;
+    if (auto status = checkShape(parameters.shape, length, parameters.width); !status) return status.error();
+
+    Track track;
+    track.shape = parameters.shape;
+    track.width = parameters.width;
+    track.height = parameters.height;
+    track.baseThickness = parameters.baseThickness;
+    const std::size_t points = trap.front().points.size();
+    for (const double x : {0.0, parameters.leadInLength}) {
+        track.sections.push_back(makeFlatSection(x, parameters.width, 0.5 * parameters.height, points));
+    }
+    track.firstTrapSection = 1;
+    for (const CrossSection& section : trap) {
+        track.sections.push_back({parameters.leadInLength + section.x, section.points});
+    }
+    track.lastTrapSection = static_cast<int>(track.sections.size()) - 1;
+    for (int i = 0; i < parameters.leadOutSegments; ++i) {
+        const CrossSection& before = track.sections.back();
+        track.sections.push_back(CrossSection{before.x + parameters.leadOutSegmentLength, before.points});
+    }
+    track.start = parameters.leadInLength - parameters.startFromLeadInEnd;
+    track.finish = track.end() - 0.5 * parameters.leadOutSegmentLength;
+
+    TrackSolid solid = buildTrackSolid(track.shape, track.sections, parameters.baseThickness);
+    track.solid = std::move(solid.mesh);
+    track.surfaceTriangles = solid.surfaceTriangles;
+    return track;
+}
+
+}  // namespace trapwright::track

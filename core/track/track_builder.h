@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include "core/base/result.h"
+#include "core/track/track.h"
+
+namespace trapwright::track {
+
+/// What surrounds the trap (paper, section 3.1, Figure 3; design.md section 3, decisions 1, 3 and 4).
+struct TrackParameters {
+    FeederShape shape;
+    double width = 60e-3;                 // of the lead-in, and of the box that the trap keeps to [m]
+    double height = 30e-3;                // of that box; the lead-in lies at half of it [m]
+    double leadInLength = 80e-3;          // [m]
+    double startFromLeadInEnd = 20e-3;    // the start point's distance before the trap [m]
+    int leadOutSegments = 2;              // duplicates of the last functional section
+    double leadOutSegmentLength = 36e-3;  // the maximal segment length [m]
+    double baseThickness = 3e-3;          // of the solid below z = 0 [m]
+};
+
+/// Flat lead-in from x = 0, the functional sections (x measured from the lead-in's end, at least one), and
+/// the lead-out; finish in the middle of the last duplicate. An error that names the parameter that is out of
+/// range, or tells that the track does not fit on the bowl.
+base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap);
+
+/// An error if a track of this length and width cannot lie on the feeder: the radius does not exceed half the
+/// width, or the length reaches the circumference.
+base::Status checkShape(const FeederShape& shape, double length, double width);
+
+}  // namespace trapwright::track

@@ -1,0 +1,298 @@
+#include "core/track/track_builder.h"
+
+#include <QtTest>
+#include <map>
+#include <set>
+
+#include "track_scenes.h"
+
+using namespace trapwright;
+using track::Conveying;
+using track::CrossSection;
+using track::Encoding;
+using track::FeederShape;
+using track::PointEncoding;
+using track::TrackParameters;
+
+Q_DECLARE_METATYPE(FeederShape)
+Q_DECLARE_METATYPE(Encoding)
+Q_DECLARE_METATYPE(TrackParameters)
+
+namespace {
+
+double calcVolume(const geometry::TriangleMesh& mesh) {
+    double volume = 0.0;
+    for (const auto& t : mesh.triangles) {
+        const auto& v = mesh.vertices;
+        volume += v[static_cast<std::size_t>(t[0])].dot(
+                      v[static_cast<std::size_t>(t[1])].cross(v[static_cast<std::size_t>(t[2])])) /
+                  6.0;
+    }
+    return volume;
+}
+
+// Every edge belongs to two triangles that run through it in opposite directions.
+bool isClosedManifold(const geometry::TriangleMesh& mesh) {
+    std::map<std::pair<int, int>, int> edges;
+    std::set<int> used;
+    for (const auto& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (t[k] == t[(k + 1) % 3]) return false;
+            ++edges[{t[k], t[(k + 1) % 3]}];
+            used.insert(t[k]);
+        }
+    }
+    for (const auto& [edge, count] : edges) {
+        const auto opposite = edges.find({edge.second, edge.first});
+        if (count != 1 || opposite == edges.end()) return false;
+    }
+    // A ball: V - E + F = 2.
+    const auto v = static_cast<int>(used.size());
+    const auto e = static_cast<int>(edges.size()) / 2;
+    const auto f = static_cast<int>(mesh.triangles.size());
+    return v == static_cast<int>(mesh.vertices.size()) && v - e + f == 2;
+}
+
+track::Track build(const TrackParameters& parameters, const std::vector<CrossSection>& trap) {
+    auto result = track::buildTrack(parameters, trap);
+    if (!result.ok()) qFatal("%s", result.error().message.c_str());
+    return *result;
+}
+
+std::vector<CrossSection> flatTrap(double z, double length) {
+    CrossSection section{length, {}};
+    for (const double y : {-30e-3, -10e-3, 10e-3, 30e-3})
+        section.points.emplace_back(y, z);
+    return {section};
+}
+
+}  // namespace
+
+class TrackBuilderTest : public QObject {
+    Q_OBJECT
+
+    static void addShapes() {
+        QTest::addColumn<FeederShape>("shape");
+        QTest::newRow("linear") << FeederShape{};
+        QTest::newRow("clockwise") << testing::makeBowl(Conveying::clockwise);
+        QTest::newRow("anticlockwise") << testing::makeBowl(Conveying::anticlockwise);
+    }
+
+ private slots:
+    void layout() {
+        const Encoding encoding;
+        const auto trap = testing::drawTrap(encoding, 7);
+        const auto track = build({}, trap);
+        QCOMPARE(track.sections.size(), std::size_t{2 + 5 + 2});
+        QCOMPARE(track.begin(), 0.0);
+        QCOMPARE(track.firstTrapSection, 1);
+        QCOMPARE(track.lastTrapSection, 6);
+        QCOMPARE(track.sections[1].x, 80e-3);
+        QCOMPARE(track.start, 60e-3);
+        for (std::size_t i = 0; i < 2; ++i) {
+            for (const auto& point : track.sections[i].points)
+                QCOMPARE(point.y(), 15e-3);
+            QCOMPARE(track.sections[i].points.front().x(), -30e-3);
+            QCOMPARE(track.sections[i].points.back().x(), 30e-3);
+        }
+        for (std::size_t i = 0; i < trap.size(); ++i) {
+            QCOMPARE(track.sections[2 + i].x, 80e-3 + trap[i].x);
+            QCOMPARE(track.sections[2 + i].points, trap[i].points);
+        }
+        for (const std::size_t i : {7U, 8U}) {
+            QCOMPARE(track.sections[i].points, trap.back().points);
+            QVERIFY(std::abs(track.sections[i].x - track.sections[i - 1].x - 36e-3) < 1e-15);
+        }
+        QVERIFY(std::abs(track.finish - 0.5 * (track.sections[7].x + track.sections[8].x)) < 1e-15);
+        // 8 segments of 7 quads each.
+        QCOMPARE(track.surfaceTriangles, std::size_t{8 * 7 * 2});
+    }
+
+    void splitsQuadsAsFigure2() {
+        const auto track = build({}, testing::drawTrap(Encoding{}, 7));
+        const auto& mesh = track.solid;
+        const auto point = [&](std::size_t i, std::size_t j) {
+            const auto& section = track.sections[i];
+            return base::Vec3(section.x, section.points[j].x(), section.points[j].y());
+        };
+        for (std::size_t i = 0; i < 8; ++i) {
+            for (std::size_t j = 0; j < 7; ++j) {
+                const std::array expected = {point(i, j),     point(i + 1, j), point(i, j + 1),
+                                             point(i, j + 1), point(i + 1, j), point(i + 1, j + 1)};
+                const std::size_t first = 2 * (i * 7 + j);
+                for (std::size_t k = 0; k < 6; ++k) {
+                    const int vertex = mesh.triangles[first + k / 3][k % 3];
+                    QCOMPARE(mesh.vertices[static_cast<std::size_t>(vertex)], expected[k]);
+                }
+            }
+        }
+    }
+
+    void solidIsClosed_data() {
+        QTest::addColumn<FeederShape>("shape");
+        QTest::addColumn<Encoding>("encoding");
+        const FeederShape shapes[] = {FeederShape{}, testing::makeBowl(Conveying::clockwise),
+                                      testing::makeBowl(Conveying::anticlockwise)};
+        const char* shapeNames[] = {"linear", "clockwise", "anticlockwise"};
+        for (std::size_t s = 0; s < 3; ++s) {
+            for (const auto points : {PointEncoding::strip, PointEncoding::free}) {
+                Encoding encoding;
+                encoding.pointEncoding = points;
+                QTest::addRow("%s, %s", shapeNames[s], points == PointEncoding::strip ? "strip" : "free")
+                    << shapes[s] << encoding;
+            }
+            QTest::addRow("%s, two points", shapeNames[s]) << shapes[s] << Encoding{1, 2};
+        }
+    }
+    void solidIsClosed() {
+        QFETCH(FeederShape, shape);
+        QFETCH(Encoding, encoding);
+        TrackParameters parameters;
+        parameters.shape = shape;
+        for (std::uint64_t seed = 0; seed < 20; ++seed) {
+            const auto track = build(parameters, testing::drawTrap(encoding, seed));
+            QVERIFY(isClosedManifold(track.solid));
+            if (encoding.pointEncoding == PointEncoding::free) continue;
+            QVERIFY(calcVolume(track.solid) > 0.0);
+            for (std::size_t t = 0; t < track.solid.triangles.size(); ++t) {
+                const base::Vec3 normal = geometry::triangleNormal(track.solid, t);
+                QVERIFY(normal.norm() > 0.5);
+                if (t < track.surfaceTriangles) QVERIFY(normal.z() > 0.0);
+                // Sides and ends are upright, the base looks down.
+                if (t >= track.surfaceTriangles)
+                    QVERIFY(std::abs(normal.z()) < 1e-9 || normal.z() < -1.0 + 1e-12);
+            }
+        }
+    }
+
+    // The volume under a surface over the triangulated (x, y) plane: prisms down to the base.
+    void volumeIsThatUnderTheSurface_data() { addShapes(); }
+    void volumeIsThatUnderTheSurface() {
+        QFETCH(FeederShape, shape);
+        TrackParameters parameters;
+        parameters.shape = shape;
+        const auto track = build(parameters, testing::drawTrap(Encoding{}, 11));
+        double volume = 0.0;
+        for (std::size_t t = 0; t < track.surfaceTriangles; ++t) {
+            const auto& triangle = track.solid.triangles[t];
+            base::Vec3 v[3];
+            for (std::size_t k = 0; k < 3; ++k)
+                v[k] = track.solid.vertices[static_cast<std::size_t>(triangle[k])];
+            const double area = 0.5 * (v[1] - v[0]).cross(v[2] - v[0]).z();
+            volume += area * ((v[0].z() + v[1].z() + v[2].z()) / 3.0 + parameters.baseThickness);
+        }
+        QVERIFY(std::abs(calcVolume(track.solid) / volume - 1.0) < 1e-12);
+    }
+
+    void flatTrackIsABlock() {
+        const auto track = build({}, flatTrap(15e-3, 30e-3));
+        const double length = 80e-3 + 30e-3 + 2 * 36e-3;
+        QVERIFY(std::abs(calcVolume(track.solid) - length * 60e-3 * 18e-3) < 1e-15);
+    }
+
+    // A bent block: each piece is a trapezoid prism; all together sin(step) / step of the ring sector.
+    void flatBowlIsARingOfChords() {
+        TrackParameters parameters;
+        parameters.shape = testing::makeBowl(Conveying::clockwise);
+        const auto track = build(parameters, flatTrap(15e-3, 30e-3));
+        const double length = 80e-3 + 30e-3 + 2 * 36e-3;
+        QVERIFY(calcVolume(track.solid) < length * 60e-3 * 18e-3);
+        // At most 5 degrees per chord: sin(5 deg) / 5 deg.
+        QVERIFY(calcVolume(track.solid) > length * 60e-3 * 18e-3 * 0.99873);
+        // 80, 30, 36, 36 mm at 15.27 mm each: 6, 2, 3, 3 pieces.
+        QCOMPARE(track.surfaceTriangles, std::size_t{14 * 3 * 2});
+        QCOMPARE(track.sections.size(), std::size_t{5});
+    }
+
+    void sensesMirrorEachOther() {
+        TrackParameters parameters;
+        const auto trap = testing::drawTrap(Encoding{}, 5);
+        parameters.shape = testing::makeBowl(Conveying::clockwise);
+        const auto clockwise = build(parameters, trap);
+        parameters.shape = testing::makeBowl(Conveying::anticlockwise);
+        const auto anticlockwise = build(parameters, trap);
+        QCOMPARE(clockwise.solid.vertices.size(), anticlockwise.solid.vertices.size());
+        for (std::size_t i = 0; i < clockwise.solid.vertices.size(); ++i) {
+            const base::Vec3& v = clockwise.solid.vertices[i];
+            QVERIFY((base::Vec3(v.x(), -v.y(), v.z()) - anticlockwise.solid.vertices[i]).norm() < 1e-15);
+        }
+        QVERIFY(std::abs(calcVolume(clockwise.solid) / calcVolume(anticlockwise.solid) - 1.0) < 1e-12);
+    }
+
+    void refusesNamingTheParameter_data() {
+        QTest::addColumn<TrackParameters>("parameters");
+        QTest::addColumn<QString>("named");
+        TrackParameters p;
+        p.width = -1.0;
+        QTest::newRow("width") << p << "segment width";
+        p = {};
+        p.leadInLength = 0.0;
+        QTest::newRow("lead-in") << p << "lead-in length";
+        p = {};
+        p.startFromLeadInEnd = 80e-3;
+        QTest::newRow("start") << p << "start's distance";
+        p = {};
+        p.leadOutSegments = 0;
+        QTest::newRow("lead-out") << p << "number of lead-out segments is 0";
+        p = {};
+        p.baseThickness = 0.0;
+        QTest::newRow("base") << p << "base thickness";
+        p = {};
+        p.shape = {track::FeederType::bowl, 30e-3, Conveying::clockwise};
+        QTest::newRow("radius") << p << "bowl radius is 30 mm";
+        p.shape.bowlRadius = 31e-3;
+        p.leadInLength = 0.2;
+        QTest::newRow("circumference") << p << "circumference";
+    }
+    void refusesNamingTheParameter() {
+        QFETCH(TrackParameters, parameters);
+        QFETCH(QString, named);
+        const auto result = track::buildTrack(parameters, flatTrap(15e-3, 30e-3));
+        QVERIFY(!result.ok());
+        QVERIFY2(QString::fromStdString(result.error().message).contains(named),
+                 result.error().message.c_str());
+    }
+
+    void refusesBadTraps() {
+        auto trap = testing::drawTrap(Encoding{}, 1);
+        QVERIFY(!track::buildTrack({}, {}).ok());
+        trap[2].x = trap[1].x;
+        auto result = track::buildTrack({}, trap);
+        QVERIFY(!result.ok());
+        QVERIFY(result.error().message.find("Cross-section 3") != std::string::npos);
+        trap = testing::drawTrap(Encoding{}, 1);
+        trap[4].points.pop_back();
+        QVERIFY(!track::buildTrack({}, trap).ok());
+        trap = {CrossSection{20e-3, {base::Vec2(0.0, 0.0)}}};
+        QVERIFY(!track::buildTrack({}, trap).ok());
+    }
+
+    void segmentsToFinish_data() {
+        QTest::addColumn<double>("x");
+        QTest::addColumn<double>("segments");
+        // Lead-in 0-80, trap 80-110, lead-out 110-146-182 with the finish at 164 mm.
+        QTest::newRow("before the track") << -10e-3 << 3.5;
+        QTest::newRow("begin") << 0.0 << 3.5;
+        QTest::newRow("start") << 60e-3 << 2.75;
+        QTest::newRow("lead-in's end") << 80e-3 << 2.5;
+        QTest::newRow("in the trap") << 95e-3 << 2.0;
+        QTest::newRow("first duplicate") << 110e-3 << 1.5;
+        QTest::newRow("in the last segment") << 155e-3 << 0.25;
+        QTest::newRow("finish") << 164e-3 << 0.0;
+        QTest::newRow("beyond") << 180e-3 << 0.0;
+        QTest::newRow("off the end") << 1.0 << 0.0;
+    }
+    void segmentsToFinish() {
+        QFETCH(double, x);
+        QFETCH(double, segments);
+        TrackParameters parameters;
+        for (const auto& shape : {FeederShape{}, testing::makeBowl(Conveying::clockwise)}) {
+            parameters.shape = shape;
+            const auto track = build(parameters, flatTrap(15e-3, 30e-3));
+            QVERIFY(std::abs(track::segmentsToFinish(track, x) - segments) < 1e-12);
+        }
+    }
+};
+
+QTEST_APPLESS_MAIN(TrackBuilderTest)
+#include "track_builder_test.moc"
