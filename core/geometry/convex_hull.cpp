@@ -1,6 +1,7 @@
 #include "core/geometry/convex_hull.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
@@ -50,22 +51,25 @@ TriangleMesh computeHullTriangles(const std::vector<base::Vec3>& points) {
     for (const base::Vec3& p : points)
         input.emplace_back(p.x(), p.y(), p.z());
 
-    std::vector<Kernel::Point_3> corners;
-    std::vector<std::array<std::size_t, 3>> triangles;
-    CGAL::convex_hull_3(input.begin(), input.end(), corners, triangles);
+    // Into a surface mesh: as a list of points and triangles CGAL 5.5 gives wrong hulls of turned parts.
+    CGAL::Surface_mesh<Kernel::Point_3> surface;
+    CGAL::convex_hull_3(input.begin(), input.end(), surface);
 
     // CGAL's numbering follows the input's order; ours follows the coordinates.
     TriangleMesh mesh;
-    for (const Kernel::Point_3& p : corners)
+    for (const auto vertex : surface.vertices()) {
+        const Kernel::Point_3& p = surface.point(vertex);
         mesh.vertices.emplace_back(p.x(), p.y(), p.z());
+    }
     const std::vector<base::Vec3> unsorted = mesh.vertices;
     std::sort(mesh.vertices.begin(), mesh.vertices.end(), isBefore);
-    for (const auto& triangle : triangles) {
+    for (const auto face : surface.faces()) {
         Triangle t{};
-        for (int k = 0; k < 3; ++k)
-            t[k] = static_cast<int>(std::lower_bound(mesh.vertices.begin(), mesh.vertices.end(),
-                                                     unsorted[triangle[k]], isBefore) -
-                                    mesh.vertices.begin());
+        std::size_t k = 0;
+        for (const auto vertex : surface.vertices_around_face(surface.halfedge(face)))
+            t[k++] = static_cast<int>(
+                std::lower_bound(mesh.vertices.begin(), mesh.vertices.end(), unsorted[vertex], isBefore) -
+                mesh.vertices.begin());
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
         mesh.triangles.push_back(t);
     }
