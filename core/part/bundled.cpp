@@ -1,0 +1,102 @@
+#include "core/part/bundled.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "core/part/shapes.h"
+
+namespace trapwright::part {
+
+namespace {
+
+using base::Vec2;
+using base::Vec3;
+
+constexpr std::array<BundledPart, 5> kParts = {{
+    {"cuboid", "cuboid.stl", "ABS", "the paper's cube, 4 x 8 x 12 mm"},
+    {"cone", "cone.stl", "brass",
+     "a cone-like turned part with four stable poses, after the paper's second part"},
+    {"bracket", "bracket.stl", "aluminium", "an L bracket, 12 x 10 x 8 mm, 2.5 mm thick"},
+    {"pin", "pin.stl", "steel", "a stepped pin, 13 mm long"},
+    {"cup", "cup.stl", "PP", "a cup, 12 mm wide and 9 mm high"},
+}};
+
+constexpr int kFacets = 32;
+constexpr double kMm = base::kMillimetre;
+
+const std::array<Vec2, 6> kBracket = {Vec2(2.5 * kMm, 2.5 * kMm), Vec2(2.5 * kMm, 10.0 * kMm),
+                                      Vec2(0.0, 10.0 * kMm),      Vec2(0.0, 0.0),
+                                      Vec2(12.0 * kMm, 0.0),      Vec2(12.0 * kMm, 2.5 * kMm)};
+
+/// (radius, z) in mm, from the axis at the bottom round to the axis at the top.
+template <std::size_t N>
+geometry::TriangleMesh turnMillimetres(std::array<Vec2, N> profile) {
+    for (Vec2& point : profile)
+        point *= kMm;
+    return makeTurned(profile, kFacets);
+}
+
+/// Beside the executable: <prefix>/bin/trapwright uses <prefix>/share/trapwright/resources.
+std::filesystem::path installedResources() {
+    std::error_code failure;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failure);
+    if (failure) return {};
+    return program.parent_path().parent_path() / "share" / "trapwright" / "resources";
+}
+
+}  // namespace
+
+std::span<const BundledPart> listBundledParts() {
+    return kParts;
+}
+
+base::Result<BundledPart> findBundledPart(std::string_view name) {
+    std::string known;
+    for (const BundledPart& part : kParts) {
+        if (part.name == name) return part;
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", part.name);
+    }
+    return base::Error{fmt::format("there is no bundled part \"{}\". The bundled parts are {}", name, known)};
+}
+
+geometry::TriangleMesh makeBundledShape(std::string_view name) {
+    if (name == "cuboid") return makeBox(Vec3(4.0, 8.0, 12.0) * kMm);
+    if (name == "bracket") return makePrism(kBracket, bracketWidth());
+    if (name == "cone") {
+        // A pin under a sharp-rimmed cone: rests on either end, on the cone, and on rim and pin.
+        return turnMillimetres<6>({Vec2(0.0, 0.0), Vec2(3.2, 0.0), Vec2(3.2, 3.0), Vec2(5.5, 3.0),
+                                   Vec2(2.8, 11.0), Vec2(0.0, 11.0)});
+    }
+    if (name == "pin") {
+        return turnMillimetres<6>({Vec2(0.0, 0.0), Vec2(3.0, 0.0), Vec2(3.0, 6.0), Vec2(1.75, 6.0),
+                                   Vec2(1.75, 13.0), Vec2(0.0, 13.0)});
+    }
+    if (name == "cup") {
+        return turnMillimetres<6>(
+            {Vec2(0.0, 0.0), Vec2(5.0, 0.0), Vec2(6.0, 9.0), Vec2(4.7, 9.0), Vec2(3.8, 1.5), Vec2(0.0, 1.5)});
+    }
+    return {};
+}
+
+std::filesystem::path findBundledFile(const BundledPart& part) {
+    const std::filesystem::path relative = std::filesystem::path("parts") / part.file;
+    if (const char* folder = std::getenv("TRAPWRIGHT_RESOURCES"); folder != nullptr && *folder != '\0') {
+        return std::filesystem::path(folder) / relative;
+    }
+    std::error_code failure;
+    const std::filesystem::path installed = installedResources() / relative;
+    if (std::filesystem::exists(installed, failure)) return installed;
+    return std::filesystem::path(TRAPWRIGHT_SOURCE_RESOURCES) / relative;
+}
+
+std::span<const Vec2> bracketProfile() {
+    return kBracket;
+}
+
+double bracketWidth() {
+    return 8.0 * kMm;
+}
+
+}  // namespace trapwright::part

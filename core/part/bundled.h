@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+#include "core/geometry/triangle_mesh.h"
+
+namespace trapwright::part {
+
+/// A part that comes with Trapwright.
+struct BundledPart {
+    std::string_view name;
+    std::string_view file;         // in the folder parts/ of the resources, STL in mm
+    std::string_view material;     // by default (see materials.h)
+    std::string_view description;  // for people
+};
+
+/// The bundled parts, the two of the paper first.
+std::span<const BundledPart> listBundledParts();
+
+/// The bundled part with this name. Error: there is none; names those that there are.
+base::Result<BundledPart> findBundledPart(std::string_view name);
+
+/// The shape of a bundled part as the generator writes it, by construction. Empty for an unknown name. [m]
+geometry::TriangleMesh makeBundledShape(std::string_view name);
+
+/// Where the part's file is: in the folder that the environment's TRAPWRIGHT_RESOURCES names, or
+/// share/trapwright/ resources of the installation that the running program belongs to, or the source tree.
+std::filesystem::path findBundledFile(const BundledPart& part);
+
+/// The L bracket once more, as a STEP file.
+inline constexpr std::string_view kBracketStepFile = "bracket.step";
+/// Corners of the L bracket's profile, counter-clockwise, and its width; for the STEP file, too. [m]
+std::span<const base::Vec2> bracketProfile();
+double bracketWidth();
+
+}  // namespace trapwright::part

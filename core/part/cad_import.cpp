@@ -1,0 +1,151 @@
+#include "core/part/cad_import.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <IFSelect_ReturnStatus.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Poly_Triangulation.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "core/base/math.h"
+
+namespace trapwright::part {
+
+namespace {
+
+using base::Error;
+
+constexpr double kChordTolerance = 1e-3;             // of the part's size
+constexpr double kAngleStep = 10.0 * base::kDegree;  // between neighbouring facets of a curve
+
+void appendFace(const TopoDS_Face& face, geometry::TriangleMesh& mesh) {
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) triangulation = BRep_Tool::Triangulation(face, location);
+    if (triangulation.IsNull()) return;
+    const gp_Trsf transform = location.Transformation();
+    const bool insideOut = (face.Orientation() == TopAbs_REVERSED) != transform.IsNegative();
+    const int first = static_cast<int>(mesh.vertices.size()) - 1;  // OpenCASCADE counts from 1
+    for (int i = 1; i <= triangulation->NbNodes(); ++i) {
+        const gp_Pnt point = triangulation->Node(i).Transformed(transform);
+        mesh.vertices.emplace_back(point.X(), point.Y(), point.Z());
+    }
+    for (int i = 1; i <= triangulation->NbTriangles(); ++i) {
+        int a = 0;
+        int b = 0;
+        int c = 0;
+        triangulation->Triangle(i).Get(a, b, c);
+        if (insideOut) std::swap(b, c);
+        mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+}
+
+/// The shape in OpenCASCADE's millimetres as a mesh in `unit`.
+base::Result<FileMesh> tessellate(const std::filesystem::path& path, const TopoDS_Shape& shape,
+                                  const std::string& unitName) {
+    FileMesh result;
+    Bnd_Box box;
+    if (!shape.IsNull()) BRepBndLib::Add(shape, box);
+    if (box.IsVoid()) {
+        return Error{fmt::format("{} has no solids or surfaces. Export the part as a solid", path.string())};
+    }
+    const double size = std::sqrt(box.SquareExtent());
+    // One thread: the mesh must not depend on the machine.
+    BRepMesh_IncrementalMesh(shape, kChordTolerance * size, false, kAngleStep, false);
+    for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
+        appendFace(TopoDS::Face(face.Current()), result.mesh);
+    }
+    result.unit = findUnit(unitName);
+    if (!result.unit) {
+        result.unit = LengthUnit{"mm", base::kMillimetre};
+        result.notes.push_back(
+            fmt::format("the file's unit is \"{}\", which OpenCASCADE converted to mm", unitName));
+    }
+    const double scale = base::kMillimetre / result.unit->metres;
+    if (scale != 1.0) {
+        for (base::Vec3& vertex : result.mesh.vertices)
+            vertex *= scale;
+    }
+    return result;
+}
+
+/// Keeps OpenCASCADE from writing its progress and warnings to the terminal.
+void silence() {
+    Message::DefaultMessenger()->ChangePrinters().Clear();
+}
+
+Error unreadable(const std::filesystem::path& path, const char* format, const std::string& reason) {
+    return Error{
+        fmt::format("{} could not be read as a {} file: {}. Check that it is complete and of that format",
+                    path.string(), format, reason)};
+}
+
+std::string describe(IFSelect_ReturnStatus status) {
+    switch (status) {
+        case IFSelect_RetVoid:
+            return "it holds nothing";
+        case IFSelect_RetError:
+            return "its syntax is wrong";
+        default:
+            return "OpenCASCADE found no model in it";
+    }
+}
+
+/// Runs a reader and turns what it throws into an error.
+template <class Read>
+base::Result<FileMesh> guarded(const std::filesystem::path& path, const char* format, Read read) {
+    try {
+        silence();
+        return read();
+    } catch (const Standard_Failure& failure) {
+        const char* text = failure.GetMessageString();
+        return unreadable(path, format, text != nullptr && *text != '\0' ? text : "OpenCASCADE failed");
+    } catch (const std::exception& failure) {
+        return unreadable(path, format, failure.what());
+    }
+}
+
+}  // namespace
+
+base::Result<FileMesh> readStepFile(const std::filesystem::path& path) {
+    return guarded(path, "STEP", [&]() -> base::Result<FileMesh> {
+        STEPControl_Reader reader;
+        const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
+        if (status != IFSelect_RetDone) return unreadable(path, "STEP", describe(status));
+        TColStd_SequenceOfAsciiString lengths;
+        TColStd_SequenceOfAsciiString angles;
+        TColStd_SequenceOfAsciiString solidAngles;
+        reader.FileUnits(lengths, angles, solidAngles);
+        reader.TransferRoots();
+        return tessellate(path, reader.OneShape(), lengths.IsEmpty() ? "mm" : lengths.First().ToCString());
+    });
+}
+
+base::Result<FileMesh> readIgesFile(const std::filesystem::path& path) {
+    return guarded(path, "IGES", [&]() -> base::Result<FileMesh> {
+        IGESControl_Reader reader;
+        const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
+        if (status != IFSelect_RetDone) return unreadable(path, "IGES", describe(status));
+        const Handle(TCollection_HAsciiString) unit = reader.IGESModel()->GlobalSection().UnitName();
+        reader.TransferRoots();
+        return tessellate(path, reader.OneShape(), unit.IsNull() ? "mm" : unit->ToCString());
+    });
+}
+
+}  // namespace trapwright::part

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/part/part.h"
+#include "core/part/symmetry.h"
+
+namespace trapwright::part {
+
+struct PartOptions {
+    std::string name;
+    std::string source;       // the file, as to be shown
+    double density = 1040.0;  // [kg/m^3]
+    double symmetryTolerance = SymmetryOptions{}.tolerance;
+};
+
+/// A part and what was found and mended on the way.
+struct PreparedPart {
+    Part part;
+    std::vector<std::string> notes;
+};
+
+/// Makes a part of a mesh in metres: repairs it, computes mass properties, moves the origin to the centre of
+/// mass (the file's axes are kept) and finds hull, convex pieces, symmetry and stable poses. Errors: a
+/// density or tolerance out of range, a mesh that cannot be mended, no volume.
+base::Result<PreparedPart> buildPart(const geometry::TriangleMesh& mesh, const PartOptions& options);
+
+}  // namespace trapwright::part

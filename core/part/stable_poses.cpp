@@ -1,0 +1,214 @@
+#include "core/part/stable_poses.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace trapwright::part {
+
+namespace {
+
+using base::kDegree;
+using base::kPi;
+using base::Quaternion;
+using base::Vec3;
+using geometry::ConvexPolytope;
+using geometry::PolytopeEdge;
+
+// A pair of faces that are facets of one round surface: at least 24 facets to the circle.
+constexpr double kFacetAngle = 15.0 * kDegree;
+constexpr double kFacetLift = 0.01;  // lift of the centre of mass between them, as a share of its height
+constexpr double kAlikeAngle = 6.0 * kDegree;
+constexpr double kAlikeHeight = 0.03;  // of the bounding radius
+
+/// Where a face lets the part go.
+struct Neighbour {
+    int face = -1;        // across the edge that the foot of the centre of mass is nearest to crossing
+    double inside = 0.0;  // distance of the foot from that edge, negative beyond it [m]
+};
+
+/// A set of faces that are one pose.
+struct Cluster {
+    std::size_t face;  // that stands for it
+    double probability;
+    int multiplicity;
+};
+
+class Union {
+ public:
+    explicit Union(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+    std::size_t find(std::size_t i) {
+        while (parent_[i] != i)
+            i = parent_[i];
+        return i;
+    }
+    void join(std::size_t a, std::size_t b) {
+        const std::size_t rootA = find(a);
+        const std::size_t rootB = find(b);
+        parent_[std::max(rootA, rootB)] = std::min(rootA, rootB);
+    }
+
+ private:
+    std::vector<std::size_t> parent_;
+};
+
+Vec3 vertexOf(const ConvexPolytope& hull, int index) {
+    return hull.vertices[static_cast<std::size_t>(index)];
+}
+
+/// For every face the edge that the centre of mass is nearest to tipping over, or farthest beyond.
+std::vector<Neighbour> findWeakestEdges(const ConvexPolytope& hull) {
+    std::vector<Neighbour> weakest(hull.faces.size());
+    const auto consider = [&](const PolytopeEdge& edge, int face, int across, double direction) {
+        const geometry::PolytopeFace& plane = hull.faces[static_cast<std::size_t>(face)];
+        const Vec3 from = vertexOf(hull, edge.from);
+        const Vec3 along = direction * (vertexOf(hull, edge.to) - from).normalized();
+        const Vec3 foot = plane.offset * plane.normal;
+        const double inside = plane.normal.cross(along).dot(foot - from);
+        Neighbour& best = weakest[static_cast<std::size_t>(face)];
+        if (best.face < 0 || inside < best.inside) best = {across, inside};
+    };
+    for (const PolytopeEdge& edge : hull.edges) {
+        consider(edge, edge.left, edge.right, 1.0);
+        consider(edge, edge.right, edge.left, -1.0);
+    }
+    return weakest;
+}
+
+/// The lift of the centre of mass from the lower of two neighbouring faces to the top over their edge. [m]
+double calcLift(const ConvexPolytope& hull, const PolytopeEdge& edge) {
+    const Vec3 from = vertexOf(hull, edge.from);
+    const Vec3 along = (vertexOf(hull, edge.to) - from).normalized();
+    const double top = (from - from.dot(along) * along).norm();
+    return top - std::min(hull.faces[static_cast<std::size_t>(edge.left)].offset,
+                          hull.faces[static_cast<std::size_t>(edge.right)].offset);
+}
+
+bool alikeUnder(const SymmetryGroup& symmetry, const ConvexPolytope& hull, std::size_t a, std::size_t b,
+                double radius, bool mergeAlike) {
+    const geometry::PolytopeFace& first = hull.faces[a];
+    const geometry::PolytopeFace& second = hull.faces[b];
+    if (symmetry.sphere) return true;
+    if (std::abs(first.offset - second.offset) > kAlikeHeight * radius) return false;
+    if (symmetry.continuous) {
+        const double angleA = std::acos(std::clamp(first.normal.dot(symmetry.axis), -1.0, 1.0));
+        const double angleB = std::acos(std::clamp(second.normal.dot(symmetry.axis), -1.0, 1.0));
+        if (std::abs(angleA - angleB) < kAlikeAngle) return true;
+        return mergeAlike && symmetry.flip && std::abs(angleA - (kPi - angleB)) < kAlikeAngle;
+    }
+    if (!mergeAlike) return false;
+    return std::any_of(symmetry.rotations.begin(), symmetry.rotations.end(), [&](const Quaternion& rotation) {
+        return (rotation * first.normal).dot(second.normal) > std::cos(kAlikeAngle);
+    });
+}
+
+/// The shortest turn that brings the face down.
+Quaternion turnDown(const Vec3& normal) {
+    if (normal.z() > 1.0 - 1e-12) return {0.0, 1.0, 0.0, 0.0};  // any horizontal axis would do: x
+    return Quaternion::FromTwoVectors(normal, -Vec3::UnitZ());
+}
+
+}  // namespace
+
+double calcSolidAngleShare(const ConvexPolytope& hull, std::size_t face) {
+    const std::vector<int>& loop = hull.faces[face].loop;
+    const Vec3 a = vertexOf(hull, loop[0]).normalized();
+    double total = 0.0;
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+        // Van Oosterom and Strackee 1983.
+        const Vec3 b = vertexOf(hull, loop[i]).normalized();
+        const Vec3 c = vertexOf(hull, loop[i + 1]).normalized();
+        total += 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+    }
+    return total / (4.0 * kPi);
+}
+
+std::vector<StablePose> computeStablePoses(const ConvexPolytope& hull, const SymmetryGroup& symmetry,
+                                           bool mergeAlike) {
+    const std::size_t count = hull.faces.size();
+    const std::vector<Neighbour> weakest = findWeakestEdges(hull);
+    double radius = 0.0;
+    for (const Vec3& vertex : hull.vertices)
+        radius = std::max(radius, vertex.norm());
+
+    // Rolling over an edge that the centre of mass is beyond always lowers it, so this ends.
+    std::vector<double> probability(count, 0.0);
+    for (std::size_t face = 0; face < count; ++face) {
+        std::size_t rest = face;
+        for (std::size_t rolls = 0; weakest[rest].inside < 0.0 && rolls < count; ++rolls) {
+            rest = static_cast<std::size_t>(weakest[rest].face);
+        }
+        probability[rest] += calcSolidAngleShare(hull, face);
+    }
+    const auto stable = [&](std::size_t face) { return weakest[face].inside >= 0.0; };
+
+    Union facets(count);
+    for (const PolytopeEdge& edge : hull.edges) {
+        const auto left = static_cast<std::size_t>(edge.left);
+        const auto right = static_cast<std::size_t>(edge.right);
+        if (!stable(left) || !stable(right)) continue;
+        const double cosine = hull.faces[left].normal.dot(hull.faces[right].normal);
+        const double height = std::min(hull.faces[left].offset, hull.faces[right].offset);
+        if (cosine > std::cos(kFacetAngle) && calcLift(hull, edge) < kFacetLift * height)
+            facets.join(left, right);
+    }
+    for (std::size_t a = 0; a < count; ++a) {
+        if (!stable(a)) continue;
+        for (std::size_t b = a + 1; b < count; ++b) {
+            if (stable(b) && alikeUnder(symmetry, hull, a, b, radius, mergeAlike)) facets.join(a, b);
+        }
+    }
+
+    // The lowest face of a set stands for it: there the part comes to rest.
+    std::vector<Cluster> clusters;
+    std::vector<std::size_t> clusterOf(count, count);
+    for (std::size_t face = 0; face < count; ++face) {
+        if (!stable(face)) continue;
+        const std::size_t root = facets.find(face);
+        if (clusterOf[root] == count) {
+            clusterOf[root] = clusters.size();
+            clusters.push_back({face, 0.0, 0});
+        }
+        Cluster& cluster = clusters[clusterOf[root]];
+        cluster.probability += probability[face];
+        ++cluster.multiplicity;
+        if (hull.faces[face].offset < hull.faces[cluster.face].offset - 1e-9 * radius) cluster.face = face;
+    }
+    // Like faces keep the hull's order, whatever the last bits of their probabilities say.
+    const auto rank = [](const Cluster& cluster) { return std::llround(cluster.probability * 1e9); };
+    std::stable_sort(clusters.begin(), clusters.end(),
+                     [&](const Cluster& a, const Cluster& b) { return rank(a) > rank(b); });
+
+    std::vector<StablePose> poses;
+    poses.reserve(clusters.size());
+    for (const Cluster& cluster : clusters) {
+        const geometry::PolytopeFace& face = hull.faces[cluster.face];
+        poses.push_back({turnDown(face.normal), face.offset, cluster.probability, cluster.multiplicity});
+    }
+    return poses;
+}
+
+NearestPose findStablePose(const Part& part, const Quaternion& orientation) {
+    assert(!part.stablePoses.empty());
+    const auto downIn = [](const Quaternion& rotation) {
+        return Vec3(rotation.conjugate() * -Vec3::UnitZ());
+    };
+    const auto angleOf = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+    const SymmetryGroup& symmetry = part.symmetry;
+    const Vec3 down = downIn(orientation);
+
+    NearestPose nearest{0, 2.0 * kPi};
+    for (std::size_t i = 0; i < part.stablePoses.size(); ++i) {
+        const Vec3 poseDown = downIn(part.stablePoses[i].rotation);
+        double angle = angleOf(down.dot(poseDown));
+        if (symmetry.continuous) {
+            angle = std::abs(angleOf(down.dot(symmetry.axis)) - angleOf(poseDown.dot(symmetry.axis)));
+        }
+        if (symmetry.sphere) angle = 0.0;
+        if (angle < nearest.angle) nearest = {i, angle};
+    }
+    return nearest;
+}
+
+}  // namespace trapwright::part

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "core/part/part.h"
+
+namespace trapwright::part {
+
+/// Solid angle of a polytope's face seen from the origin, which must be inside, as a share of the whole
+/// sphere.
+double calcSolidAngleShare(const geometry::ConvexPolytope& hull, std::size_t face);
+
+/// The orientations in which a part rests, with quasi-static probabilities: a part dropped in a random
+/// orientation lands on the hull face that is below its centre of mass, so that each face has the share of
+/// its solid angle (Boothroyd, Poli, Murch 1982); from a face that does not hold the centre of mass it rolls
+/// over the edge that the centre of mass is farthest beyond, on and on until one does (Wiegley, Goldberg,
+/// Peshkin, Brokowski 1996).
+///
+/// `hull` has its origin at the centre of mass. Most probable pose first; the probabilities sum to 1.
+/// One pose per resting face, so a cuboid has six; but facets that stand for a round surface are one pose:
+/// those around the axis of a continuous group, and neighbours so alike that the part rolls across with
+/// hardly any lift. With mergeAlike, faces that the symmetry group maps onto each other are one pose too, and
+/// multiplicity counts them.
+std::vector<StablePose> computeStablePoses(const geometry::ConvexPolytope& hull,
+                                           const SymmetryGroup& symmetry, bool mergeAlike);
+
+/// A stable pose and how far from it an orientation is.
+struct NearestPose {
+    std::size_t index = 0;
+    double angle = 0.0;  // between the two down directions in the part frame [rad]
+};
+
+/// The stable pose nearest to an orientation (part frame to world, z up), whatever the heading. About the
+/// axis of a continuous group the part may have turned. The part must have stable poses, as buildPart gives
+/// them.
+NearestPose findStablePose(const Part& part, const base::Quaternion& orientation);
+
+}  // namespace trapwright::part
