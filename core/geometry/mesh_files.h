@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/base/result.h"
+#include "core/geometry/triangle_mesh.h"
+
+namespace trapwright::geometry {
+
+/// Writes a binary STL in millimetres (single precision), whole or not at all. Triangles that single
+/// precision flattens are left out. Errors: no triangles, coordinates that are not finite, and whatever keeps
+/// the file from being written.
+base::Status writeStl(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+/// Reads a binary STL in millimetres back; corners with equal coordinates become one vertex. For parts from
+/// elsewhere, whose unit and flavour are open, use the part import. Errors name the file and what is wrong
+/// with it.
+base::Result<TriangleMesh> readStl(const std::filesystem::path& path);
+
+}  // namespace trapwright::geometry

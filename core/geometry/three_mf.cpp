@@ -1,0 +1,164 @@
+#include "core/geometry/three_mf.h"
+
+#include <Model/COM/NMR_DLLInterfaces.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <vector>
+
+#include "core/base/file.h"
+
+namespace trapwright::geometry {
+
+namespace {
+
+/// A handle of lib3mf, released with its scope.
+class Handle {
+ public:
+    Handle() = default;
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    ~Handle() {
+        if (object_ != nullptr) NMR::lib3mf_release(object_);
+    }
+    NMR::PLib3MFBase** out() { return &object_; }
+    [[nodiscard]] NMR::PLib3MFBase* get() const { return object_; }
+
+ private:
+    NMR::PLib3MFBase* object_ = nullptr;
+};
+
+class PackageFailure : public std::exception {
+ public:
+    explicit PackageFailure(std::string text) : text_(std::move(text)) {}
+    [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+    std::string text_;
+};
+
+void check(LIB3MFRESULT result, const Handle& object) {
+    if (result == 0) return;
+    DWORD code = 0;
+    LPCSTR text = nullptr;
+    if (object.get() != nullptr) NMR::lib3mf_getlasterror(object.get(), &code, &text);
+    throw PackageFailure(
+        "lib3mf: " + (text != nullptr && *text != '\0' ? std::string(text) : "unknown error") + " (" +
+        std::to_string(code != 0 ? code : static_cast<DWORD>(result)) + ")");
+}
+
+// [m], in the order of lib3mf's MODELUNIT constants: micrometre, millimetre, centimetre, inch, foot, metre.
+constexpr std::array<double, 6> kUnits = {1e-6, 1e-3, 1e-2, 0.0254, 0.3048, 1.0};
+
+std::string packMesh(const TriangleMesh& mesh, const std::string& name) {
+    std::vector<NMR::MODELMESHVERTEX> vertices(mesh.vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            vertices[i].m_fPosition[axis] = static_cast<float>(mesh.vertices[i][axis] / base::kMillimetre);
+    const auto isBroken = [](const base::Vec3& v) { return !v.allFinite(); };
+    if (std::any_of(mesh.vertices.begin(), mesh.vertices.end(), isBroken))
+        throw PackageFailure("a coordinate is not a finite number");
+    std::vector<NMR::MODELMESHTRIANGLE> triangles(mesh.triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            triangles[i].m_nIndices[k] = static_cast<DWORD>(mesh.triangles[i][k]);
+
+    Handle model;
+    Handle object;
+    Handle item;
+    Handle writer;
+    check(NMR::lib3mf_createmodel(model.out()), model);
+    check(NMR::lib3mf_model_setunit(model.get(), NMR::MODELUNIT_MILLIMETER), model);
+    check(NMR::lib3mf_model_addmeshobject(model.get(), object.out()), model);
+    check(NMR::lib3mf_object_setnameutf8(object.get(), name.c_str()), object);
+    check(
+        NMR::lib3mf_meshobject_setgeometry(object.get(), vertices.data(), static_cast<DWORD>(vertices.size()),
+                                           triangles.data(), static_cast<DWORD>(triangles.size())),
+        object);
+    check(NMR::lib3mf_model_addbuilditem(model.get(), object.get(), nullptr, item.out()), model);
+    check(NMR::lib3mf_model_querywriter(model.get(), "3mf", writer.out()), model);
+    // Into memory, so that our own writer is the only one that meets full disks.
+    ULONG64 size = 0;
+    check(NMR::lib3mf_writer_getstreamsize(writer.get(), &size), writer);
+    std::string bytes(size, '\0');
+    check(NMR::lib3mf_writer_writetobuffer(writer.get(), reinterpret_cast<BYTE*>(bytes.data()), size),
+          writer);
+    return bytes;
+}
+
+void appendObject(const Handle& object, double unit, TriangleMesh& mesh) {
+    DWORD vertexCount = 0;
+    DWORD triangleCount = 0;
+    check(NMR::lib3mf_meshobject_getvertexcount(object.get(), &vertexCount), object);
+    check(NMR::lib3mf_meshobject_gettrianglecount(object.get(), &triangleCount), object);
+    std::vector<NMR::MODELMESHVERTEX> vertices(vertexCount);
+    std::vector<NMR::MODELMESHTRIANGLE> triangles(triangleCount);
+    check(NMR::lib3mf_meshobject_getvertices(object.get(), vertices.data(), vertexCount, nullptr), object);
+    check(NMR::lib3mf_meshobject_gettriangleindices(object.get(), triangles.data(), triangleCount, nullptr),
+          object);
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (const NMR::MODELMESHVERTEX& v : vertices)
+        mesh.vertices.push_back(unit * base::Vec3(v.m_fPosition[0], v.m_fPosition[1], v.m_fPosition[2]));
+    for (const NMR::MODELMESHTRIANGLE& t : triangles)
+        mesh.triangles.push_back({first + static_cast<int>(t.m_nIndices[0]),
+                                  first + static_cast<int>(t.m_nIndices[1]),
+                                  first + static_cast<int>(t.m_nIndices[2])});
+}
+
+TriangleMesh unpackMesh(std::string bytes) {
+    Handle model;
+    Handle reader;
+    Handle merged;
+    Handle objects;
+    check(NMR::lib3mf_createmodel(model.out()), model);
+    check(NMR::lib3mf_model_queryreader(model.get(), "3mf", reader.out()), model);
+    check(
+        NMR::lib3mf_reader_readfrombuffer(reader.get(), reinterpret_cast<BYTE*>(bytes.data()), bytes.size()),
+        reader);
+    DWORD unit = NMR::MODELUNIT_MILLIMETER;
+    check(NMR::lib3mf_model_getunit(model.get(), &unit), model);
+    if (unit >= kUnits.size()) throw PackageFailure("lib3mf: unknown unit");
+    // Resolves build items and components into one mesh object in its place.
+    check(NMR::lib3mf_model_mergetomodel(model.get(), merged.out()), model);
+    check(NMR::lib3mf_model_getmeshobjects(merged.get(), objects.out()), merged);
+    TriangleMesh mesh;
+    while (true) {
+        BOOL hasNext = 0;
+        check(NMR::lib3mf_resourceiterator_movenext(objects.get(), &hasNext), objects);
+        if (!hasNext) return mesh;
+        Handle object;
+        check(NMR::lib3mf_resourceiterator_getcurrent(objects.get(), object.out()), objects);
+        appendObject(object, kUnits[unit], mesh);
+    }
+}
+
+}  // namespace
+
+base::Status write3mf(const std::filesystem::path& path, const TriangleMesh& mesh, const std::string& name) {
+    if (mesh.triangles.empty())
+        return base::Error{"Cannot write " + path.string() + ": the mesh has no triangles."};
+    try {
+        return base::writeFile(path, packMesh(mesh, name));
+    } catch (const std::exception& failure) {
+        return base::Error{"Cannot write " + path.string() + ": the mesh does not fit into a 3MF file, " +
+                           failure.what() + ". Repair the mesh, or export an STL."};
+    }
+}
+
+base::Result<TriangleMesh> read3mf(const std::filesystem::path& path) {
+    base::Result<std::string> bytes = base::readFile(path);
+    if (!bytes) return bytes.error();
+    try {
+        TriangleMesh mesh = unpackMesh(std::move(*bytes));
+        if (mesh.triangles.empty())
+            return base::Error{"Cannot read " + path.string() +
+                               ": its build holds no mesh. Export it again."};
+        return mesh;
+    } catch (const std::exception& failure) {
+        return base::Error{"Cannot read " + path.string() + " as a 3MF file: " + failure.what() +
+                           ". Export it again."};
+    }
+}
+
+}  // namespace trapwright::geometry
