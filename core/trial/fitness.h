@@ -25,8 +25,8 @@ enum class OrientationDistance {
 };
 
 /// Angle between two orientations of a part in [0, pi]. [rad]
-double calcOrientationAngle(const base::Quaternion& a, const base::Quaternion& b, const part::SymmetryGroup& symmetry,
-                            OrientationDistance distance);
+double calcOrientationAngle(const base::Quaternion& a, const base::Quaternion& b,
+                            const part::SymmetryGroup& symmetry, OrientationDistance distance);
 
 /// O(x) of Eq. 5: minus the mean over all pairs of the square root of their distance. 0 for fewer than two.
 double calcConcentration(std::span<const base::Quaternion> orientations, const part::SymmetryGroup& symmetry,
@@ -36,16 +36,20 @@ double calcConcentration(std::span<const base::Quaternion> orientations, const p
 Fitness calcFitness(const track::Track& track, std::span<const Outcome> outcomes, int overlaps,
                     const part::SymmetryGroup& symmetry, OrientationDistance distance);
 
-/// The fitness of a track that is not simulated because triangles overlap (decision 8): F_C = -overlaps, F_D = minus all segments
-/// from the start, F_O = the least that N trials can give (all ends as far apart as can be, starts alike).
+/// The fitness of a track that is not simulated because triangles overlap (decision 8): F_C = -overlaps, F_D
+/// = minus all segments from the start, F_O = -sqrt(pi), below anything that trials can give (all ends half a
+/// turn apart, starts alike).
 Fitness calcUnsimulatedFitness(const track::Track& track, int overlaps);
 
-/// The F_O that a perfect feeder attains: minus the expected concentration of uniformly random orientations.
+/// The F_O that a perfect feeder attains from uniformly random starts, where all parts end indistinguishable.
+/// With the symmetric distance: the mean square root of the distance of two random orientations (error <
+/// 0.001). With the plain one a symmetric part's ends still differ at random by its symmetry group, which
+/// takes that much away (0.137 is left for a cuboid, decision 6; less than 0 for a Dinf part).
 double calcBestOrientationScore(const part::SymmetryGroup& symmetry, OrientationDistance distance);
 
-/// The most frequent orientation: the one with the most others within `tolerance` [rad], refined to the mean of
-/// those (in the symmetry copy nearest to it). Empty input gives the identity.
-base::Quaternion findModalOrientation(std::span<const base::Quaternion> orientations, const part::SymmetryGroup& symmetry,
-                                      double tolerance);
+/// The most frequent orientation: the one with the most others within `tolerance` [rad], refined to the mean
+/// of those (in the symmetry copy nearest to it). Empty input gives the identity.
+base::Quaternion findModalOrientation(std::span<const base::Quaternion> orientations,
+                                      const part::SymmetryGroup& symmetry, double tolerance);
 
 }  // namespace trapwright::trial

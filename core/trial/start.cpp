@@ -1,0 +1,57 @@
+#include "core/trial/start.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace trapwright::trial {
+
+namespace {
+
+// Above the lead-in, so that no contact acts at time 0. [m]
+constexpr double kClearance = 1e-5;
+
+base::Quaternion drawRotation(const StartPolicy& policy, base::Random& random) {
+    if (!policy.nearPose) return random.rotation();
+    // Tilting about two horizontal axes by independent normal angles has no preferred direction.
+    const double aboutX = policy.tilt * random.normal();
+    const double aboutY = policy.tilt * random.normal();
+    const base::Vec3 tilt(aboutX, aboutY, 0.0);
+    const double angle = tilt.norm();
+    base::Quaternion rotation = *policy.nearPose;
+    if (angle > 0.0) rotation = Eigen::AngleAxisd(angle, tilt / angle) * rotation;
+    const double heading = random.uniform(0.0, 2.0 * base::kPi);
+    return base::Quaternion(Eigen::AngleAxisd(heading, base::Vec3::UnitZ())) * rotation;
+}
+
+// The lead-in is flat; of one that is not, the highest point is safe.
+double findLeadInHeight(const track::Track& track) {
+    double height = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= track.firstTrapSection; ++i) {
+        for (const base::Vec2& point : track.sections[static_cast<std::size_t>(i)].points) {
+            height = std::max(height, point.y());
+        }
+    }
+    return height;
+}
+
+}  // namespace
+
+TrialStart drawStart(const track::Track& track, const part::Part& part, const StartPolicy& policy,
+                     base::Random& random) {
+    assert(!part.hull.vertices.empty());
+    TrialStart start;
+    start.phase = random.uniform(0.0, 2.0 * base::kPi);
+    const double y = random.uniform(-policy.lateral, policy.lateral);
+    const base::Quaternion inTrack = drawRotation(policy, random);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const base::Vec3& vertex : part.hull.vertices)
+        lowest = std::min(lowest, (inTrack * vertex).z());
+
+    const double z = findLeadInHeight(track) + kClearance - lowest;
+    start.pose.position = track.shape.toRoom({track.start, y, z});
+    start.pose.rotation = (base::Quaternion(track.shape.tangentFrame(track.start)) * inTrack).normalized();
+    return start;
+}
+
+}  // namespace trapwright::trial

@@ -1,0 +1,149 @@
+#include "core/trial/start.h"
+
+#include <QtTest>
+#include <algorithm>
+#include <vector>
+
+#include "core/track/track_builder.h"
+
+using namespace trapwright;
+
+namespace {
+
+part::Part makeCuboid() {
+    part::Part part;
+    for (const double x : {-2e-3, 2e-3}) {
+        for (const double y : {-4e-3, 4e-3}) {
+            for (const double z : {-6e-3, 6e-3})
+                part.hull.vertices.emplace_back(x, y, z);
+        }
+    }
+    return part;
+}
+
+track::Track makeTrack(const track::FeederShape& shape) {
+    track::TrackParameters parameters;
+    parameters.shape = shape;
+    const track::CrossSection section{20e-3, {base::Vec2(-30e-3, 30e-3), base::Vec2(30e-3, 0.0)}};
+    return *track::buildTrack(parameters, std::vector{section});
+}
+
+base::Random makeRandom(std::uint32_t trial) {
+    return base::Random({1, 0, 0, trial, base::Purpose::trialStart});
+}
+
+// The part's rotation in the tangent frame.
+base::Quaternion inTrack(const track::Track& track, const trial::TrialStart& start) {
+    return base::Quaternion(track.shape.tangentFrame(track.start)).conjugate() * start.pose.rotation;
+}
+
+}  // namespace
+
+class StartTest : public QObject {
+    Q_OBJECT
+
+    static void addShapes() {
+        QTest::addColumn<int>("shape");
+        QTest::newRow("linear") << 0;
+        QTest::newRow("clockwise") << 1;
+        QTest::newRow("anticlockwise") << 2;
+    }
+    static track::FeederShape shapeOf(int index) {
+        if (index == 0) return {};
+        return {track::FeederType::bowl, 0.175,
+                index == 1 ? track::Conveying::clockwise : track::Conveying::anticlockwise};
+    }
+
+ private slots:
+    void liesOnTheLeadIn_data() { addShapes(); }
+    void liesOnTheLeadIn() {
+        QFETCH(int, shape);
+        const track::Track track = makeTrack(shapeOf(shape));
+        const part::Part part = makeCuboid();
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            base::Random random = makeRandom(i);
+            const auto start = trial::drawStart(track, part, {}, random);
+            const base::Vec3 place = track.shape.toTrack(start.pose.position, track.start);
+            QVERIFY(std::abs(place.x() - 60e-3) < 1e-12);
+            QVERIFY(std::abs(place.y()) <= 2e-3 + 1e-12);
+            double lowest = 1.0;
+            for (const auto& vertex : part.hull.vertices)
+                lowest = std::min(lowest, start.pose.apply(vertex).z());
+            QVERIFY(std::abs(lowest - 15e-3 - 1e-5) < 1e-12);
+            QVERIFY(std::abs(start.pose.rotation.norm() - 1.0) < 1e-14);
+            QVERIFY(start.phase >= 0.0 && start.phase < 2.0 * base::kPi);
+            QCOMPARE(start.velocity, base::Vec3(base::Vec3::Zero()));
+        }
+    }
+
+    void dependsOnTheStreamAlone() {
+        const track::Track track = makeTrack({});
+        const part::Part part = makeCuboid();
+        base::Random first = makeRandom(7);
+        base::Random again = makeRandom(7);
+        base::Random other = makeRandom(8);
+        const auto a = trial::drawStart(track, part, {}, first);
+        const auto b = trial::drawStart(track, part, {}, again);
+        const auto c = trial::drawStart(track, part, {}, other);
+        QVERIFY(a.pose == b.pose && a.phase == b.phase);
+        QVERIFY(!(a.pose == c.pose) && a.phase != c.phase);
+    }
+
+    // Of uniform rotations, the cosine of any axis with the vertical is uniform: mean 0, variance 1/3.
+    void learningStartsAnyhow() {
+        const track::Track track = makeTrack({});
+        const part::Part part = makeCuboid();
+        constexpr int kDraws = 4000;
+        double sum = 0.0;
+        double squares = 0.0;
+        for (std::uint32_t i = 0; i < kDraws; ++i) {
+            base::Random random = makeRandom(i);
+            const auto start = trial::drawStart(track, part, {}, random);
+            const double cosine = (start.pose.rotation * base::Vec3::UnitX()).z();
+            sum += cosine;
+            squares += cosine * cosine;
+        }
+        QVERIFY(std::abs(sum / kDraws) < 4.0 * std::sqrt(1.0 / 3.0 / kDraws));
+        QVERIFY(std::abs(squares / kDraws - 1.0 / 3.0) < 4.0 * std::sqrt(4.0 / 45.0 / kDraws));
+    }
+
+    void validationStartsNearThePose_data() { addShapes(); }
+    void validationStartsNearThePose() {
+        QFETCH(int, shape);
+        const track::Track track = makeTrack(shapeOf(shape));
+        const part::Part part = makeCuboid();
+        trial::StartPolicy policy;
+        policy.nearPose = base::Quaternion(Eigen::AngleAxisd(0.5 * base::kPi, base::Vec3::UnitY()));
+        policy.tilt = 3.0 * base::kDegree;
+        const base::Vec3 up = policy.nearPose->conjugate() * base::Vec3::UnitZ();
+        constexpr int kDraws = 4000;
+        double squares = 0.0;
+        base::Vec2 heading = base::Vec2::Zero();
+        for (std::uint32_t i = 0; i < kDraws; ++i) {
+            base::Random random = makeRandom(i);
+            const base::Quaternion q = inTrack(track, trial::drawStart(track, part, policy, random));
+            const double tilt = std::acos(std::min(1.0, (q * up).z()));
+            squares += tilt * tilt;
+            heading += (q * base::Vec3::UnitZ()).head<2>();
+        }
+        // The squared tilt is chi-squared with two degrees of freedom: mean 2 s^2, variance 4 s^4.
+        const double s2 = policy.tilt * policy.tilt;
+        QVERIFY(std::abs(squares / kDraws / s2 - 2.0) < 4.0 * 2.0 / std::sqrt(kDraws));
+        QVERIFY((heading / kDraws).norm() < 4.0 / std::sqrt(kDraws));
+    }
+
+    void withoutTiltItIsThePose() {
+        const track::Track track = makeTrack({});
+        trial::StartPolicy policy;
+        policy.nearPose = base::Quaternion::Identity();
+        policy.tilt = 0.0;
+        policy.lateral = 0.0;
+        base::Random random = makeRandom(3);
+        const auto start = trial::drawStart(track, makeCuboid(), policy, random);
+        QVERIFY(std::abs((start.pose.rotation * base::Vec3::UnitZ()).z() - 1.0) < 1e-15);
+        QVERIFY((start.pose.position - base::Vec3(60e-3, 0.0, 15e-3 + 1e-5 + 6e-3)).norm() < 1e-15);
+    }
+};
+
+QTEST_APPLESS_MAIN(StartTest)
+#include "start_test.moc"
