@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <numbers>
 
 namespace trapwright::base {
 
@@ -11,10 +10,10 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quaternion = Eigen::Quaterniond;
 
-inline constexpr double kPi = std::numbers::pi;
-inline constexpr double kDegree = kPi / 180.0;        // [rad]
-inline constexpr double kMillimetre = 1e-3;           // [m]
-inline constexpr double kStandardGravity = 9.80665;   // [m/s^2]
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kDegree = kPi / 180.0;       // [rad]
+inline constexpr double kMillimetre = 1e-3;          // [m]
+inline constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 
 /// Where a body is in a frame: a point p of the body is at rotation * p + position. [m]
 struct Pose {

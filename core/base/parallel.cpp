@@ -17,7 +17,8 @@ void parallelFor(std::size_t count, unsigned threads,
     std::mutex failureMutex;
     const auto loop = [&](unsigned worker) {
         try {
-            for (std::size_t i = next++; i < count && !failed; i = next++) work(i, worker);
+            for (std::size_t i = next++; i < count && !failed; i = next++)
+                work(i, worker);
         } catch (...) {
             const std::lock_guard lock(failureMutex);
             if (!failure) failure = std::current_exception();
@@ -25,16 +26,20 @@ void parallelFor(std::size_t count, unsigned threads,
         }
     };
 
-    const auto workers = static_cast<unsigned>(std::min<std::size_t>(std::max(threads, 1U), std::max<std::size_t>(count, 1)));
+    const auto workers =
+        static_cast<unsigned>(std::min<std::size_t>(std::max(threads, 1U), std::max<std::size_t>(count, 1)));
     {
         std::vector<std::jthread> pool;
         pool.reserve(workers - 1);
-        for (unsigned worker = 1; worker < workers; ++worker) pool.emplace_back(loop, worker);
+        for (unsigned worker = 1; worker < workers; ++worker)
+            pool.emplace_back(loop, worker);
         loop(0);
     }
     if (failure) std::rethrow_exception(failure);
 }
 
-unsigned availableThreads() { return std::max(1U, std::thread::hardware_concurrency()); }
+unsigned availableThreads() {
+    return std::max(1U, std::thread::hardware_concurrency());
+}
 
 }  // namespace trapwright::base

@@ -6,8 +6,8 @@
 namespace trapwright::base {
 
 /// Calls work(i, worker) once for every i in [0, count) on `threads` threads (the caller's is one of them),
-/// and returns when all are done. worker is in [0, threads): two calls with the same worker never overlap, so a
-/// worker may own scratch data. Which worker gets which i is not defined; results must not depend on it.
+/// and returns when all are done. worker is in [0, threads): two calls with the same worker never overlap, so
+/// a worker may own scratch data. Which worker gets which i is not defined; results must not depend on it.
 /// The first exception that work throws is rethrown here after all threads have stopped.
 void parallelFor(std::size_t count, unsigned threads,
                  const std::function<void(std::size_t index, unsigned worker)>& work);

@@ -16,7 +16,8 @@ std::uint32_t Random::bits32() {
         const r123::Philox4x32::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
         const r123::Philox4x32::key_type key{{key_[0], key_[1]}};
         const auto words = r123::Philox4x32{}(counter, key);
-        for (unsigned i = 0; i < 4; ++i) block_[i] = words[i];
+        for (unsigned i = 0; i < 4; ++i)
+            block_[i] = words[i];
         ++counter_[0];
         used_ = 0;
     }
@@ -33,7 +34,8 @@ std::uint32_t Random::below(std::uint32_t count) {
     // Reject the tail that would favour small numbers.
     const std::uint32_t limit = 0xFFFFFFFFU - (0xFFFFFFFFU % count + 1U) % count;
     std::uint32_t bits = bits32();
-    while (bits > limit) bits = bits32();
+    while (bits > limit)
+        bits = bits32();
     return bits % count;
 }
 

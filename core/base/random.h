@@ -30,11 +30,11 @@ struct StreamKey {
     friend bool operator==(const StreamKey&, const StreamKey&) = default;
 };
 
-/// A counter-based random stream (Philox4x32-10, Salmon et al. 2011, through Random123). The numbers depend on
-/// the key alone: equal on every machine and for any number of threads. All conversions are our own, because
-/// the standard library's distributions differ between implementations.
+/// A counter-based random stream (Philox4x32-10, Salmon et al. 2011, through Random123). The numbers depend
+/// on the key alone: equal on every machine and for any number of threads. All conversions are our own,
+/// because the standard library's distributions differ between implementations.
 class Random {
-   public:
+ public:
     explicit Random(const StreamKey& key);
 
     std::uint32_t bits32();
@@ -49,7 +49,7 @@ class Random {
     /// Uniform on the rotation group SO(3) (Shoemake 1992).
     Quaternion rotation();
 
-   private:
+ private:
     std::array<std::uint32_t, 4> counter_;
     std::array<std::uint32_t, 2> key_;
     std::array<std::uint32_t, 4> block_{};

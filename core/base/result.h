@@ -15,7 +15,7 @@ struct Error {
 /// A value, or the reason why there is none.
 template <class T>
 class [[nodiscard]] Result {
-   public:
+ public:
     Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
     Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
 
@@ -46,13 +46,15 @@ class [[nodiscard]] Result {
         return *std::get_if<1>(&state_);
     }
 
-   private:
+ private:
     std::variant<T, Error> state_;
 };
 
 /// The result of an action that gives no value.
 using Status = Result<std::monostate>;
 
-inline Status success() { return std::monostate{}; }
+inline Status success() {
+    return std::monostate{};
+}
 
 }  // namespace trapwright::base

@@ -8,7 +8,7 @@ namespace trapwright::base {
 
 /// A copyable handle on a piece of long work: any copy may cancel it and read its progress, from any thread.
 class RunControl {
-   public:
+ public:
     RunControl();
 
     /// Asks the work to end as soon as it can; its result is then incomplete and must be dropped.
@@ -19,7 +19,7 @@ class RunControl {
     void advance(std::int64_t count);
     [[nodiscard]] std::int64_t done() const;
 
-   private:
+ private:
     struct Shared {
         std::atomic<bool> cancelled{false};
         std::atomic<std::int64_t> done{0};

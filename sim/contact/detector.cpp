@@ -1,0 +1,209 @@
+#include "sim/contact/detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapwright::contact {
+
+using base::Mat3;
+using base::Vec3;
+
+namespace {
+
+/// How far a part may travel before the list of near-by features is made anew. [m]
+constexpr double kSkin = 4e-3;
+/// Edges nearer to parallel than this have no contact of their own: their ends do. (square of the sine)
+constexpr double kParallel = 0.026 * 0.026;
+
+std::uint64_t nameFeature(unsigned kind, int piece, int bodyFeature, int trackFeature) {
+    return (std::uint64_t{kind} << 62U) | (static_cast<std::uint64_t>(piece) << 48U) |
+           (static_cast<std::uint64_t>(bodyFeature) << 28U) | static_cast<std::uint64_t>(trackFeature);
+}
+
+double distanceToSegment(const Vec3& point, const Vec3& from, const Vec3& direction, double length) {
+    const double along = std::clamp(direction.dot(point - from), 0.0, length);
+    return (from + along * direction - point).norm();
+}
+
+/// Largest value of min(face distance of a, face distance of b) over the faces: a lower bound of the distance
+/// of segment a-b to the piece. Stops at the first that reaches `enough`; `face` is tried first and told.
+double findSeparation(const BodyPiece& piece, const Vec3& a, const Vec3& b, double enough, int& face) {
+    const auto distance = [&](int f) {
+        const BodyFace& plane = piece.faces[f];
+        return std::min(plane.normal.dot(a), plane.normal.dot(b)) - plane.offset;
+    };
+    double best = distance(face);
+    if (best >= enough) return best;
+    for (int f = 0; f < static_cast<int>(piece.faces.size()); ++f) {
+        const double d = distance(f);
+        if (d > best) {
+            best = d;
+            face = f;
+            if (best >= enough) return best;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+struct Detector::Query {
+    Mat3 toTrack;   // rotation part -> track
+    Vec3 position;  // of the part's origin in the track frame
+    double margin;
+    std::vector<ContactPoint>* contacts;
+
+    [[nodiscard]] Vec3 pointToPart(const Vec3& p) const { return toTrack.transpose() * (p - position); }
+    [[nodiscard]] Vec3 pointToTrack(const Vec3& p) const { return toTrack * p + position; }
+    [[nodiscard]] Vec3 vectorToPart(const Vec3& v) const { return toTrack.transpose() * v; }
+};
+
+void Detector::findContacts(const base::Pose& partInTrack, double moved, double margin,
+                            std::vector<ContactPoint>& contacts) {
+    contacts.clear();
+    travel_ += moved;
+    if (travel_ + margin < nextLook_) return;
+    if (travel_ + margin >= collectAt_) collectCandidates(partInTrack, margin);
+
+    const Query query{partInTrack.rotation.toRotationMatrix(), partInTrack.position, margin, &contacts};
+    nextLook_ = collectAt_;
+    for (Candidate& candidate : candidates_) {
+        if (travel_ + margin >= candidate.clearUntil) {
+            double clear = 0.0;
+            switch (candidate.kind) {
+                case Kind::vertexOnTriangle:
+                    clear = testTriangle(query, candidate);
+                    break;
+                case Kind::edgeAcrossEdge:
+                    clear = testEdge(query, candidate);
+                    break;
+                case Kind::faceOnVertex:
+                    clear = testVertex(query, candidate);
+                    break;
+            }
+            candidate.clearUntil = travel_ + clear;
+        }
+        nextLook_ = std::min(nextLook_, candidate.clearUntil);
+    }
+}
+
+void Detector::collectCandidates(const base::Pose& partInTrack, double margin) {
+    candidates_.clear();
+    const double reach = kSkin + margin;
+    for (int p = 0; p < static_cast<int>(body_->pieces.size()); ++p) {
+        const BodyPiece& piece = body_->pieces[p];
+        const Vec3 centre = partInTrack.apply(piece.centre);
+        const double radius = piece.radius + reach;
+        const auto near = [&](const Vec3& other, double otherRadius) {
+            const double far = radius + otherRadius;
+            return (other - centre).squaredNorm() < far * far;
+        };
+        for (int i = 0; i < static_cast<int>(track_->triangles.size()); ++i) {
+            const TrackTriangle& t = track_->triangles[i];
+            if (near(t.centre, t.radius)) candidates_.push_back({Kind::vertexOnTriangle, p, i, 0, -1.0});
+        }
+        for (int i = 0; i < static_cast<int>(track_->edges.size()); ++i) {
+            const TrackEdge& e = track_->edges[i];
+            if (near(e.centre, e.radius)) candidates_.push_back({Kind::edgeAcrossEdge, p, i, 0, -1.0});
+        }
+        for (int i = 0; i < static_cast<int>(track_->vertices.size()); ++i) {
+            if (near(track_->vertices[i].position, 0.0))
+                candidates_.push_back({Kind::faceOnVertex, p, i, 0, -1.0});
+        }
+    }
+    collectAt_ = travel_ + reach;
+}
+
+double Detector::testTriangle(const Query& query, const Candidate& candidate) const {
+    const TrackTriangle& triangle = track_->triangles[candidate.feature];
+    const BodyPiece& piece = body_->pieces[candidate.piece];
+
+    // The piece's ball against the plane and against the triangle's sides.
+    const Vec3 centre = query.pointToTrack(piece.centre);
+    const double above = triangle.normal.dot(centre - triangle.corner);
+    double clear = std::max(above, -above - kDeepest) - piece.radius;
+    for (int c = 0; c < 3; ++c)
+        clear = std::max(clear, triangle.edgeNormal[c].dot(centre) - triangle.edgeOffset[c] - piece.radius);
+    if (clear >= query.margin) return clear;
+
+    const Vec3 normal = query.vectorToPart(triangle.normal);
+    const double height = triangle.normal.dot(query.position - triangle.corner);
+    double lowest = 1e300;
+    for (int v = 0; v < static_cast<int>(piece.vertices.size()); ++v) {
+        const BodyVertex& vertex = piece.vertices[v];
+        const double gap = normal.dot(vertex.position) + height;
+        lowest = std::min(lowest, gap);
+        if (gap >= query.margin || gap <= -kDeepest) continue;
+        const Vec3 point = query.pointToTrack(vertex.position);
+        bool inside = true;
+        for (int c = 0; c < 3 && inside; ++c)
+            inside = triangle.edgeNormal[c].dot(point) <= triangle.edgeOffset[c];
+        // A deep vertex counts only where the part lies above the plane: otherwise it came from elsewhere.
+        for (int e = 0; e < vertex.edgeCount && inside && gap < -kTrusted; ++e)
+            inside = normal.dot(piece.vertexEdges[vertex.firstEdge + e]) >= -kConeSlack;
+        if (!inside) continue;
+        query.contacts->push_back(
+            {point, triangle.normal, gap, nameFeature(0, candidate.piece, v, candidate.feature)});
+    }
+    return std::max(lowest, clear);
+}
+
+double Detector::testEdge(const Query& query, Candidate& candidate) const {
+    const TrackEdge& edge = track_->edges[candidate.feature];
+    const BodyPiece& piece = body_->pieces[candidate.piece];
+    const double length = 2.0 * edge.radius;
+
+    const Vec3 from = query.pointToPart(edge.from);
+    const Vec3 direction = query.vectorToPart(edge.direction);
+    const double ball = distanceToSegment(piece.centre, from, direction, length) - piece.radius;
+    if (ball >= query.margin) return ball;
+    const double apart =
+        findSeparation(piece, from, from + length * direction, query.margin, candidate.separatingFace);
+    if (apart >= query.margin) return apart;
+
+    const Vec3 outward = query.vectorToPart(edge.outward);
+    const Vec3 into[2] = {query.vectorToPart(edge.into[0]), query.vectorToPart(edge.into[1])};
+    for (int e = 0; e < static_cast<int>(piece.edges.size()); ++e) {
+        const BodyEdge& other = piece.edges[e];
+        const Vec3 cross = direction.cross(other.direction);
+        const double sine2 = cross.squaredNorm();
+        if (sine2 < kParallel) continue;
+        const Vec3 between = other.from - from;
+        const double scale = (cross.dot(outward) < 0.0 ? -1.0 : 1.0) / std::sqrt(sine2);
+        const double gap = scale * cross.dot(between);
+        if (gap >= query.margin || gap <= -kDeepest) continue;
+        // The nearest points must lie within both edges ...
+        const double along = between.cross(other.direction).dot(cross) / sine2;
+        const double alongOther = between.cross(direction).dot(cross) / sine2;
+        const double otherLength = (other.to - other.from).dot(other.direction);
+        if (along < 0.0 || along > length || alongOther < 0.0 || alongOther > otherLength) continue;
+        // ... and the normal in both edges' cones: the track below it, the part above.
+        const Vec3 normal = scale * cross;
+        if (normal.dot(into[0]) > kConeSlack || normal.dot(into[1]) > kConeSlack) continue;
+        if (normal.dot(other.into[0]) < -kConeSlack || normal.dot(other.into[1]) < -kConeSlack) continue;
+        const Vec3 point = query.pointToTrack(other.from + alongOther * other.direction);
+        query.contacts->push_back(
+            {point, query.toTrack * normal, gap, nameFeature(1, candidate.piece, e, candidate.feature)});
+    }
+    return std::max(apart, ball);
+}
+
+double Detector::testVertex(const Query& query, Candidate& candidate) const {
+    const TrackVertex& vertex = track_->vertices[candidate.feature];
+    const BodyPiece& piece = body_->pieces[candidate.piece];
+    const Vec3 point = query.pointToPart(vertex.position);
+    const double gap = findSeparation(piece, point, point, query.margin, candidate.separatingFace);
+    if (gap >= query.margin || gap <= -kDeepest) return std::max(gap, -gap - kDeepest);
+
+    const Vec3 normal = query.toTrack * -piece.faces[candidate.separatingFace].normal;
+    bool inside = true;
+    for (int e = 0; e < vertex.edgeCount && inside && gap < -kTrusted; ++e)
+        inside = normal.dot(track_->vertexEdges[vertex.firstEdge + e]) <= kConeSlack;
+    if (inside)
+        query.contacts->push_back(
+            {vertex.position, normal, gap,
+             nameFeature(2, candidate.piece, candidate.separatingFace, candidate.feature)});
+    return gap;
+}
+
+}  // namespace trapwright::contact

@@ -1,0 +1,42 @@
+#include "sim/contact/drive_motion.h"
+
+#include <cmath>
+
+namespace trapwright::contact {
+
+base::Pose TrackPlacement::toTrack(const base::Pose& pose) const {
+    // Half-angle of the rotation, exact for the small angles of a drive.
+    const double half = 0.5 * std::atan2(sine, cosine);
+    const base::Quaternion back(std::cos(half), 0.0, 0.0, -std::sin(half));
+    return {back * pose.rotation, toTrack(pose.position)};
+}
+
+DriveMotion::DriveMotion(const trial::Drive& drive, const track::FeederShape& shape, double phase)
+    : angularFrequency_(drive.angularFrequency()),
+      phase_(phase),
+      along_(drive.halfStroke * std::cos(drive.angle)),
+      up_(drive.halfStroke * std::sin(drive.angle)),
+      turnScale_(0.0) {
+    if (shape.type == track::FeederType::bowl)
+        turnScale_ = (shape.conveying == track::Conveying::clockwise ? -1.0 : 1.0) / shape.bowlRadius;
+}
+
+base::Vec3 DriveMotion::displacement(double time) const {
+    const double s = std::sin(angularFrequency_ * time + phase_);
+    return {along_ * s, 0.0, up_ * s};
+}
+
+TrackPlacement DriveMotion::placement(double time) const {
+    const double s = std::sin(angularFrequency_ * time + phase_);
+    TrackPlacement placement;
+    placement.shift.z() = up_ * s;
+    if (turnScale_ == 0.0) {
+        placement.shift.x() = along_ * s;
+    } else {
+        placement.cosine = std::cos(turnScale_ * along_ * s);
+        placement.sine = std::sin(turnScale_ * along_ * s);
+    }
+    return placement;
+}
+
+}  // namespace trapwright::contact

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/math.h"
+#include "sim/contact/law.h"
+
+namespace trapwright::contact {
+
+/// Velocity of the centre of mass and angular velocity, or the impulses that change them. Room axes.
+struct BodyMotion {
+    base::Vec3 velocity = base::Vec3::Zero();         // [m/s]
+    base::Vec3 angularVelocity = base::Vec3::Zero();  // [rad/s]
+
+    [[nodiscard]] base::Vec3 at(const base::Vec3& arm) const { return velocity + angularVelocity.cross(arm); }
+};
+
+/// The part's inverse inertia in room axes.
+struct BodyInertia {
+    double inverseMass;         // [1/kg]
+    base::Mat3 inverseInertia;  // about the centre of mass [1/(kg m^2)]
+};
+
+/// A contact of one step, in room axes.
+struct StepContact {
+    base::Vec3 arm;                  // from the centre of mass to the point [m]
+    base::Vec3 normal;               // unit, track -> part
+    double gap;                      // at the step's begin [m]
+    base::Vec3 trackVelocity;        // of the track at the point, mean over this step [m/s]
+    base::Vec3 trackVelocityBefore;  // the same over the step before [m/s]
+    std::uint64_t feature;
+};
+
+/// What a step does to a part.
+struct StepResult {
+    BodyMotion motion;   // after the step's impulses
+    BodyMotion advance;  // moves the pose over the step: an impact happens inside it
+    int carrying = 0;    // contacts with an impulse
+};
+
+/// The discrete form of the contact law: impulses of one part's contacts over one time step, by projected
+/// Gauss-Seidel with warm starting. Velocities are means over a step (they live half-way between two poses),
+/// so free flight is exact and a resting part follows the track exactly. One solver per running trial: it
+/// remembers impulses from step to step.
+class ImpulseSolver {
+ public:
+    /// before: motion in the step before. free: before plus what gravity and gyroscopic torque add in this
+    /// step. dt [s]. More than kMaxContacts contacts are thinned out.
+    StepResult solve(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
+                     const std::vector<StepContact>& contacts, const SurfaceLaw& law, double dt);
+
+    /// Forgets all impulses: the part no longer touches anything.
+    void release() { remembered_.clear(); }
+    [[nodiscard]] bool released() const { return remembered_.empty(); }
+
+    static constexpr int kMaxContacts = 12;
+
+ private:
+    /// One contact with its Jacobian rows and effective masses.
+    struct Row {
+        std::uint64_t feature;
+        base::Vec3 axis[3];  // normal and two tangents
+        base::Vec3 turn[3];  // arm x axis
+        base::Vec3 spin[3];  // inverse inertia * turn
+        double track[3];     // velocity of the track along the axes, mean over the step
+        double gap;
+        double inverseNormalMass;
+        double tangentStep;  // 1 / largest eigenvalue of the tangential inverse mass
+        double target;       // least normal velocity after the step
+        double impactTime;   // share of the step before an impact; > 1: none
+        double friction;
+        double normal = 0.0;  // impulse [N s]
+        base::Vec2 tangential = base::Vec2::Zero();
+        double speed[3];  // before any impulse, to tell the work done
+        bool sliding = false;
+
+        [[nodiscard]] double velocityAlong(const BodyMotion& motion, int k) const {
+            return axis[k].dot(motion.velocity) + turn[k].dot(motion.angularVelocity) - track[k];
+        }
+        void push(BodyMotion& motion, double inverseMass, int k, double impulse) const {
+            motion.velocity += inverseMass * impulse * axis[k];
+            motion.angularVelocity += impulse * spin[k];
+        }
+    };
+    struct Remembered {
+        std::uint64_t feature;
+        double normal;
+        base::Vec2 tangential;  // along the row's two tangents
+        bool sliding;
+    };
+
+    void prepareRows(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
+                     const std::vector<StepContact>& contacts, const SurfaceLaw& law, double dt);
+    BodyMotion iterate(const BodyInertia& inertia, BodyMotion motion);
+    BodyMotion advancePose(const BodyInertia& inertia, const BodyMotion& free, const BodyMotion& after,
+                           double dt);
+    void remember();
+
+    std::vector<Row> rows_;
+    std::vector<Remembered> remembered_;
+};
+
+}  // namespace trapwright::contact

@@ -1,0 +1,60 @@
+#include "sim/contact/part_contact.h"
+
+#include <cmath>
+
+namespace trapwright::contact {
+
+using base::Vec3;
+
+namespace {
+
+/// Added to what a part can travel in a step, so that contacts are there before they carry. [m]
+constexpr double kMargin = 5e-6;
+
+}  // namespace
+
+PartContact::PartContact(const ContactTrack& track, const ContactBody& body, const DriveMotion& drive,
+                         const SurfaceLaw& law, double dt)
+    : body_(&body), drive_(drive), law_(law), dt_(dt), detector_(track, body) {
+    before_ = drive_.placement(-dt_);
+    now_ = drive_.placement(0.0);
+    next_ = drive_.placement(dt_);
+}
+
+StepResult PartContact::step(long step, const base::Pose& pose, double inverseMass,
+                             const base::Mat3& inverseInertia, const BodyMotion& before,
+                             const BodyMotion& free) {
+    // How far any point of the part can come relative to the track in this step. The track's own motion
+    // differs little between its points; that of the part's centre stands for it, with a reserve.
+    const Vec3 centre = now_.toTrack(pose.position);
+    const Vec3 trackStep = next_.toRoom(centre) - pose.position;
+    const double turn = std::abs(next_.sine - now_.sine) * body_->radius;
+    const double reach =
+        (free.velocity * dt_ - trackStep).norm() + free.angularVelocity.norm() * dt_ * body_->radius + turn;
+    detector_.findContacts(now_.toTrack(pose), lastReach_, 1.1 * reach + kMargin, points_);
+
+    StepResult result{free, free, 0};
+    if (points_.empty()) {
+        if (!solver_.released()) solver_.release();
+    } else {
+        stepContacts_.clear();
+        for (const ContactPoint& point : points_) {
+            const Vec3 here = now_.toRoom(point.point);
+            stepContacts_.push_back({here - pose.position, now_.turn(point.normal), point.gap,
+                                     (next_.toRoom(point.point) - here) / dt_,
+                                     (here - before_.toRoom(point.point)) / dt_, point.feature});
+        }
+        const base::Mat3 rotation = pose.rotation.toRotationMatrix();
+        const BodyInertia inertia{inverseMass, rotation * inverseInertia * rotation.transpose()};
+        result = solver_.solve(inertia, before, free, stepContacts_, law_, dt_);
+    }
+
+    lastReach_ = (result.advance.velocity * dt_ - trackStep).norm() +
+                 result.advance.angularVelocity.norm() * dt_ * body_->radius + turn;
+    before_ = now_;
+    now_ = next_;
+    next_ = drive_.placement(static_cast<double>(step + 2) * dt_);
+    return result;
+}
+
+}  // namespace trapwright::contact

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/contact/detector.h"
+#include "sim/contact/drive_motion.h"
+#include "sim/contact/impulse_solver.h"
+
+namespace trapwright::contact {
+
+/// The contact of one part with its vibrating track over the time steps of one trial: detection and the
+/// discrete law together, for any engine that steps bodies.
+class PartContact {
+ public:
+    PartContact(const ContactTrack& track, const ContactBody& body, const DriveMotion& drive,
+                const SurfaceLaw& law, double dt);
+
+    /// Advances the track from step `step` (time step * dt) to the next. pose: part frame to room at the
+    /// step's begin; inverseInertia: the part's, in part axes [1/(kg m^2)]; before, free: see ImpulseSolver.
+    StepResult step(long step, const base::Pose& pose, double inverseMass, const base::Mat3& inverseInertia,
+                    const BodyMotion& before, const BodyMotion& free);
+
+    /// The part's pose relative to the track at the step that step() would take next.
+    [[nodiscard]] base::Pose poseInTrack(const base::Pose& pose) const { return now_.toTrack(pose); }
+    /// Contacts of the last step.
+    [[nodiscard]] const std::vector<ContactPoint>& contacts() const { return points_; }
+
+ private:
+    const ContactBody* body_;
+    DriveMotion drive_;
+    SurfaceLaw law_;
+    double dt_;
+    Detector detector_;
+    ImpulseSolver solver_;
+    TrackPlacement before_, now_, next_;
+    double lastReach_ =
+        0.0;  // how far any point of the part may have moved relative to the track in the last step [m]
+    std::vector<ContactPoint> points_;
+    std::vector<StepContact> stepContacts_;
+};
+
+}  // namespace trapwright::contact

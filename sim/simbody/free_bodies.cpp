@@ -1,0 +1,174 @@
+#include "sim/simbody/free_bodies.h"
+
+#include <Simbody.h>
+
+#include <vector>
+
+namespace trapwright::simbody {
+
+using base::Mat3;
+using base::Vec3;
+using contact::BodyMotion;
+
+namespace {
+
+constexpr int kQ = 7;  // quaternion (w, x, y, z), position
+constexpr int kU = 6;  // angular velocity in the room's axes, velocity
+
+Vec3 fromSimbody(const SimTK::Vec3& v) {
+    return {v[0], v[1], v[2]};
+}
+
+SimTK::Inertia toSimbody(const Mat3& i) {
+    return SimTK::Inertia(SimTK::Vec3(i(0, 0), i(1, 1), i(2, 2)), SimTK::Vec3(i(0, 1), i(0, 2), i(1, 2)));
+}
+
+}  // namespace
+
+struct FreeBodies::Model {
+    Model(double mass, const Mat3& inertia, double gravityValue, int count)
+        : matter(system),
+          forces(system),
+          gravity(forces, matter, SimTK::Vec3(0, 0, -gravityValue)),
+          inverseMass(1.0 / mass),
+          inverseInertia(inertia.inverse()),
+          inertiaTensor(inertia),
+          gravityVector(0, 0, -gravityValue),
+          slots(count) {
+        const SimTK::Body::Rigid body(SimTK::MassProperties(mass, SimTK::Vec3(0), toSimbody(inertia)));
+        for (int i = 0; i < count; ++i)
+            bodies.emplace_back(matter.Ground(), SimTK::Transform(), body, SimTK::Transform());
+        state = system.realizeTopology();
+        system.realizeModel(state);
+    }
+
+    struct Slot {
+        BodyMotion motion;  // at the middle of the last step
+        BodyMotion advance;
+        Vec3 lastAngularAcceleration = Vec3::Zero();  // [rad/s^2]
+    };
+
+    SimTK::MultibodySystem system;
+    SimTK::SimbodyMatterSubsystem matter;
+    SimTK::GeneralForceSubsystem forces;
+    SimTK::Force::Gravity gravity;
+    std::vector<SimTK::MobilizedBody::Free> bodies;
+    SimTK::State state;
+    SimTK::Vector advanceU, advanceQ;
+    double inverseMass;
+    Mat3 inverseInertia;
+    Mat3 inertiaTensor;
+    Vec3 gravityVector;
+    std::vector<Slot> slots;
+};
+
+FreeBodies::FreeBodies(double mass, const Mat3& inertia, double gravity, int count)
+    : model_(std::make_unique<Model>(mass, inertia, gravity, count)) {}
+FreeBodies::~FreeBodies() = default;
+FreeBodies::FreeBodies(FreeBodies&&) noexcept = default;
+FreeBodies& FreeBodies::operator=(FreeBodies&&) noexcept = default;
+
+int FreeBodies::count() const {
+    return static_cast<int>(model_->slots.size());
+}
+double FreeBodies::inverseMass() const {
+    return model_->inverseMass;
+}
+const Mat3& FreeBodies::inverseInertia() const {
+    return model_->inverseInertia;
+}
+
+void FreeBodies::place(int slot, const base::Pose& pose, const BodyMotion& motion, double dt) {
+    SimTK::Vector& q = model_->state.updQ();
+    const base::Quaternion& r = pose.rotation;
+    const double values[kQ] = {
+        r.w(), r.x(), r.y(), r.z(), pose.position.x(), pose.position.y(), pose.position.z()};
+    for (int i = 0; i < kQ; ++i)
+        q[kQ * slot + i] = values[i];
+    Model::Slot& s = model_->slots[slot];
+    s = {};
+    s.motion = motion;
+    // Velocities belong to the middles of steps: go back by half of one.
+    const Mat3 rotation = r.toRotationMatrix();
+    const Vec3& w = motion.angularVelocity;
+    const Vec3 momentum = rotation * (model_->inertiaTensor * (rotation.transpose() * w));
+    s.lastAngularAcceleration =
+        -(rotation * (model_->inverseInertia * (rotation.transpose() * w.cross(momentum))));
+    s.motion.velocity -= 0.5 * dt * model_->gravityVector;
+    s.motion.angularVelocity -= 0.5 * dt * s.lastAngularAcceleration;
+}
+
+void FreeBodies::adopt(int slot, const FreeBodies& other, int otherSlot) {
+    SimTK::Vector& q = model_->state.updQ();
+    for (int i = 0; i < kQ; ++i)
+        q[kQ * slot + i] = other.model_->state.getQ()[kQ * otherSlot + i];
+    model_->slots[slot] = other.model_->slots[otherSlot];
+}
+
+void FreeBodies::beginStep(double dt) {
+    // The gyroscopic torque wants the angular velocity at the pose's time: half a step on.
+    SimTK::Vector& u = model_->state.updU();
+    for (int i = 0; i < count(); ++i) {
+        const Model::Slot& s = model_->slots[i];
+        const Vec3 now = s.motion.angularVelocity + 0.5 * dt * s.lastAngularAcceleration;
+        for (int k = 0; k < 3; ++k) {
+            u[kU * i + k] = now[k];
+            u[kU * i + 3 + k] = s.motion.velocity[k];
+        }
+    }
+    model_->system.realize(model_->state, SimTK::Stage::Acceleration);
+    const SimTK::Vector& acceleration = model_->state.getUDot();
+    for (int i = 0; i < count(); ++i) {
+        Model::Slot& s = model_->slots[i];
+        for (int k = 0; k < 3; ++k) {
+            s.lastAngularAcceleration[k] = acceleration[kU * i + k];
+            s.advance.angularVelocity[k] = s.motion.angularVelocity[k] + dt * acceleration[kU * i + k];
+            s.advance.velocity[k] = s.motion.velocity[k] + dt * acceleration[kU * i + 3 + k];
+        }
+    }
+}
+
+base::Pose FreeBodies::pose(int slot) const {
+    const SimTK::Vector& q = model_->state.getQ();
+    const int o = kQ * slot;
+    return {base::Quaternion(q[o], q[o + 1], q[o + 2], q[o + 3]),
+            fromSimbody(model_->bodies[slot].getBodyOriginLocation(model_->state))};
+}
+
+BodyMotion FreeBodies::before(int slot) const {
+    return model_->slots[slot].motion;
+}
+
+BodyMotion FreeBodies::free(int slot) const {
+    return model_->slots[slot].advance;
+}
+
+void FreeBodies::resolve(int slot, const contact::StepResult& result) {
+    model_->slots[slot].motion = result.motion;
+    model_->slots[slot].advance = result.advance;
+}
+
+void FreeBodies::endStep(double dt) {
+    model_->advanceU.resize(kU * count());
+    for (int i = 0; i < count(); ++i) {
+        const BodyMotion& advance = model_->slots[i].advance;
+        for (int k = 0; k < 3; ++k) {
+            model_->advanceU[kU * i + k] = advance.angularVelocity[k];
+            model_->advanceU[kU * i + 3 + k] = advance.velocity[k];
+        }
+    }
+    model_->matter.multiplyByN(model_->state, false, model_->advanceU, model_->advanceQ);
+    SimTK::Vector& q = model_->state.updQ();
+    q += dt * model_->advanceQ;
+    for (int i = 0; i < count(); ++i) {
+        // A quaternion's chord is a little longer than its arc.
+        double square = 0.0;
+        for (int k = 0; k < 4; ++k)
+            square += q[kQ * i + k] * q[kQ * i + k];
+        const double scale = 1.0 / std::sqrt(square);
+        for (int k = 0; k < 4; ++k)
+            q[kQ * i + k] *= scale;
+    }
+}
+
+}  // namespace trapwright::simbody

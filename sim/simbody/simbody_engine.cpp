@@ -1,0 +1,223 @@
+#include "sim/simbody/simbody_engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "sim/simbody/free_bodies.h"
+#include "sim/simbody/trial_lane.h"
+
+namespace trapwright::simbody {
+
+namespace {
+
+/// How many steps are made between two looks at the run control.
+constexpr int kStepsPerLook = 50;
+
+/// The trials of all batches with one and the same part, handed out one by one.
+class TrialQueue {
+ public:
+    TrialQueue(std::span<const trial::TrialBatch> batches, std::vector<std::size_t> members)
+        : batches_(batches), members_(std::move(members)), scenes_(members_.size()) {
+        for (const std::size_t m : members_)
+            total_ += batches_[m].trials.size();
+    }
+
+    struct Job {
+        std::shared_ptr<const Scene> scene;
+        std::size_t batch;
+        std::size_t trial;
+    };
+
+    [[nodiscard]] std::size_t total() const { return total_; }
+
+    std::optional<Job> next() {
+        const std::lock_guard lock(mutex_);
+        while (member_ < members_.size() && trial_ == batches_[members_[member_]].trials.size()) {
+            scenes_[member_].reset();  // lanes that still run keep it alive
+            ++member_;
+            trial_ = 0;
+        }
+        if (member_ == members_.size()) return std::nullopt;
+        const std::size_t batch = members_[member_];
+        if (!scenes_[member_]) scenes_[member_] = std::make_shared<const Scene>(batches_[batch]);
+        return Job{scenes_[member_], batch, trial_++};
+    }
+
+ private:
+    std::span<const trial::TrialBatch> batches_;
+    std::vector<std::size_t> members_;
+    std::vector<std::shared_ptr<const Scene>> scenes_;
+    std::mutex mutex_;
+    std::size_t member_ = 0;
+    std::size_t trial_ = 0;
+    std::size_t total_ = 0;
+};
+
+/// One thread's work: its own system, its lanes.
+class Worker {
+ public:
+    Worker(const trial::TrialBatch& like, TrialQueue& queue, int count, double dt,
+           std::vector<std::vector<trial::Outcome>>& outcomes)
+        : like_(&like),
+          queue_(&queue),
+          dt_(dt),
+          outcomes_(&outcomes),
+          bodies_(makeBodies(count)),
+          lanes_(count) {}
+
+    void run(base::RunControl& control) {
+        for (int slot = 0; slot < static_cast<int>(lanes_.size()); ++slot)
+            fill(slot);
+        for (long step = 0; shrink(); ++step) {
+            if (step % kStepsPerLook == 0 && control.cancelled()) return;
+            bodies_.beginStep(dt_);
+            for (int slot = 0; slot < static_cast<int>(lanes_.size()); ++slot) {
+                if (!lanes_[slot]) continue;
+                if (!lanes_[slot]->lane.step(bodies_, slot)) continue;
+                const Lane& done = *lanes_[slot];
+                (*outcomes_)[done.batch][done.trial] = done.lane.outcome();
+                control.advance(1);
+                ended_.push_back(slot);
+            }
+            bodies_.endStep(dt_);
+            for (const int slot : ended_)
+                fill(slot);
+            ended_.clear();
+        }
+    }
+
+ private:
+    struct Lane {
+        TrialLane lane;
+        std::size_t batch;
+        std::size_t trial;
+    };
+
+    [[nodiscard]] FreeBodies makeBodies(int count) const {
+        const geometry::MassProperties& mass = like_->part->massProperties;
+        return {mass.mass, mass.inertia, like_->gravity, count};
+    }
+
+    void fill(int slot) {
+        lanes_[slot].reset();
+        if (const auto job = queue_->next())
+            lanes_[slot].emplace(
+                Lane{TrialLane(job->scene, job->trial, bodies_, slot, dt_), job->batch, job->trial});
+        else
+            bodies_.resolve(slot, {});
+    }
+
+    /// Moves the last running trials to a smaller system. False when none is left.
+    bool shrink() {
+        const auto running = static_cast<std::size_t>(
+            std::count_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane.has_value(); }));
+        if (running == 0) return false;
+        if (2 * running > lanes_.size()) return true;
+        FreeBodies smaller = makeBodies(static_cast<int>(running));
+        std::vector<std::optional<Lane>> kept;
+        for (std::size_t slot = 0; slot < lanes_.size(); ++slot) {
+            if (!lanes_[slot]) continue;
+            smaller.adopt(static_cast<int>(kept.size()), bodies_, static_cast<int>(slot));
+            kept.push_back(std::move(lanes_[slot]));
+        }
+        bodies_ = std::move(smaller);
+        lanes_ = std::move(kept);
+        return true;
+    }
+
+    const trial::TrialBatch* like_;
+    TrialQueue* queue_;
+    double dt_;
+    std::vector<std::vector<trial::Outcome>>* outcomes_;
+    FreeBodies bodies_;
+    std::vector<std::optional<Lane>> lanes_;
+    std::vector<int> ended_;
+};
+
+std::optional<base::Error> findProblem(const trial::TrialBatch& batch) {
+    if (!batch.track || !batch.part) return base::Error{"A batch of trials has no track or no part."};
+    if (batch.part->pieces.empty())
+        return base::Error{"The part '" + batch.part->name +
+                           "' has no convex pieces to make contact with; import it again."};
+    if (!(batch.part->massProperties.mass > 0.0))
+        return base::Error{"The part '" + batch.part->name +
+                           "' has no mass; check its density and that its mesh is closed."};
+    return std::nullopt;
+}
+
+}  // namespace
+
+SimbodyEngine::SimbodyEngine(const trial::EngineOptions& options)
+    : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
+      step_(options.step > 0.0 ? options.step : kDefaultStep) {}
+
+base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
+    std::span<const trial::TrialBatch> batches, base::RunControl control) const {
+    std::vector<std::vector<trial::Outcome>> outcomes;
+    for (const trial::TrialBatch& batch : batches) {
+        if (const auto problem = findProblem(batch)) return *problem;
+        outcomes.emplace_back(batch.trials.size());
+    }
+
+    // One system holds like bodies: take the batches part by part.
+    std::vector<bool> taken(batches.size(), false);
+    for (std::size_t first = 0; first < batches.size(); ++first) {
+        if (taken[first]) continue;
+        std::vector<std::size_t> members;
+        for (std::size_t b = first; b < batches.size(); ++b) {
+            if (taken[b] || batches[b].part != batches[first].part ||
+                batches[b].gravity != batches[first].gravity)
+                continue;
+            taken[b] = true;
+            members.push_back(b);
+        }
+        TrialQueue queue(batches, std::move(members));
+        const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
+        const int bodies = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kBodiesPerSystem));
+        try {
+            base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
+                Worker(batches[first], queue, bodies, step_, outcomes).run(control);
+            });
+        } catch (const std::exception& e) {
+            return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
+        }
+        if (control.cancelled()) return base::Error{"The simulation was cancelled."};
+    }
+    return outcomes;
+}
+
+base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& batch, std::size_t index,
+                                                      double interval, base::RunControl control) const {
+    if (const auto problem = findProblem(batch)) return *problem;
+    if (index >= batch.trials.size())
+        return base::Error{"There is no trial " + std::to_string(index) + ": the batch has " +
+                           std::to_string(batch.trials.size()) + "."};
+    try {
+        const geometry::MassProperties& mass = batch.part->massProperties;
+        FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);
+        TrialLane lane(std::make_shared<const Scene>(batch), index, bodies, 0, step_);
+        trial::Trajectory trajectory;
+        while (true) {
+            if (control.cancelled()) return base::Error{"The replay was cancelled."};
+            bodies.beginStep(step_);
+            const trial::TrajectorySample sample = lane.sample(bodies, 0);
+            const bool ended = lane.step(bodies, 0).has_value();
+            if (ended ||
+                sample.time + 0.5 * step_ >= static_cast<double>(trajectory.samples.size()) * interval)
+                trajectory.samples.push_back(sample);
+            if (ended) break;
+            bodies.endStep(step_);
+        }
+        trajectory.outcome = lane.outcome();
+        control.advance(1);
+        return trajectory;
+    } catch (const std::exception& e) {
+        return base::Error{std::string("Simbody could not replay the trial: ") + e.what()};
+    }
+}
+
+}  // namespace trapwright::simbody

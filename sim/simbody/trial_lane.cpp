@@ -1,0 +1,67 @@
+#include "sim/simbody/trial_lane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapwright::simbody {
+
+namespace {
+
+/// The ending is looked for this often. [s]
+constexpr double kCheckInterval = 2e-3;
+
+contact::SurfaceLaw lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    return {batch.contact.staticFriction * spec.frictionScale,
+            batch.contact.kineticFriction * spec.frictionScale,
+            batch.contact.restitution * spec.restitutionScale};
+}
+
+}  // namespace
+
+Scene::Scene(const trial::TrialBatch& b)
+    : batch(&b), track(contact::prepareTrack(b.track->solid)), body(contact::prepareBody(b.part->pieces)) {}
+
+TrialLane::TrialLane(std::shared_ptr<const Scene> scene, std::size_t trial, FreeBodies& bodies, int slot,
+                     double dt)
+    : scene_(std::move(scene)),
+      dt_(dt),
+      stepsPerCheck_(std::max(1L, std::lround(kCheckInterval / dt))),
+      drive_(scene_->batch->drive, scene_->batch->track->shape, scene_->batch->trials[trial].start.phase),
+      contact_(scene_->track, scene_->body, drive_, lawOf(*scene_->batch, scene_->batch->trials[trial]), dt),
+      progress_(*scene_->batch->track, scene_->batch->termination) {
+    // At rest in the room, where the track is at the drive's phase.
+    const trial::TrialStart& start = scene_->batch->trials[trial].start;
+    const contact::TrackPlacement placement = drive_.placement(0.0);
+    const double half = 0.5 * std::atan2(placement.sine, placement.cosine);
+    const base::Quaternion turn(std::cos(half), 0.0, 0.0, std::sin(half));
+    bodies.place(slot, {turn * start.pose.rotation, placement.toRoom(start.pose.position)},
+                 {start.velocity, start.angularVelocity}, dt);
+}
+
+std::optional<trial::Ending> TrialLane::step(FreeBodies& bodies, int slot) {
+    const base::Pose pose = bodies.pose(slot);
+    if (steps_ % stepsPerCheck_ == 0) {
+        const auto ending = progress_.update(time(), contact_.poseInTrack(pose));
+        if (ending) return ending;
+    }
+    const contact::StepResult result = contact_.step(
+        steps_, pose, bodies.inverseMass(), bodies.inverseInertia(), bodies.before(slot), bodies.free(slot));
+    bodies.resolve(slot, result);
+    carrying_ = result.carrying;
+    ++steps_;
+    return std::nullopt;
+}
+
+trial::TrajectorySample TrialLane::sample(const FreeBodies& bodies, int slot) const {
+    trial::TrajectorySample sample;
+    sample.time = time();
+    sample.room = bodies.pose(slot);
+    sample.track = progress_.toTrackCoordinates(contact_.poseInTrack(sample.room));
+    sample.drive = drive_.displacement(sample.time);
+    sample.velocity = 0.5 * (bodies.before(slot).velocity + bodies.free(slot).velocity);
+    sample.angularVelocity = 0.5 * (bodies.before(slot).angularVelocity + bodies.free(slot).angularVelocity);
+    sample.contacts = carrying_;
+    return sample;
+}
+
+}  // namespace trapwright::simbody
