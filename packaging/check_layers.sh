@@ -21,6 +21,7 @@ core/track      core/base core/geometry core/track
 sim             core/base core/geometry core/part core/track core/trial sim
 ui              core ui
 app             core sim ui app
+resources       core resources
 tests           core sim ui app tests
 RULES
 
@@ -106,7 +107,7 @@ awk -v layersFile="$work/layers" -v librariesFile="$work/libraries" -v edgesFile
         sub(/[">].*/, "", target)
         if (target ~ /^[.][.]?\//) {
             complain("name the file from the root of the project: " target)
-        } else if (target ~ /^(core|sim|ui|app|tests)\//) {
+        } else if (target ~ /^(core|sim|ui|app|resources|tests)\//) {
             checkOurs(target)
         } else {
             checkForeign(target)
