@@ -14,7 +14,7 @@ namespace trapwright::study {
 struct IndividualRecord {
     evolution::Chromosome chromosome;
     trial::Fitness fitness;
-    int overlaps = 0;  // triangle pairs... F_C = -overlaps
+    int overlaps = 0;  // triangles of the surface that overlap another; F_C = -overlaps
     int trials = 0;    // simulated; 0 if the track was not simulated
     int finished = 0;
     int fellOff = 0;
@@ -28,6 +28,8 @@ struct GenerationStatistics {
     trial::Fitness best;                    // of the winner
     trial::Fitness topMean;                 // arithmetic mean of the top 30 %
     evolution::StrategyValues topStrategy;  // geometric mean of the top 30 %
+
+    friend bool operator==(const GenerationStatistics&, const GenerationStatistics&) = default;
 };
 
 /// One whole generation, evaluated.
@@ -37,6 +39,21 @@ struct GenerationRecord {
     int winner = 0;  // index into individuals; the lowest among equals
     GenerationStatistics statistics;
     double seconds = 0.0;  // wall time; the only field that may differ between equal runs
+};
+
+/// A generation without its individuals.
+struct GenerationSummary {
+    int index = 0;   // from 0
+    int winner = 0;  // index into the generation's individuals
+    GenerationStatistics statistics;
+    double seconds = 0.0;  // wall time
+};
+
+/// The best individual of a generation.
+struct Winner {
+    int generation = 0;
+    int individual = 0;
+    IndividualRecord record;
 };
 
 /// A winner re-simulated with many trials (paper, section 6.1.1).

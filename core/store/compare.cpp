@@ -1,0 +1,97 @@
+#include "core/store/compare.h"
+
+#include <array>
+#include <charconv>
+
+#include "core/store/packing.h"
+
+namespace trapwright::store {
+
+namespace {
+
+std::string hexadecimal(const std::string& blob) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string text;
+    for (const char c : blob) {
+        const auto byte = static_cast<unsigned char>(c);
+        text += kDigits[byte >> 4U];
+        text += kDigits[byte & 15U];
+    }
+    return text;
+}
+
+/// The shortest decimal that gives the value back.
+std::string exactText(double value) {
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    return {buffer.data(), end};
+}
+
+std::string lineOf(int generation, std::size_t number, const study::IndividualRecord& record) {
+    std::string line = std::to_string(generation) + " " + std::to_string(number);
+    for (const evolution::Bits* gene :
+         {&record.chromosome.points, &record.chromosome.lengths, &record.chromosome.strategy}) {
+        line += " " + hexadecimal(packBits(*gene));
+    }
+    for (const double score :
+         {record.fitness.collision, record.fitness.distance, record.fitness.orientation}) {
+        line += " " + exactText(score);
+    }
+    for (const int count : {record.overlaps, record.trials, record.finished, record.fellOff, record.stuck}) {
+        line += " " + std::to_string(count);
+    }
+    return line + "\n";
+}
+
+}  // namespace
+
+base::Status dumpGenes(const StudyFile& study, const std::function<void(std::string_view lines)>& write) {
+    const auto count = study.generationCount();
+    if (!count) return count.error();
+    for (int index = 0; index < *count; ++index) {
+        const auto generation = study.loadGeneration(index);
+        if (!generation) return generation.error();
+        std::string lines;
+        for (std::size_t i = 0; i < generation->individuals.size(); ++i) {
+            lines += lineOf(index, i, generation->individuals[i]);
+        }
+        write(lines);
+    }
+    return base::success();
+}
+
+base::Result<std::string> findDifference(const StudyFile& a, const StudyFile& b) {
+    const auto countA = a.generationCount();
+    const auto countB = b.generationCount();
+    if (!countA) return countA.error();
+    if (!countB) return countB.error();
+    for (int index = 0; index < std::min(*countA, *countB); ++index) {
+        const auto generationA = a.loadGeneration(index);
+        const auto generationB = b.loadGeneration(index);
+        if (!generationA) return generationA.error();
+        if (!generationB) return generationB.error();
+        const std::string place = "generation " + std::to_string(index);
+        const auto& individualsA = generationA->individuals;
+        const auto& individualsB = generationB->individuals;
+        if (individualsA.size() != individualsB.size()) {
+            return place + " has " + std::to_string(individualsA.size()) + " individuals in one and " +
+                   std::to_string(individualsB.size()) + " in the other";
+        }
+        for (std::size_t i = 0; i < individualsA.size(); ++i) {
+            if (individualsA[i] == individualsB[i]) continue;
+            const bool sameGenes = individualsA[i].chromosome == individualsB[i].chromosome;
+            return place + ", individual " + std::to_string(i) + ": " +
+                   (sameGenes ? "the scores differ" : "the genes differ");
+        }
+        if (generationA->winner != generationB->winner ||
+            !(generationA->statistics == generationB->statistics)) {
+            return place + ": the winner or the statistics differ";
+        }
+    }
+    if (*countA != *countB) {
+        return "one has " + std::to_string(*countA) + " generations, the other " + std::to_string(*countB);
+    }
+    return std::string();
+}
+
+}  // namespace trapwright::store

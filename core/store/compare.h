@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+#include "core/store/study_file.h"
+
+namespace trapwright::store {
+
+/// Genes and scores of every individual as text, one line each, for `diff`: generation, individual, the three
+/// genes in hexadecimal, F_C, F_D, F_O to the last bit, overlaps, trials, finished, fell off, stuck. Two runs
+/// of the same study give the same lines. Each call of `write` gets the lines of one generation.
+base::Status dumpGenes(const StudyFile& study, const std::function<void(std::string_view lines)>& write);
+
+/// Where the genes and scores of two studies first differ, in words; empty if they are the same. Wall times
+/// do not count.
+base::Result<std::string> findDifference(const StudyFile& a, const StudyFile& b);
+
+}  // namespace trapwright::store

@@ -1,0 +1,228 @@
+#include "core/store/connection.h"
+
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Exception.h>
+#include <SQLiteCpp/Statement.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "core/store/schema.h"
+
+namespace trapwright::store {
+
+namespace {
+
+constexpr int kBusyTimeout = 5000;  // [ms]
+constexpr std::size_t kHeaderSize = 100;
+constexpr std::string_view kMagic("SQLite format 3\0", 16);
+
+using DatabasePtr = std::unique_ptr<SQLite::Database>;
+
+base::Error damaged(const std::filesystem::path& path, const std::string& how) {
+    return base::Error{"The study " + path.string() + " is damaged: " + how + ". Restore it from a copy."};
+}
+
+std::filesystem::path sidePath(const std::filesystem::path& path, const char* suffix) {
+    std::filesystem::path side = path;
+    side += suffix;
+    return side;
+}
+
+/// Whether transactions are still waiting in the write-ahead log.
+bool hasPendingLog(const std::filesystem::path& path) {
+    std::error_code missing;
+    const auto size = std::filesystem::file_size(sidePath(path, "-wal"), missing);
+    return !missing && size > 0;
+}
+
+std::uint64_t bigEndian(const std::array<char, kHeaderSize>& header, std::size_t offset, std::size_t bytes) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i)
+        value = (value << 8U) | static_cast<unsigned char>(header[offset + i]);
+    return value;
+}
+
+/// "file:" with everything escaped that means something in a URI.
+std::string immutableUri(const std::filesystem::path& path) {
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    std::string uri = "file:";
+    for (const char c : std::filesystem::absolute(path).string()) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isalnum(byte) != 0 || c == '/' || c == '.' || c == '-' || c == '_') {
+            uri += c;
+        } else {
+            uri += '%';
+            uri += kHex[byte >> 4U];
+            uri += kHex[byte & 15U];
+        }
+    }
+    return uri + "?immutable=1";
+}
+
+/// Ours, and of a version that we know? Reads the file, so that an unreadable one fails here.
+base::Status checkIdentity(SQLite::Database& database, const std::filesystem::path& path) {
+    if (database.execAndGet("PRAGMA application_id").getInt() != kApplicationId) {
+        return base::Error{path.string() +
+                           " is a SQLite file, but not a study of Trapwright. Choose a .trap file."};
+    }
+    const int version = database.execAndGet("PRAGMA user_version").getInt();
+    if (version > currentSchemaVersion()) {
+        return base::Error{"The study " + path.string() +
+                           " was written by a newer Trapwright (schema version " + std::to_string(version) +
+                           "; this one knows up to " + std::to_string(currentSchemaVersion()) +
+                           "). Update Trapwright to open it."};
+    }
+    return base::success();
+}
+
+base::Status checkContent(SQLite::Database& database, const std::filesystem::path& path) {
+    if (database.execAndGet("SELECT count(*) FROM study").getInt() == 1) return base::success();
+    return damaged(path, "it holds no settings");
+}
+
+base::Result<DatabasePtr> openReader(const std::filesystem::path& path, bool immutable) {
+    auto database = std::make_unique<SQLite::Database>(
+        immutable ? immutableUri(path) : path.string(),
+        SQLite::OPEN_READONLY | (immutable ? SQLite::OPEN_URI : 0), kBusyTimeout);
+    if (const auto known = checkIdentity(*database, path); !known) return known.error();
+    const int version = database->execAndGet("PRAGMA user_version").getInt();
+    if (version < currentSchemaVersion()) {
+        return base::Error{
+            "The study " + path.string() + " was written by an older Trapwright (schema version " +
+            std::to_string(version) +
+            "). Open it once for writing, for example by going on with learning, to bring it up to date."};
+    }
+    if (const auto content = checkContent(*database, path); !content) return content.error();
+    return database;
+}
+
+}  // namespace
+
+base::Error describeFailure(const std::exception& failure, const std::filesystem::path& path,
+                            const std::string& doing) {
+    const std::string study = path.string();
+    const auto* sqlite = dynamic_cast<const SQLite::Exception*>(&failure);
+    switch (sqlite != nullptr ? sqlite->getErrorCode() : SQLITE_ERROR) {
+        case SQLITE_FULL:
+            return {doing + ": the disk that holds " + study +
+                    " is full. Free some space and start again; what was saved before is safe."};
+        case SQLITE_IOERR:
+            return {doing + ": the disk that holds " + study + " could not be read or written (" +
+                    failure.what() +
+                    "). Check that it has space and is still connected; what was saved before is safe."};
+        case SQLITE_CORRUPT:
+        case SQLITE_NOTADB:
+            return {doing + ": " + damaged(path, failure.what()).message};
+        case SQLITE_READONLY:
+        case SQLITE_CANTOPEN:
+        case SQLITE_PERM:
+        case SQLITE_AUTH:
+            return {doing + ": " + study + " or its folder cannot be written or read (" + failure.what() +
+                    "). Check the permissions, or copy the study into a folder of your own."};
+        case SQLITE_BUSY:
+        case SQLITE_LOCKED:
+            return {doing + ": " + study + " is in use by another program (" + failure.what() +
+                    "). Close that and try again."};
+        default:
+            return {doing + ": " + study + ": " + failure.what() + "."};
+    }
+}
+
+base::Status checkStudyFile(const std::filesystem::path& path) {
+    std::error_code problem;
+    const auto status = std::filesystem::status(path, problem);
+    if (!std::filesystem::exists(status)) {
+        return base::Error{"There is no study at " + path.string() +
+                           ". Check the path, or make a new study."};
+    }
+    if (std::filesystem::is_directory(status)) {
+        return base::Error{path.string() + " is a folder, not a study. Choose a .trap file."};
+    }
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        return base::Error{"The study " + path.string() + " cannot be read (" +
+                           std::generic_category().message(errno) + "). Check its permissions."};
+    }
+    std::array<char, kHeaderSize> header{};
+    file.read(header.data(), header.size());
+    const auto count = static_cast<std::size_t>(file.gcount());
+    if (count == 0)
+        return base::Error{path.string() + " is empty, so it is not a study. Choose another file."};
+    if (std::string_view(header.data(), std::min(count, kMagic.size())) != kMagic.substr(0, count)) {
+        return base::Error{path.string() + " is not a study of Trapwright. Choose a .trap file."};
+    }
+    if (count < header.size())
+        return damaged(path, "it is cut off after " + std::to_string(count) + " bytes");
+
+    // While a log is pending the file may rightly be shorter than it will be.
+    if (hasPendingLog(path)) return base::success();
+    const std::uint64_t storedPageSize = bigEndian(header, 16, 2);
+    const std::uint64_t pageSize = storedPageSize == 1 ? 65536 : storedPageSize;
+    const std::uint64_t expected = pageSize * bigEndian(header, 28, 4);
+    const auto size = std::filesystem::file_size(path, problem);
+    // The log may have been taken in since: what counts is a file too short both before and after that.
+    if (!problem && size < expected && !hasPendingLog(path)) {
+        return damaged(path, "it is cut off after " + std::to_string(size) + " of " +
+                                 std::to_string(expected) + " bytes");
+    }
+    return base::success();
+}
+
+base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
+    if (const auto file = checkStudyFile(path); !file) return file.error();
+    if (::access(path.c_str(), W_OK) != 0) {
+        return base::Error{"The study " + path.string() + " cannot be written (" +
+                           std::generic_category().message(errno) +
+                           "). Change its permissions, or copy it into a folder that you can write."};
+    }
+    return guarded(path, "The study could not be opened", [&]() -> base::Result<DatabasePtr> {
+        auto database =
+            std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout);
+        if (const auto known = checkIdentity(*database, path); !known) return known.error();
+        const std::string check = database->execAndGet("PRAGMA quick_check(1)").getString();
+        if (check != "ok") return damaged(path, check);
+        migrate(*database, schemaMigrations());
+        if (const auto content = checkContent(*database, path); !content) return content.error();
+        // Not every file system can do this; then readers wait while a generation is written.
+        database->execAndGet("PRAGMA journal_mode = WAL");
+        database->exec("PRAGMA synchronous = FULL");
+        return database;
+    });
+}
+
+base::Result<DatabasePtr> openForReading(const std::filesystem::path& path) {
+    if (const auto file = checkStudyFile(path); !file) return file.error();
+    const std::string doing = "The study could not be opened";
+    return guarded(path, doing, [&]() -> base::Result<DatabasePtr> {
+        try {
+            return openReader(path, false);
+        } catch (const SQLite::Exception& failure) {
+            // A study that was not settled (a reader was there when its writer ended), in a folder where
+            // SQLite cannot make its shared-memory file. Nobody writes there, so it can be read as it lies,
+            // unless the log has the rest.
+            const int code = failure.getErrorCode();
+            if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY) throw;
+        }
+        if (hasPendingLog(path)) {
+            return base::Error{"The last generations of the study " + path.string() + " are still in " +
+                               sidePath(path, "-wal").string() +
+                               ", and the folder cannot be written. Copy both files into a folder that you "
+                               "can write, and open the copy."};
+        }
+        return openReader(path, true);
+    });
+}
+
+void settle(SQLite::Database& database) noexcept {
+    // Readers may be there for long: do not wait for them.
+    sqlite3_busy_timeout(database.getHandle(), 0);
+    database.tryExec("PRAGMA journal_mode = DELETE");
+}
+
+}  // namespace trapwright::store

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <SQLiteCpp/Database.h>
+
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "core/base/result.h"
+
+namespace trapwright::store {
+
+// Inside core/store only: SQLite's types end here.
+
+/// What a failure of SQLite means for the person who works with the study at `path`. `doing`: "The generation
+/// could not be saved".
+base::Error describeFailure(const std::exception& failure, const std::filesystem::path& path,
+                            const std::string& doing);
+
+/// An error if there is no file, or it is plainly no study: empty, cut off, not SQLite.
+base::Status checkStudyFile(const std::filesystem::path& path);
+
+/// Opens an existing study for writing, in write-ahead mode so that readers are not disturbed, and brings its
+/// schema up to date. The caller holds the study's FileLock.
+base::Result<std::unique_ptr<SQLite::Database>> openForWriting(const std::filesystem::path& path);
+
+/// Opens an existing study for reading, while it is being written, and in folders that cannot be written.
+base::Result<std::unique_ptr<SQLite::Database>> openForReading(const std::filesystem::path& path);
+
+/// Moves everything into the one file, so that it can be copied and read from anywhere. Not possible while
+/// somebody reads; then `-wal` and `-shm` stay beside the file and are taken up by the next writer.
+void settle(SQLite::Database& database) noexcept;
+
+/// What work() returns, or the error that its exception means.
+template <class Work>
+auto guarded(const std::filesystem::path& path, const std::string& doing, const Work& work)
+    -> decltype(work()) {
+    try {
+        return work();
+    } catch (const std::exception& failure) {
+        return describeFailure(failure, path, doing);
+    }
+}
+
+}  // namespace trapwright::store

@@ -1,0 +1,252 @@
+#include "core/store/study_file.h"
+
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Transaction.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <ctime>
+#include <system_error>
+
+#include "core/store/packing.h"
+#include "core/store/schema.h"
+#include "core/store/study_state.h"
+
+namespace trapwright::store {
+
+namespace {
+
+std::string currentUtc() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    std::array<char, 32> text{};
+    const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return {text.data(), length};
+}
+
+void writeSettings(SQLite::Database& database, const study::Settings& settings) {
+    SQLite::Statement update(database, "UPDATE study SET settings = ?, seed = ?");
+    SQLite::bind(update, study::toJson(settings), std::to_string(settings.evolution.seed));
+    update.exec();
+}
+
+void writeNewStudy(SQLite::Database& database, const study::Settings& settings, const StoredPart& part,
+                   const std::string& program) {
+    database.exec("PRAGMA synchronous = FULL");
+    database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+    migrate(database, schemaMigrations());
+
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    SQLite::Statement origin(database, "INSERT INTO study VALUES (1, ?, ?, '', '')");
+    SQLite::bind(origin, program, currentUtc());
+    origin.exec();
+    writeSettings(database, settings);
+
+    SQLite::Statement row(database, "INSERT INTO part VALUES (1, ?, ?, ?, ?, ?, ?)");
+    const std::string vertices = packVertices(part.mesh.vertices);
+    const std::string triangles = packTriangles(part.mesh.triangles);
+    SQLite::bind(row, part.options.name, part.options.source, part.options.density,
+                 part.options.symmetryTolerance);
+    row.bindNoCopy(5, vertices.data(), static_cast<int>(vertices.size()));
+    row.bindNoCopy(6, triangles.data(), static_cast<int>(triangles.size()));
+    row.exec();
+    transaction.commit();
+}
+
+void removeUnfinished(const std::filesystem::path& path) {
+    std::error_code missing;
+    std::filesystem::remove(path, missing);
+    std::filesystem::path journal = path;
+    journal += "-journal";
+    std::filesystem::remove(journal, missing);
+}
+
+/// Makes a rename in the folder survive a loss of power.
+void syncFolder(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
+
+}  // namespace
+
+base::Error damagedValue(const std::filesystem::path& path, const std::string& what) {
+    return {"The study " + path.string() + " is damaged: " + what +
+            " cannot be read. Restore it from a copy."};
+}
+
+trial::Fitness readFitness(const SQLite::Statement& statement, int first) {
+    return {statement.getColumn(first).getDouble(), statement.getColumn(first + 1).getDouble(),
+            statement.getColumn(first + 2).getDouble()};
+}
+
+base::Quaternion readRotation(const SQLite::Statement& statement, int first) {
+    return {statement.getColumn(first).getDouble(), statement.getColumn(first + 1).getDouble(),
+            statement.getColumn(first + 2).getDouble(), statement.getColumn(first + 3).getDouble()};
+}
+
+std::string readBlob(const SQLite::Statement& statement, int column) {
+    return statement.getColumn(column).getString();
+}
+
+StudyFile::State::~State() {
+    if (database && lock) settle(*database);
+}
+
+base::Status StudyFile::State::checkWritable() const {
+    if (lock) return base::success();
+    return base::Error{"The study " + path.string() +
+                       " is open for reading only, so nothing can be saved in it."};
+}
+
+int StudyFile::State::countRows(const std::string& table) const {
+    return database->execAndGet("SELECT count(*) FROM " + table).getInt();
+}
+
+StudyFile::StudyFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+StudyFile::StudyFile(StudyFile&&) noexcept = default;
+StudyFile& StudyFile::operator=(StudyFile&&) noexcept = default;
+StudyFile::~StudyFile() = default;
+
+base::Result<StudyFile> StudyFile::create(const std::filesystem::path& path, const study::Settings& settings,
+                                          const StoredPart& part, const std::string& program) {
+    std::error_code missing;
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    if (!std::filesystem::is_directory(folder, missing)) {
+        return base::Error{"The study " + path.string() + " cannot be made: there is no folder " +
+                           folder.string() + ". Make that first."};
+    }
+    const auto refuseExisting = [&] {
+        return base::Error{
+            path.string() +
+            " exists already. Choose another name for the new study, or go on with the old one."};
+    };
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, missing))) return refuseExisting();
+    auto lock = FileLock::acquire(path);
+    if (!lock) return lock.error();
+
+    // Written beside and renamed, so that a study is either whole or not there.
+    std::filesystem::path unfinished = path;
+    unfinished += ".new";
+    removeUnfinished(unfinished);
+    const auto made = guarded(path, "The study could not be made", [&]() -> base::Status {
+        SQLite::Database database(unfinished.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        writeNewStudy(database, settings, part, program);
+        return base::success();
+    });
+    std::error_code failure;
+    if (made.ok() && std::filesystem::exists(std::filesystem::symlink_status(path, missing))) {
+        removeUnfinished(unfinished);
+        return refuseExisting();
+    }
+    if (made.ok()) std::filesystem::rename(unfinished, path, failure);
+    if (!made.ok() || failure) {
+        removeUnfinished(unfinished);
+        if (!made.ok()) return made.error();
+        return base::Error{"The study " + path.string() + " could not be made (" + failure.message() + ")."};
+    }
+    syncFolder(folder);
+
+    auto database = openForWriting(path);
+    if (!database) return database.error();
+    auto state = std::make_unique<State>();
+    state->path = path;
+    state->program = program;
+    state->lock = std::move(lock).value();
+    state->database = std::move(database).value();
+    return StudyFile(std::move(state));
+}
+
+base::Result<StudyFile> StudyFile::open(const std::filesystem::path& path, const std::string& program) {
+    if (const auto file = checkStudyFile(path); !file) return file.error();
+    auto lock = FileLock::acquire(path);
+    if (!lock) return lock.error();
+    auto database = openForWriting(path);
+    if (!database) return database.error();
+    auto state = std::make_unique<State>();
+    state->path = path;
+    state->program = program;
+    state->lock = std::move(lock).value();
+    state->database = std::move(database).value();
+    return StudyFile(std::move(state));
+}
+
+base::Result<StudyFile> StudyFile::openReadOnly(const std::filesystem::path& path) {
+    auto database = openForReading(path);
+    if (!database) return database.error();
+    auto state = std::make_unique<State>();
+    state->path = path;
+    state->database = std::move(database).value();
+    return StudyFile(std::move(state));
+}
+
+const std::filesystem::path& StudyFile::path() const {
+    return state_->path;
+}
+
+bool StudyFile::writable() const {
+    return state_->lock.has_value();
+}
+
+base::Result<StudyOrigin> StudyFile::loadOrigin() const {
+    return guarded(path(), "The study could not be read", [&]() -> base::Result<StudyOrigin> {
+        SQLite::Statement query(*state_->database, "SELECT program, created FROM study");
+        if (!query.executeStep()) return damagedValue(path(), "its origin");
+        return StudyOrigin{query.getColumn(0).getString(), query.getColumn(1).getString()};
+    });
+}
+
+base::Result<study::Settings> StudyFile::loadSettings() const {
+    return guarded(path(), "The settings could not be read", [&]() -> base::Result<study::Settings> {
+        const std::string json = state_->database->execAndGet("SELECT settings FROM study").getString();
+        auto settings = study::settingsFromJson(json, study::Settings{});
+        if (!settings) return base::Error{"The study " + path().string() + ": " + settings.error().message};
+        return settings;
+    });
+}
+
+base::Result<StoredPart> StudyFile::loadPart() const {
+    return guarded(path(), "The part could not be read", [&]() -> base::Result<StoredPart> {
+        SQLite::Statement query(
+            *state_->database,
+            "SELECT name, source, density, symmetry_tolerance, vertices, triangles FROM part");
+        if (!query.executeStep()) return damagedValue(path(), "its part");
+        StoredPart part;
+        part.options.name = query.getColumn(0).getString();
+        part.options.source = query.getColumn(1).getString();
+        part.options.density = query.getColumn(2).getDouble();
+        part.options.symmetryTolerance = query.getColumn(3).getDouble();
+        auto vertices = unpackVertices(readBlob(query, 4));
+        if (!vertices) return damagedValue(path(), "the part's mesh");
+        auto triangles = unpackTriangles(readBlob(query, 5), vertices->size());
+        if (!triangles) return damagedValue(path(), "the part's mesh");
+        part.mesh = {std::move(*vertices), std::move(*triangles)};
+        return part;
+    });
+}
+
+base::Status StudyFile::changeSettings(const study::Settings& settings) {
+    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    const auto present = loadSettings();
+    if (!present) return present.error();
+    return guarded(path(), "The settings could not be saved", [&]() -> base::Status {
+        study::Settings free = settings;
+        free.evolution.generations = present->evolution.generations;
+        free.validation = present->validation;
+        if (!(free == *present) && state_->countRows("generation") > 0) {
+            return base::Error{
+                "The study " + path().string() +
+                " has generations that were made with its settings. Only evolution.generations and the "
+                "validation settings can change now; make a new study for the others."};
+        }
+        SQLite::Transaction transaction(*state_->database, SQLite::TransactionBehavior::IMMEDIATE);
+        writeSettings(*state_->database, settings);
+        transaction.commit();
+        return base::success();
+    });
+}
+
+}  // namespace trapwright::store

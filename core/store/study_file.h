@@ -1,0 +1,86 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/geometry/triangle_mesh.h"
+#include "core/part/part_builder.h"
+#include "core/study/records.h"
+#include "core/study/settings.h"
+
+namespace trapwright::store {
+
+/// The part of a study as it was imported. part::buildPart(mesh, options) gives the same part bit for bit
+/// each time; who learns or replays must take the part from there.
+struct StoredPart {
+    geometry::TriangleMesh mesh;  // [m]
+    part::PartOptions options;    // name, original file, density, symmetry tolerance
+};
+
+/// Where a study comes from.
+struct StudyOrigin {
+    std::string program;  // that made the file, with its version
+    std::string created;  // UTC, "2026-03-31T12:00:00Z"
+};
+
+/// One design task in one SQLite file (`.trap`): settings, part, every generation and individual, selections
+/// and validations.
+///
+/// At most one StudyFile can have a study open for writing, in all processes; any number can read it
+/// meanwhile and see each generation as soon as it is saved, whole or not at all. What was saved stays,
+/// whatever happens to the process or the disk afterwards. All errors name the file and say what to do. An
+/// object is used by one thread at a time.
+class StudyFile {
+ public:
+    /// Makes a new study and opens it for writing. Nothing is left behind on failure. An error if the path
+    /// exists. `program` is this program's name and version; it is noted in the file and beside everything
+    /// that is saved.
+    static base::Result<StudyFile> create(const std::filesystem::path& path, const study::Settings& settings,
+                                          const StoredPart& part, const std::string& program);
+    /// Opens a study to go on with it. An error if another has it open for writing, or if it cannot be
+    /// written.
+    static base::Result<StudyFile> open(const std::filesystem::path& path, const std::string& program);
+    static base::Result<StudyFile> openReadOnly(const std::filesystem::path& path);
+
+    StudyFile(StudyFile&&) noexcept;
+    StudyFile& operator=(StudyFile&&) noexcept;
+    ~StudyFile();
+
+    [[nodiscard]] const std::filesystem::path& path() const;
+    [[nodiscard]] bool writable() const;
+
+    [[nodiscard]] base::Result<StudyOrigin> loadOrigin() const;
+    [[nodiscard]] base::Result<study::Settings> loadSettings() const;
+    [[nodiscard]] base::Result<StoredPart> loadPart() const;
+    /// Replaces the settings. Once a generation is saved only the number of generations and what concerns
+    /// selection and validation may change, because the stored scores belong to the rest.
+    base::Status changeSettings(const study::Settings& settings);
+
+    /// Adds the next generation (index = generationCount) in one transaction.
+    base::Status saveGeneration(const study::GenerationRecord& record);
+    [[nodiscard]] base::Result<int> generationCount() const;
+    [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
+    [[nodiscard]] base::Result<study::IndividualRecord> loadIndividual(int generation, int individual) const;
+    /// Winner, curves and time of every generation from `first` on: all that a chart needs.
+    [[nodiscard]] base::Result<std::vector<study::GenerationSummary>> loadSummaries(int first = 0) const;
+    /// The winner of every generation, in their order.
+    [[nodiscard]] base::Result<std::vector<study::Winner>> loadWinners() const;
+
+    base::Status saveSelection(const study::SelectionRecord& record);
+    /// All selections, oldest first.
+    [[nodiscard]] base::Result<std::vector<study::SelectionRecord>> loadSelections() const;
+    base::Status saveValidation(const study::ValidationRecord& record);
+    /// All validations, oldest first.
+    [[nodiscard]] base::Result<std::vector<study::ValidationRecord>> loadValidations() const;
+
+ private:
+    struct State;
+    explicit StudyFile(std::unique_ptr<State> state);
+
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace trapwright::store

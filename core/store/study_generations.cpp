@@ -1,0 +1,198 @@
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Transaction.h>
+
+#include "core/store/packing.h"
+#include "core/store/study_state.h"
+
+namespace trapwright::store {
+
+namespace {
+
+constexpr const char* kIndividualColumns =
+    "points, lengths, strategy, collision, distance, orientation, overlaps, trials, finished, fell_off, "
+    "stuck";
+
+void bindBlob(SQLite::Statement& statement, int index, const std::string& blob) {
+    statement.bind(index, blob.data(), static_cast<int>(blob.size()));
+}
+
+void insertIndividual(SQLite::Statement& statement, int generation, int number,
+                      const study::IndividualRecord& record) {
+    statement.reset();
+    statement.bind(1, generation);
+    statement.bind(2, number);
+    bindBlob(statement, 3, packBits(record.chromosome.points));
+    bindBlob(statement, 4, packBits(record.chromosome.lengths));
+    bindBlob(statement, 5, packBits(record.chromosome.strategy));
+    statement.bind(6, record.fitness.collision);
+    statement.bind(7, record.fitness.distance);
+    statement.bind(8, record.fitness.orientation);
+    statement.bind(9, record.overlaps);
+    statement.bind(10, record.trials);
+    statement.bind(11, record.finished);
+    statement.bind(12, record.fellOff);
+    statement.bind(13, record.stuck);
+    statement.exec();
+}
+
+/// The columns of kIndividualColumns from `first` on; none if a gene is no gene.
+std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& query, int first) {
+    auto points = unpackBits(readBlob(query, first));
+    auto lengths = unpackBits(readBlob(query, first + 1));
+    auto strategy = unpackBits(readBlob(query, first + 2));
+    if (!points || !lengths || !strategy) return std::nullopt;
+    study::IndividualRecord record;
+    record.chromosome = {std::move(*points), std::move(*lengths), std::move(*strategy)};
+    record.fitness = readFitness(query, first + 3);
+    record.overlaps = query.getColumn(first + 6).getInt();
+    record.trials = query.getColumn(first + 7).getInt();
+    record.finished = query.getColumn(first + 8).getInt();
+    record.fellOff = query.getColumn(first + 9).getInt();
+    record.stuck = query.getColumn(first + 10).getInt();
+    return record;
+}
+
+constexpr const char* kSummaryQuery =
+    "SELECT number, winner, seconds, best_collision, best_distance, best_orientation, top_collision, "
+    "top_distance, "
+    "top_orientation, top_crossover, top_mutation, top_smoothing FROM generation ";
+
+study::GenerationSummary readSummary(const SQLite::Statement& query) {
+    study::GenerationSummary summary;
+    summary.index = query.getColumn(0).getInt();
+    summary.winner = query.getColumn(1).getInt();
+    summary.seconds = query.getColumn(2).getDouble();
+    summary.statistics.best = readFitness(query, 3);
+    summary.statistics.topMean = readFitness(query, 6);
+    summary.statistics.topStrategy = {query.getColumn(9).getDouble(), query.getColumn(10).getDouble(),
+                                      query.getColumn(11).getDouble()};
+    return summary;
+}
+
+std::string nameOf(int generation, int individual) {
+    return "individual " + std::to_string(individual) + " of generation " + std::to_string(generation);
+}
+
+}  // namespace
+
+base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
+    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    const std::string doing = "Generation " + std::to_string(record.index) + " could not be saved";
+    return guarded(path(), doing, [&]() -> base::Status {
+        SQLite::Database& database = *state_->database;
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        const int count = state_->countRows("generation");
+        if (record.index != count) {
+            return base::Error{doing + ": the study " + path().string() + " has " + std::to_string(count) +
+                               " generations, and the next one must have that number."};
+        }
+        SQLite::Statement generation(database,
+                                     "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        const study::GenerationStatistics& s = record.statistics;
+        SQLite::bind(generation, record.index, state_->program, record.winner, s.best.collision,
+                     s.best.distance, s.best.orientation, s.topMean.collision, s.topMean.distance,
+                     s.topMean.orientation, s.topStrategy.crossover, s.topStrategy.mutation,
+                     s.topStrategy.smoothing, record.seconds);
+        generation.exec();
+        SQLite::Statement individual(database,
+                                     "INSERT INTO individual VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        for (std::size_t i = 0; i < record.individuals.size(); ++i) {
+            insertIndividual(individual, record.index, static_cast<int>(i), record.individuals[i]);
+        }
+        transaction.commit();
+        return base::success();
+    });
+}
+
+base::Result<int> StudyFile::generationCount() const {
+    return guarded(path(), "The study could not be read",
+                   [&]() -> base::Result<int> { return state_->countRows("generation"); });
+}
+
+base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const {
+    const std::string doing = "Generation " + std::to_string(index) + " could not be read";
+    return guarded(path(), doing, [&]() -> base::Result<study::GenerationRecord> {
+        SQLite::Statement head(*state_->database, std::string(kSummaryQuery) + "WHERE number = ?");
+        head.bind(1, index);
+        if (!head.executeStep()) {
+            return base::Error{doing + ": the study " + path().string() + " has " +
+                               std::to_string(state_->countRows("generation")) +
+                               " generations, counted from 0."};
+        }
+        const study::GenerationSummary summary = readSummary(head);
+        study::GenerationRecord record;
+        record.index = summary.index;
+        record.winner = summary.winner;
+        record.statistics = summary.statistics;
+        record.seconds = summary.seconds;
+
+        SQLite::Statement query(*state_->database,
+                                std::string("SELECT ") + kIndividualColumns +
+                                    " FROM individual WHERE generation = ? ORDER BY number");
+        query.bind(1, index);
+        while (query.executeStep()) {
+            auto individual = readIndividual(query, 0);
+            if (!individual)
+                return damagedValue(path(), nameOf(index, static_cast<int>(record.individuals.size())));
+            record.individuals.push_back(std::move(*individual));
+        }
+        const int count = static_cast<int>(record.individuals.size());
+        if (record.winner < 0 || record.winner >= count)
+            return damagedValue(path(), "the winner of generation " + std::to_string(index));
+        return record;
+    });
+}
+
+base::Result<study::IndividualRecord> StudyFile::loadIndividual(int generation, int individual) const {
+    const std::string name = nameOf(generation, individual);
+    return guarded(path(), "The " + name + " could not be read",
+                   [&]() -> base::Result<study::IndividualRecord> {
+                       SQLite::Statement query(*state_->database,
+                                               std::string("SELECT ") + kIndividualColumns +
+                                                   " FROM individual WHERE generation = ? AND number = ?");
+                       SQLite::bind(query, generation, individual);
+                       if (!query.executeStep()) {
+                           return base::Error{"The study " + path().string() + " has no " + name +
+                                              "; it has " + std::to_string(state_->countRows("generation")) +
+                                              " generations. Generations and individuals count from 0."};
+                       }
+                       auto record = readIndividual(query, 0);
+                       if (!record) return damagedValue(path(), name);
+                       return std::move(*record);
+                   });
+}
+
+base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int first) const {
+    return guarded(path(), "The generations could not be read",
+                   [&]() -> base::Result<std::vector<study::GenerationSummary>> {
+                       SQLite::Statement query(*state_->database, std::string(kSummaryQuery) +
+                                                                      "WHERE number >= ? ORDER BY number");
+                       query.bind(1, first);
+                       std::vector<study::GenerationSummary> summaries;
+                       while (query.executeStep())
+                           summaries.push_back(readSummary(query));
+                       return summaries;
+                   });
+}
+
+base::Result<std::vector<study::Winner>> StudyFile::loadWinners() const {
+    return guarded(path(), "The winners could not be read",
+                   [&]() -> base::Result<std::vector<study::Winner>> {
+                       SQLite::Statement query(
+                           *state_->database,
+                           std::string("SELECT generation, individual.number, ") + kIndividualColumns +
+                               " FROM generation JOIN individual ON individual.generation = generation.number"
+                               " AND individual.number = generation.winner ORDER BY generation");
+                       std::vector<study::Winner> winners;
+                       while (query.executeStep()) {
+                           const int generation = query.getColumn(0).getInt();
+                           const int number = query.getColumn(1).getInt();
+                           auto record = readIndividual(query, 2);
+                           if (!record) return damagedValue(path(), nameOf(generation, number));
+                           winners.push_back({generation, number, std::move(*record)});
+                       }
+                       return winners;
+                   });
+}
+
+}  // namespace trapwright::store

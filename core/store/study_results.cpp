@@ -1,0 +1,134 @@
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Transaction.h>
+
+#include "core/store/study_state.h"
+
+namespace trapwright::store {
+
+namespace {
+
+study::SelectionEntry readEntry(const SQLite::Statement& query) {
+    study::SelectionEntry entry;
+    entry.generation = query.getColumn(0).getInt();
+    entry.individual = query.getColumn(1).getInt();
+    entry.fitness = readFitness(query, 2);
+    entry.trials = query.getColumn(5).getInt();
+    entry.finished = query.getColumn(6).getInt();
+    entry.oriented = query.getColumn(7).getInt();
+    entry.modalOrientation = readRotation(query, 8);
+    return entry;
+}
+
+study::ValidationRow readRow(const SQLite::Statement& query) {
+    study::ValidationRow row;
+    row.pose = query.getColumn(0).getInt();
+    row.trials = query.getColumn(1).getInt();
+    row.failures = query.getColumn(2).getInt();
+    row.wrongOrientation = query.getColumn(3).getInt();
+    row.stuck = query.getColumn(4).getInt();
+    row.fellOff = query.getColumn(5).getInt();
+    return row;
+}
+
+}  // namespace
+
+base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
+    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    return guarded(path(), "The selection could not be saved", [&]() -> base::Status {
+        SQLite::Database& database = *state_->database;
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        const int number = state_->countRows("selection");
+        SQLite::Statement head(database, "INSERT INTO selection VALUES (?, ?, ?)");
+        SQLite::bind(head, number, state_->program, record.engine);
+        head.exec();
+        SQLite::Statement row(
+            database, "INSERT INTO selection_entry VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        int rank = 0;
+        for (const study::SelectionEntry& e : record.entries) {
+            const base::Quaternion& q = e.modalOrientation;
+            row.reset();
+            SQLite::bind(row, number, rank++, e.generation, e.individual, e.fitness.collision,
+                         e.fitness.distance, e.fitness.orientation, e.trials, e.finished, e.oriented, q.w(),
+                         q.x(), q.y(), q.z());
+            row.exec();
+        }
+        transaction.commit();
+        return base::success();
+    });
+}
+
+base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() const {
+    return guarded(path(), "The selections could not be read",
+                   [&]() -> base::Result<std::vector<study::SelectionRecord>> {
+                       SQLite::Statement heads(*state_->database,
+                                               "SELECT number, engine FROM selection ORDER BY number");
+                       SQLite::Statement rows(
+                           *state_->database,
+                           "SELECT generation, individual, collision, distance, orientation, trials, "
+                           "finished, oriented, modal_w, modal_x, modal_y, modal_z "
+                           "FROM selection_entry WHERE selection = ? ORDER BY rank");
+                       std::vector<study::SelectionRecord> records;
+                       while (heads.executeStep()) {
+                           study::SelectionRecord record;
+                           record.engine = heads.getColumn(1).getString();
+                           rows.reset();
+                           rows.bind(1, heads.getColumn(0).getInt());
+                           while (rows.executeStep())
+                               record.entries.push_back(readEntry(rows));
+                           records.push_back(std::move(record));
+                       }
+                       return records;
+                   });
+}
+
+base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
+    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    return guarded(path(), "The validation could not be saved", [&]() -> base::Status {
+        SQLite::Database& database = *state_->database;
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        const int number = state_->countRows("validation");
+        const base::Quaternion& q = record.expectedOrientation;
+        SQLite::Statement head(database, "INSERT INTO validation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        SQLite::bind(head, number, state_->program, record.engine, record.generation, record.individual,
+                     q.w(), q.x(), q.y(), q.z(), record.tolerance);
+        head.exec();
+        SQLite::Statement row(database, "INSERT INTO validation_row VALUES (?, ?, ?, ?, ?, ?, ?)");
+        for (const study::ValidationRow& r : record.rows) {
+            row.reset();
+            SQLite::bind(row, number, r.pose, r.trials, r.failures, r.wrongOrientation, r.stuck, r.fellOff);
+            row.exec();
+        }
+        transaction.commit();
+        return base::success();
+    });
+}
+
+base::Result<std::vector<study::ValidationRecord>> StudyFile::loadValidations() const {
+    return guarded(
+        path(), "The validations could not be read",
+        [&]() -> base::Result<std::vector<study::ValidationRecord>> {
+            SQLite::Statement heads(*state_->database,
+                                    "SELECT number, engine, generation, individual, expected_w, expected_x, "
+                                    "expected_y, expected_z, tolerance FROM validation ORDER BY number");
+            SQLite::Statement rows(*state_->database,
+                                   "SELECT pose, trials, failures, wrong_orientation, stuck, fell_off "
+                                   "FROM validation_row WHERE validation = ? ORDER BY pose");
+            std::vector<study::ValidationRecord> records;
+            while (heads.executeStep()) {
+                study::ValidationRecord record;
+                record.engine = heads.getColumn(1).getString();
+                record.generation = heads.getColumn(2).getInt();
+                record.individual = heads.getColumn(3).getInt();
+                record.expectedOrientation = readRotation(heads, 4);
+                record.tolerance = heads.getColumn(8).getDouble();
+                rows.reset();
+                rows.bind(1, heads.getColumn(0).getInt());
+                while (rows.executeStep())
+                    record.rows.push_back(readRow(rows));
+                records.push_back(std::move(record));
+            }
+            return records;
+        });
+}
+
+}  // namespace trapwright::store

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+#include <SQLiteCpp/VariadicBind.h>
+
+#include <optional>
+
+#include "core/store/connection.h"
+#include "core/store/file_lock.h"
+#include "core/store/study_file.h"
+
+namespace trapwright::store {
+
+// Inside core/store only: SQLite's types end here.
+
+/// What an open study holds. Closing gives the lock back after the database, never before.
+struct StudyFile::State {
+    std::filesystem::path path;
+    std::string program;           // empty if read only
+    std::optional<FileLock> lock;  // if open for writing
+    std::unique_ptr<SQLite::Database> database;
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State();
+
+    /// An error if the study was opened for reading only.
+    [[nodiscard]] base::Status checkWritable() const;
+    /// How many rows the table has; its rows are numbered from 0.
+    [[nodiscard]] int countRows(const std::string& table) const;
+};
+
+/// A value from the file that cannot be; `what` names it.
+base::Error damagedValue(const std::filesystem::path& path, const std::string& what);
+
+/// Three scores from column `first` on.
+trial::Fitness readFitness(const SQLite::Statement& statement, int first);
+/// A rotation (w, x, y, z) from column `first` on.
+base::Quaternion readRotation(const SQLite::Statement& statement, int first);
+std::string readBlob(const SQLite::Statement& statement, int column);
+
+}  // namespace trapwright::store

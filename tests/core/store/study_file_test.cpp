@@ -1,0 +1,248 @@
+#include "core/store/study_file.h"
+
+#include <QTemporaryDir>
+#include <QtTest>
+#include <set>
+
+#include "sample_study.h"
+
+using namespace trapwright;
+using store::StudyFile;
+
+namespace {
+
+std::set<std::string> filesIn(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        names.insert(entry.path().filename().string());
+    return names;
+}
+
+study::SelectionRecord sampleSelection(double offset) {
+    study::SelectionRecord record{"simbody", {}};
+    for (int i = 0; i < 3; ++i) {
+        record.entries.push_back({10 - i,
+                                  i,
+                                  {-1.0 * i, -0.1 - offset, 0.7 + 0.01 * i},
+                                  1000,
+                                  999 - i,
+                                  990 - i,
+                                  base::Quaternion(0.5, -0.5, 0.1 + 0.2, offset)});
+    }
+    return record;
+}
+
+study::ValidationRecord sampleValidation(int generation) {
+    study::ValidationRecord record;
+    record.generation = generation;
+    record.individual = 3;
+    record.engine = "native";
+    record.expectedOrientation = base::Quaternion(0.1, 0.2, 0.3, 0.4);
+    record.tolerance = 25.0 * base::kDegree;
+    for (int i = 0; i < 3; ++i)
+        record.rows.push_back({i, 1000, 10 * i + 6, 10 * i, 4, 2});
+    return record;
+}
+
+}  // namespace
+
+class StudyFileTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void init() {
+        folder_.emplace();
+        path_ = std::filesystem::path(folder_->path().toStdString()) / "a study.trap";
+    }
+
+    void keepsSettingsPartAndOrigin() {
+        sample::write(path_, 0);
+        for (const bool readOnly : {true, false}) {
+            auto study = readOnly ? StudyFile::openReadOnly(path_) : StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(study);
+            QCOMPARE(study->writable(), !readOnly);
+            const auto settings = study->loadSettings();
+            VERIFY_OK(settings);
+            QVERIFY(*settings == sample::settings());
+            const auto part = study->loadPart();
+            VERIFY_OK(part);
+            QVERIFY(part->mesh.vertices == sample::part().mesh.vertices);
+            QVERIFY(part->mesh.triangles == sample::part().mesh.triangles);
+            QCOMPARE(part->options.name, std::string("tetrahedron"));
+            QCOMPARE(part->options.source, std::string("/parts/tetra.stl"));
+            QCOMPARE(part->options.density, 1041.5);
+            QCOMPARE(part->options.symmetryTolerance, 0.0125);
+            const auto origin = study->loadOrigin();
+            VERIFY_OK(origin);
+            QCOMPARE(origin->program, sample::kProgram);
+            QVERIFY(QDateTime::fromString(QString::fromStdString(origin->created), Qt::ISODate).isValid());
+            QCOMPARE(study->generationCount().value(), 0);
+        }
+    }
+
+    void keepsGenerationsExactly() {
+        sample::write(path_, 3);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        VERIFY_OK(study->saveGeneration(sample::generation(3)));
+        QCOMPARE(study->generationCount().value(), 4);
+        for (int i = 0; i < 4; ++i) {
+            const auto record = study->loadGeneration(i);
+            VERIFY_OK(record);
+            QVERIFY(sample::equal(*record, sample::generation(i)));
+        }
+        QVERIFY(study->loadIndividual(2, 5).value() == sample::generation(2).individuals[5]);
+
+        const auto winners = study->loadWinners();
+        VERIFY_OK(winners);
+        const auto summaries = study->loadSummaries(1);
+        VERIFY_OK(summaries);
+        QCOMPARE(winners->size(), std::size_t{4});
+        QCOMPARE(summaries->size(), std::size_t{3});
+        for (int i = 0; i < 4; ++i) {
+            const study::GenerationRecord expected = sample::generation(i);
+            const study::Winner& winner = (*winners)[static_cast<std::size_t>(i)];
+            QCOMPARE(winner.generation, i);
+            QCOMPARE(winner.individual, expected.winner);
+            QVERIFY(winner.record == expected.individuals[static_cast<std::size_t>(expected.winner)]);
+            if (i == 0) continue;
+            const study::GenerationSummary& summary = (*summaries)[static_cast<std::size_t>(i - 1)];
+            QCOMPARE(summary.index, i);
+            QCOMPARE(summary.winner, expected.winner);
+            QVERIFY(summary.statistics == expected.statistics);
+            QCOMPARE(summary.seconds, expected.seconds);
+        }
+    }
+
+    void refusesAGenerationOutOfTurn() {
+        sample::write(path_, 2);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QVERIFY(
+            sample::messageOf(study->saveGeneration(sample::generation(1))).contains("has 2 generations"));
+        QVERIFY(
+            sample::messageOf(study->saveGeneration(sample::generation(3))).contains("has 2 generations"));
+        QCOMPARE(study->generationCount().value(), 2);
+        QVERIFY(sample::messageOf(study->loadGeneration(2)).contains("has 2 generations"));
+        QVERIFY(sample::messageOf(study->loadIndividual(1, 6)).contains("no individual 6 of generation 1"));
+    }
+
+    void keepsSelectionsAndValidations() {
+        {
+            auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+            VERIFY_OK(study);
+            QVERIFY(study->loadSelections().value().empty());
+            QVERIFY(study->loadValidations().value().empty());
+            for (const double offset : {0.0, 0.25})
+                VERIFY_OK(study->saveSelection(sampleSelection(offset)));
+            for (const int generation : {7, 9})
+                VERIFY_OK(study->saveValidation(sampleValidation(generation)));
+        }
+        const auto study = StudyFile::openReadOnly(path_);
+        VERIFY_OK(study);
+        const auto selections = study->loadSelections();
+        const auto validations = study->loadValidations();
+        VERIFY_OK(selections);
+        VERIFY_OK(validations);
+        QCOMPARE(selections->size(), std::size_t{2});
+        QCOMPARE(validations->size(), std::size_t{2});
+        for (std::size_t s = 0; s < 2; ++s) {
+            const study::SelectionRecord expected = sampleSelection(s == 0 ? 0.0 : 0.25);
+            const study::SelectionRecord& actual = (*selections)[s];
+            QCOMPARE(actual.engine, expected.engine);
+            QCOMPARE(actual.entries.size(), expected.entries.size());
+            for (std::size_t i = 0; i < expected.entries.size(); ++i) {
+                const study::SelectionEntry& a = actual.entries[i];
+                const study::SelectionEntry& e = expected.entries[i];
+                QCOMPARE(a.generation, e.generation);
+                QCOMPARE(a.individual, e.individual);
+                QVERIFY(a.fitness == e.fitness);
+                QCOMPARE(a.trials, e.trials);
+                QCOMPARE(a.finished, e.finished);
+                QCOMPARE(a.oriented, e.oriented);
+                QVERIFY(a.modalOrientation.coeffs() == e.modalOrientation.coeffs());
+            }
+            const study::ValidationRecord expectedTable = sampleValidation(s == 0 ? 7 : 9);
+            const study::ValidationRecord& table = (*validations)[s];
+            QCOMPARE(table.generation, expectedTable.generation);
+            QCOMPARE(table.individual, 3);
+            QCOMPARE(table.engine, std::string("native"));
+            QCOMPARE(table.tolerance, expectedTable.tolerance);
+            QVERIFY(table.expectedOrientation.coeffs() == expectedTable.expectedOrientation.coeffs());
+            QCOMPARE(table.rows.size(), std::size_t{3});
+            for (std::size_t i = 0; i < 3; ++i) {
+                const study::ValidationRow& a = table.rows[i];
+                const study::ValidationRow& e = expectedTable.rows[i];
+                QCOMPARE(a.pose, e.pose);
+                QCOMPARE(a.trials, e.trials);
+                QCOMPARE(a.failures, e.failures);
+                QCOMPARE(a.wrongOrientation, e.wrongOrientation);
+                QCOMPARE(a.stuck, e.stuck);
+                QCOMPARE(a.fellOff, e.fellOff);
+            }
+        }
+    }
+
+    void readerSeesEachGenerationAsItIsSaved() {
+        auto writer = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+        VERIFY_OK(writer);
+        const auto reader = StudyFile::openReadOnly(path_);
+        VERIFY_OK(reader);
+        for (int i = 0; i < 20; ++i) {
+            VERIFY_OK(writer->saveGeneration(sample::generation(i)));
+            QCOMPARE(reader->generationCount().value(), i + 1);
+            QVERIFY(sample::equal(reader->loadGeneration(i).value(), sample::generation(i)));
+        }
+        // The reader stays while writers go and come.
+        *writer = StudyFile::openReadOnly(path_).value();
+        auto second = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(second);
+        VERIFY_OK(second->saveGeneration(sample::generation(20)));
+        QCOMPARE(reader->generationCount().value(), 21);
+    }
+
+    void readerCannotWrite() {
+        sample::write(path_, 1);
+        auto reader = StudyFile::openReadOnly(path_);
+        VERIFY_OK(reader);
+        const QString refused = "open for reading only";
+        QVERIFY(sample::messageOf(reader->saveGeneration(sample::generation(1))).contains(refused));
+        QVERIFY(sample::messageOf(reader->saveSelection(sampleSelection(0))).contains(refused));
+        QVERIFY(sample::messageOf(reader->saveValidation(sampleValidation(0))).contains(refused));
+        QVERIFY(sample::messageOf(reader->changeSettings(sample::settings())).contains(refused));
+    }
+
+    void closingLeavesOneFile() {
+        sample::write(path_, 3);
+        QCOMPARE(filesIn(path_.parent_path()), std::set<std::string>{path_.filename().string()});
+    }
+
+    void onlyHarmlessSettingsChangeOnceThereAreGenerations() {
+        auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+        VERIFY_OK(study);
+        study::Settings settings = sample::settings();
+        settings.evolution.seed = 5;
+        VERIFY_OK(study->changeSettings(settings));
+        VERIFY_OK(study->saveGeneration(sample::generation(0)));
+
+        settings.evolution.generations = 500;
+        settings.validation.selectionWinners = 30;
+        VERIFY_OK(study->changeSettings(settings));
+        QVERIFY(study->loadSettings().value() == settings);
+
+        study::Settings other = settings;
+        other.evolution.seed = 6;
+        QVERIFY(sample::messageOf(study->changeSettings(other)).contains("make a new study"));
+        other = settings;
+        other.simulation.contact.restitution = 0.31;
+        QVERIFY(!study->changeSettings(other).ok());
+        QVERIFY(study->loadSettings().value() == settings);
+    }
+
+ private:
+    std::optional<QTemporaryDir> folder_;
+    std::filesystem::path path_;
+};
+
+QTEST_APPLESS_MAIN(StudyFileTest)
+#include "study_file_test.moc"

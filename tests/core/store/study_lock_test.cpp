@@ -1,0 +1,141 @@
+#include <sys/wait.h>
+#include <unistd.h>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <csignal>
+
+#include "core/store/file_lock.h"
+#include "sample_study.h"
+
+using namespace trapwright;
+using store::StudyFile;
+
+namespace {
+
+/// Another process that has the study open for writing until it is killed, having saved generation `index`.
+class OtherWriter {
+ public:
+    OtherWriter(const std::filesystem::path& path, int index) {
+        std::array<int, 2> ready{};
+        if (::pipe(ready.data()) != 0) return;
+        process_ = ::fork();
+        if (process_ == 0) {
+            auto study = StudyFile::open(path, sample::kProgram);
+            const char state =
+                study.ok() && study->saveGeneration(sample::generation(index)).ok() ? 'y' : 'n';
+            if (::write(ready[1], &state, 1) != 1) ::_exit(1);
+            for (;;)
+                ::pause();
+        }
+        ::close(ready[1]);
+        char state = 'n';
+        opened_ = ::read(ready[0], &state, 1) == 1 && state == 'y';
+        ::close(ready[0]);
+    }
+    OtherWriter(const OtherWriter&) = delete;
+    OtherWriter& operator=(const OtherWriter&) = delete;
+    ~OtherWriter() { kill(); }
+
+    [[nodiscard]] bool opened() const { return opened_; }
+    [[nodiscard]] pid_t process() const { return process_; }
+    void kill() {
+        if (process_ <= 0) return;
+        ::kill(process_, SIGKILL);
+        ::waitpid(process_, nullptr, 0);
+        process_ = -1;
+    }
+
+ private:
+    pid_t process_ = -1;
+    bool opened_ = false;
+};
+
+}  // namespace
+
+class StudyLockTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void init() {
+        folder_.emplace();
+        path_ = std::filesystem::path(folder_->path().toStdString()) / "study.trap";
+    }
+
+    void secondWriterInThisProcessIsRefused() {
+        sample::write(path_, 1);
+        {
+            auto first = StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(first);
+            const QString message = sample::messageOf(StudyFile::open(path_, sample::kProgram));
+            QVERIFY2(message.contains("open for writing in another Trapwright"), qPrintable(message));
+            QVERIFY2(message.contains(QString::number(::getpid())), qPrintable(message));
+            // The refused attempt has not weakened the first.
+            QVERIFY(!StudyFile::open(path_, sample::kProgram).ok());
+            VERIFY_OK(first->saveGeneration(sample::generation(1)));
+        }
+        VERIFY_OK(StudyFile::open(path_, sample::kProgram));
+    }
+
+    void otherPathsToTheSameStudyAreRefused() {
+        sample::write(path_, 1);
+        const std::filesystem::path link = path_.parent_path() / "link.trap";
+        std::filesystem::create_symlink(path_, link);
+        const auto first = StudyFile::open(link, sample::kProgram);
+        VERIFY_OK(first);
+        QVERIFY(!StudyFile::open(path_, sample::kProgram).ok());
+        QVERIFY(!StudyFile::open(path_.parent_path() / "." / path_.filename(), sample::kProgram).ok());
+    }
+
+    void secondWriterInAnotherProcessIsRefused() {
+        sample::write(path_, 1);
+        OtherWriter other(path_, 1);
+        QVERIFY(other.opened());
+        const QString message = sample::messageOf(StudyFile::open(path_, sample::kProgram));
+        QVERIFY2(message.contains(QString("process %1").arg(other.process())), qPrintable(message));
+        // Reading is possible meanwhile.
+        const auto reader = StudyFile::openReadOnly(path_);
+        VERIFY_OK(reader);
+        QCOMPARE(reader->generationCount().value(), 2);
+    }
+
+    void killedWriterLosesNothingAndFreesTheStudy() {
+        sample::write(path_, 1);
+        OtherWriter other(path_, 1);
+        QVERIFY(other.opened());
+        other.kill();
+        QVERIFY(std::filesystem::exists(path_.string() + ".lock"));  // as a crash leaves it
+
+        QCOMPARE(StudyFile::openReadOnly(path_).value().generationCount().value(), 2);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QCOMPARE(study->generationCount().value(), 2);
+        QVERIFY(sample::equal(study->loadGeneration(1).value(), sample::generation(1)));
+        VERIFY_OK(study->saveGeneration(sample::generation(2)));
+    }
+
+    void newStudyCannotTakeTheNameOfAnOpenOne() {
+        const auto first = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+        VERIFY_OK(first);
+        QVERIFY(
+            sample::messageOf(StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram))
+                .contains("exists already"));
+    }
+
+    void lockIsMovedWithItsOwner() {
+        auto lock = store::FileLock::acquire(path_);
+        VERIFY_OK(lock);
+        store::FileLock moved = std::move(lock).value();
+        QVERIFY(!store::FileLock::acquire(path_).ok());
+        auto other = store::FileLock::acquire(path_.parent_path() / "other.trap");
+        VERIFY_OK(other);
+        moved = std::move(other).value();
+        VERIFY_OK(store::FileLock::acquire(path_));
+    }
+
+ private:
+    std::optional<QTemporaryDir> folder_;
+    std::filesystem::path path_;
+};
+
+QTEST_APPLESS_MAIN(StudyLockTest)
+#include "study_lock_test.moc"
