@@ -1,0 +1,33 @@
+#include "core/evolution/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/evolution/transition.h"
+
+namespace trapwright::evolution {
+
+std::vector<std::size_t> findTop(std::span<const double> fitnesses) {
+    std::vector<std::size_t> order(fitnesses.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return fitnesses[a] > fitnesses[b]; });
+    // 0.3 is a little more than three tenths in binary: 30 of 100, not 31.
+    const double share = kTopShare * static_cast<double>(fitnesses.size());
+    order.resize(static_cast<std::size_t>(std::ceil(share - 1e-9)));
+    return order;
+}
+
+StrategyValues calcGeometricMean(std::span<const StrategyValues> values) {
+    const auto combine = [&](double StrategyValues::*member) {
+        std::vector<double> components;
+        for (const StrategyValues& value : values)
+            components.push_back(value.*member);
+        return combineGeometricMean(components);
+    };
+    return {combine(&StrategyValues::crossover), combine(&StrategyValues::mutation),
+            combine(&StrategyValues::smoothing)};
+}
+
+}  // namespace trapwright::evolution

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/evolution/chromosome.h"
+
+/// What Figures 6 and 7 show of a population (design.md section 3, decision 9).
+namespace trapwright::evolution {
+
+/// The share of a population whose mean is shown.
+inline constexpr double kTopShare = 0.3;
+
+/// Indices of the best kTopShare of a population (rounded up), best first; among equals the lower index
+/// first. So the first is the winner.
+std::vector<std::size_t> findTop(std::span<const double> fitnesses);
+
+/// Component by component (Eq. 6).
+StrategyValues calcGeometricMean(std::span<const StrategyValues> values);
+
+}  // namespace trapwright::evolution

@@ -1,0 +1,88 @@
+#include "core/evolution/population.h"
+
+#include <QtTest>
+#include <vector>
+
+#include "core/evolution/operators.h"
+#include "core/evolution/statistics.h"
+
+using namespace trapwright;
+using evolution::Bits;
+
+namespace {
+
+constexpr evolution::ChromosomeLayout kLayout{40, 5};
+
+Bits keep(const Bits& points, double /*probability*/, base::Random& /*random*/) {
+    return points;
+}
+
+double countDifferent(const Bits& a, const Bits& b) {
+    double count = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        count += a[i] != b[i] ? 1.0 : 0.0;
+    return count;
+}
+
+}  // namespace
+
+class PopulationTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void populationIsRandomButRepeatable() {
+        const auto population = evolution::createPopulation(kLayout, 50, 9);
+        QCOMPARE(population.size(), std::size_t{50});
+        QVERIFY(population == evolution::createPopulation(kLayout, 50, 9));
+        QVERIFY(!(population == evolution::createPopulation(kLayout, 50, 10)));
+        double ones = 0.0;
+        for (const auto& individual : population) {
+            QCOMPARE(individual.points.size(), std::size_t{800});
+            QCOMPARE(individual.lengths.size(), std::size_t{50});
+            QCOMPARE(individual.strategy.size(), std::size_t{60});
+            ones += countDifferent(individual.points, Bits(800, 0));
+        }
+        QVERIFY(std::abs(ones / 40000.0 - 0.5) < 4.0 * 0.5 / 200.0);
+        // An individual does not depend on how many there are.
+        QVERIFY(evolution::createPopulation(kLayout, 3, 9)[2] == population[2]);
+    }
+
+    void childrenHaveTheirOwnStreams() {
+        const auto parents = evolution::createPopulation(kLayout, 30, 5);
+        std::vector<double> fitnesses;
+        for (int i = 0; i < 30; ++i)
+            fitnesses.push_back(-i);
+        const auto children = evolution::nextGeneration(parents, fitnesses, {}, keep, 5, 1);
+        QCOMPARE(children.size(), parents.size());
+        QVERIFY(children == evolution::nextGeneration(parents, fitnesses, {}, keep, 5, 1));
+        QVERIFY(!(children == evolution::nextGeneration(parents, fitnesses, {}, keep, 5, 2)));
+        QVERIFY(!(children == evolution::nextGeneration(parents, fitnesses, {}, keep, 6, 1)));
+        for (std::size_t i = 1; i < children.size(); ++i)
+            QVERIFY(!(children[i] == children[0]));
+        // Child 7 can be made alone.
+        base::Random selection({5, 1, 7, 0, base::Purpose::selection});
+        const auto a = evolution::selectByTournament(fitnesses, 6, selection);
+        const auto b = evolution::selectByTournament(fitnesses, 6, selection);
+        base::Random random({5, 1, 7, 0, base::Purpose::transition});
+        QVERIFY(children[7] == evolution::transition(parents[a], parents[b], {}, keep, random));
+    }
+
+    // The whole algorithm on a problem that is easy to state: as many ones as can be in gene 1.
+    void learns() {
+        auto population = evolution::createPopulation(kLayout, 60, 12);
+        std::vector<double> fitnesses;
+        double best = 0.0;
+        for (std::uint32_t generation = 1; generation <= 120; ++generation) {
+            fitnesses.clear();
+            for (const auto& individual : population)
+                fitnesses.push_back(countDifferent(individual.points, Bits(800, 0)));
+            best = fitnesses[evolution::findTop(fitnesses).front()];
+            population = evolution::nextGeneration(population, fitnesses, {6, {0.0005, 0.3, 0.0}}, keep, 12,
+                                                   generation);
+        }
+        QVERIFY2(best > 700.0, qPrintable(QString::number(best)));
+    }
+};
+
+QTEST_APPLESS_MAIN(PopulationTest)
+#include "population_test.moc"
