@@ -1,0 +1,18 @@
+#pragma once
+
+/// Confidence bounds of a success rate.
+namespace trapwright::stats {
+
+struct Interval {
+    double low = 0.0;
+    double high = 1.0;
+};
+
+/// Wilson's score interval (Wilson 1927): near the stated coverage on average, never outside [0, 1].
+/// 0 <= successes <= trials; no trials give [0, 1]. confidence in (0, 1), two-sided.
+Interval calcWilson(int successes, int trials, double confidence = 0.95);
+
+/// Clopper and Pearson's interval (1934): at least the stated coverage, always. Same arguments.
+Interval calcClopperPearson(int successes, int trials, double confidence = 0.95);
+
+}  // namespace trapwright::stats
