@@ -28,11 +28,11 @@ constexpr std::size_t kFirstDepth = 2;
 
 // Relative to the volume:
 constexpr double kConvexTolerance = 1e-5;
-constexpr double kVolumeTolerance = 5e-3;
+constexpr double kVolumeTolerance = 1e-2;
 constexpr double kMergeTolerance = 1e-3;
 constexpr double kDustVolume = 1e-7;
 
-constexpr std::size_t kMaxPieces = 256;
+constexpr std::size_t kMaxPieces = 768;
 constexpr std::size_t kMaxTriangles = 20000;
 constexpr std::size_t kMaxCandidates = 200;
 
@@ -241,7 +241,7 @@ base::Result<std::vector<ConvexPolytope>> computeConvexPieces(const TriangleMesh
             "No convex pieces: the part would need more than " + std::to_string(kMaxPieces) +
             ". Export it with a coarser tolerance, or leave out details that do not touch the track."};
     return base::Error{
-        "No convex pieces: they do not add up to the part's volume to within 0.5 %. Its surface probably "
+        "No convex pieces: they do not add up to the part's volume to within 1 %. Its surface probably "
         "crosses itself "
         "or has walls thinner than 0.01 % of its size. Repair it in CAD and export it again."};
 }

@@ -10,14 +10,16 @@ namespace trapwright::geometry {
 
 /// Convex pieces that do not overlap and whose union is the solid: one piece, its hull, if it is convex.
 /// The pieces serve for contact, so they are never fatter than the solid by more than 0.1 % of its volume
-/// (rounding of merges), and lack no more than 0.5 % of it. Hollows and inner corners stay free.
+/// (rounding of merges), and lack no more than 1 % of it. Hollows and inner corners stay free.
 ///
 /// `mesh` must be closed and outward oriented (repairMesh); its coordinates may carry the noise of single
 /// precision. The solid is cut by planes of its own faces, those first that cut the fewest triangles, until
-/// no face of a piece has any surface in front of it by more than a depth tolerance of 0.05 % of the size (as
-/// in the decomposition by notches of Chazelle 1984, but with a tolerance); then neighbours whose hull adds
-/// next to nothing are merged. Error: the mesh encloses no volume, is not closed, or is too fine or too
-/// involved for 256 pieces.
+/// no face of a piece has any surface in front of it by more than a depth tolerance (as in the decomposition
+/// by notches of Chazelle 1984, but with a tolerance); then neighbours whose hull adds next to nothing are
+/// merged. The tolerance is 0.05 % of the size; finer, down to 0.002 %, where too much volume would be lost;
+/// coarser, up to 0.5 %, where it takes too many pieces. Finely tessellated concave surfaces need a piece for
+/// each facet. Error: the mesh encloses no volume, crosses itself, or is too fine or too involved for 768
+/// pieces.
 base::Result<std::vector<ConvexPolytope>> computeConvexPieces(const TriangleMesh& mesh);
 
 }  // namespace trapwright::geometry

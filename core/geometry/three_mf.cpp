@@ -106,7 +106,7 @@ void appendObject(const Handle& object, double unit, TriangleMesh& mesh) {
                                   first + static_cast<int>(t.m_nIndices[2])});
 }
 
-TriangleMesh unpackMesh(std::string bytes) {
+PackagedMesh unpackMesh(std::string bytes) {
     Handle model;
     Handle reader;
     Handle merged;
@@ -122,14 +122,14 @@ TriangleMesh unpackMesh(std::string bytes) {
     // Resolves build items and components into one mesh object in its place.
     check(NMR::lib3mf_model_mergetomodel(model.get(), merged.out()), model);
     check(NMR::lib3mf_model_getmeshobjects(merged.get(), objects.out()), merged);
-    TriangleMesh mesh;
+    PackagedMesh result{{}, kUnits[unit]};
     while (true) {
         BOOL hasNext = 0;
         check(NMR::lib3mf_resourceiterator_movenext(objects.get(), &hasNext), objects);
-        if (!hasNext) return mesh;
+        if (!hasNext) return result;
         Handle object;
         check(NMR::lib3mf_resourceiterator_getcurrent(objects.get(), object.out()), objects);
-        appendObject(object, kUnits[unit], mesh);
+        appendObject(object, result.unit, result.mesh);
     }
 }
 
@@ -146,19 +146,25 @@ base::Status write3mf(const std::filesystem::path& path, const TriangleMesh& mes
     }
 }
 
-base::Result<TriangleMesh> read3mf(const std::filesystem::path& path) {
+base::Result<PackagedMesh> read3mfWithUnit(const std::filesystem::path& path) {
     base::Result<std::string> bytes = base::readFile(path);
     if (!bytes) return bytes.error();
     try {
-        TriangleMesh mesh = unpackMesh(std::move(*bytes));
-        if (mesh.triangles.empty())
+        PackagedMesh package = unpackMesh(std::move(*bytes));
+        if (package.mesh.triangles.empty())
             return base::Error{"Cannot read " + path.string() +
                                ": its build holds no mesh. Export it again."};
-        return mesh;
+        return package;
     } catch (const std::exception& failure) {
         return base::Error{"Cannot read " + path.string() + " as a 3MF file: " + failure.what() +
                            ". Export it again."};
     }
+}
+
+base::Result<TriangleMesh> read3mf(const std::filesystem::path& path) {
+    base::Result<PackagedMesh> package = read3mfWithUnit(path);
+    if (!package) return package.error();
+    return std::move(package->mesh);
 }
 
 }  // namespace trapwright::geometry

@@ -17,4 +17,13 @@ base::Status write3mf(const std::filesystem::path& path, const TriangleMesh& mes
 /// Errors name the file and what is wrong with it.
 base::Result<TriangleMesh> read3mf(const std::filesystem::path& path);
 
+/// A package's mesh, and the unit that its numbers were in.
+struct PackagedMesh {
+    TriangleMesh mesh;
+    double unit;  // [m]
+};
+
+/// The same for who must know the unit.
+base::Result<PackagedMesh> read3mfWithUnit(const std::filesystem::path& path);
+
 }  // namespace trapwright::geometry

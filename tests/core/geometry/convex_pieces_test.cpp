@@ -58,6 +58,10 @@ class ConvexPiecesTest : public QObject {
         row("L bracket", shapes::makeL(), 2);
         row("24-sided cup", shapes::makeCup(24, 5 * kMm, 10 * kMm, kMm), 25);
         row("32-sided cup", shapes::makeCup(32, 5 * kMm, 10 * kMm, kMm), 33);
+        row("stepped pin",
+            shapes::makeTurned({{2 * kMm, 0}, {2 * kMm, 6 * kMm}, {4 * kMm, 6 * kMm}, {4 * kMm, 8 * kMm}},
+                               64),
+            2);
         TriangleMesh two = shapes::makeBox({0, 0, 0}, {kMm, kMm, kMm});
         shapes::append(two, shapes::makeBox({2 * kMm, 0, 0}, {4 * kMm, kMm, kMm}));
         row("two boxes apart", two, 2);
@@ -105,6 +109,34 @@ class ConvexPiecesTest : public QObject {
         const auto bracket = computeConvexPieces(shapes::makeL());
         QVERIFY(bracket.ok());
         QCOMPARE(countContaining(*bracket, {2.01 * kMm, 2.01 * kMm, 2 * kMm}, 0.0), 0);
+    }
+
+    /// Curved inward everywhere: only nearly the part, but nowhere fatter.
+    void waistedBodyIsNotFattened() {
+        std::vector<base::Vec2> profile;
+        for (int i = 0; i <= 12; ++i)
+            profile.emplace_back((4.0 - 1.5 * std::sin(base::kPi * i / 12)) * kMm, 10.0 * kMm * i / 12);
+        const TriangleMesh mesh = makeNoisy(shapes::makeTurned(profile, 24));
+        const auto pieces = computeConvexPieces(mesh);
+        QVERIFY2(pieces.ok(), pieces.ok() ? "" : pieces.error().message.c_str());
+        const double ratio = sumVolumes(*pieces) / calcMassProperties(mesh, 1.0).volume;
+        QVERIFY(ratio > 0.99 && ratio < 1.001);
+
+        const Box box = calcBoundingBox(mesh);
+        base::Random random({.seed = 2});
+        int inside = 0;
+        int covered = 0;
+        for (int i = 0; i < 2000; ++i) {
+            base::Vec3 point;
+            for (int axis = 0; axis < 3; ++axis)
+                point[axis] = random.uniform(box.low[axis], box.high[axis]);
+            const bool isInside = calcWindingNumber(mesh, point) > 0.5;
+            const int count = countContaining(*pieces, point, -1e-3 * kMm);
+            if (!isInside) QCOMPARE(count, 0);
+            if (isInside) ++inside;
+            if (isInside && countContaining(*pieces, point, 1e-3 * kMm) > 0) ++covered;
+        }
+        QVERIFY(covered > 0.98 * inside);
     }
 
     void mergingStopsAtItsTolerance() {

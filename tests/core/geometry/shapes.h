@@ -52,18 +52,15 @@ inline TriangleMesh makeL() {
         {{2 * mm, 2 * mm}, {2 * mm, 10 * mm}, {0, 10 * mm}, {0, 0}, {10 * mm, 0}, {10 * mm, 2 * mm}}, 4 * mm);
 }
 
-/// A cup about z: outside radius and height, wall as thick as the bottom. The hollow opens upward.
-inline TriangleMesh makeCup(int sides, double radius, double height, double wall) {
+/// A body turned about z: rings of `sides` corners at the profile's points (radius, z), the first and the
+/// last closed by flat discs. Counter-clockwise around the solid: outside upward, inside downward.
+inline TriangleMesh makeTurned(const std::vector<base::Vec2>& profile, int sides) {
     TriangleMesh mesh;
-    const auto ring = [&](double r, double z) {
-        for (const base::Vec2& p : makeCircle(sides, r))
-            mesh.vertices.emplace_back(p.x(), p.y(), z);
-    };
-    ring(radius, 0.0);
-    ring(radius, height);
-    ring(radius - wall, height);
-    ring(radius - wall, wall);
-    for (int band = 0; band < 3; ++band)
+    for (const base::Vec2& ring : profile)
+        for (const base::Vec2& p : makeCircle(sides, ring.x()))
+            mesh.vertices.emplace_back(p.x(), p.y(), ring.y());
+    const int bands = static_cast<int>(profile.size()) - 1;
+    for (int band = 0; band < bands; ++band)
         for (int i = 0; i < sides; ++i) {
             const int a = band * sides + i;
             const int b = band * sides + (i + 1) % sides;
@@ -72,9 +69,15 @@ inline TriangleMesh makeCup(int sides, double radius, double height, double wall
         }
     for (int i = 1; i + 1 < sides; ++i) {
         mesh.triangles.push_back({0, i + 1, i});
-        mesh.triangles.push_back({3 * sides, 3 * sides + i, 3 * sides + i + 1});
+        mesh.triangles.push_back({bands * sides, bands * sides + i, bands * sides + i + 1});
     }
     return mesh;
+}
+
+/// A cup about z: outside radius and height, wall as thick as the bottom. The hollow opens upward.
+inline TriangleMesh makeCup(int sides, double radius, double height, double wall) {
+    return makeTurned({{radius, 0.0}, {radius, height}, {radius - wall, height}, {radius - wall, wall}},
+                      sides);
 }
 
 inline double calcCircleArea(int sides, double radius) {
