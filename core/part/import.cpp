@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "core/geometry/surface_files.h"
 #include "core/geometry/three_mf.h"
 #include "core/part/cad_import.h"
 #include "core/part/mesh_import.h"
@@ -36,9 +37,18 @@ base::Result<FileMesh> readGltf(const std::filesystem::path& path) {
 }
 
 base::Result<FileMesh> read3mf(const std::filesystem::path& path) {
-    base::Result<geometry::TriangleMesh> mesh = geometry::read3mf(path);
+    base::Result<geometry::PackagedMesh> package = geometry::read3mfWithUnit(path);
+    if (!package) return package.error();
+    for (base::Vec3& vertex : package->mesh.vertices)
+        vertex /= package->unit;
+    return FileMesh{std::move(package->mesh), findUnit(package->unit), {}};
+}
+
+template <base::Result<geometry::TriangleMesh> (*read)(const std::filesystem::path&)>
+base::Result<FileMesh> readSurface(const std::filesystem::path& path) {
+    base::Result<geometry::TriangleMesh> mesh = read(path);
     if (!mesh) return mesh.error();
-    return FileMesh{std::move(*mesh), LengthUnit{"m", 1.0}, {}};
+    return FileMesh{std::move(*mesh), std::nullopt, {}};
 }
 
 struct Format {
@@ -48,8 +58,8 @@ struct Format {
 
 constexpr std::array<Format, 11> kFormats = {{{".stl", readStl},
                                               {".obj", readMeshFile},
-                                              {".ply", readMeshFile},
-                                              {".off", readMeshFile},
+                                              {".ply", readSurface<geometry::readPly>},
+                                              {".off", readSurface<geometry::readOff>},
                                               {".3mf", read3mf},
                                               {".gltf", readGltf},
                                               {".glb", readGltf},

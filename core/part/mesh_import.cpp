@@ -14,6 +14,9 @@ namespace {
 
 using base::Error;
 
+// Validation comes first: later steps abort the program on data that is not valid.
+constexpr unsigned kSteps = aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType;
+
 void appendNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
                 geometry::TriangleMesh& mesh) {
     const aiMatrix4x4 transform = parent * node.mTransformation;
@@ -45,8 +48,7 @@ base::Result<FileMesh> readMeshFile(const std::filesystem::path& path) {
     try {
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        const aiScene* scene =
-            importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+        const aiScene* scene = importer.ReadFile(path.string(), kSteps);
         if (scene == nullptr || scene->mRootNode == nullptr) {
             return Error{fmt::format(
                 "{} could not be read as a {} file: {}. Check that it is complete and of that format",

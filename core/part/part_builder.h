@@ -10,8 +10,8 @@
 namespace trapwright::part {
 
 struct PartOptions {
-    std::string name;
-    std::string source;       // the file, as to be shown
+    std::string name{};
+    std::string source{};     // the file, as to be shown
     double density = 1040.0;  // [kg/m^3]
     double symmetryTolerance = SymmetryOptions{}.tolerance;
 };

@@ -14,7 +14,7 @@ using geometry::TriangleMesh;
 TriangleMesh makeBox(const Vec3& size) {
     const Vec2 half = 0.5 * size.head<2>();
     const std::array<Vec2, 4> corners = {Vec2(-half.x(), -half.y()), Vec2(half.x(), -half.y()),
-                                      Vec2(half.x(), half.y()), Vec2(-half.x(), half.y())};
+                                         Vec2(half.x(), half.y()), Vec2(-half.x(), half.y())};
     TriangleMesh mesh = makePrism(corners, size.z());
     for (Vec3& vertex : mesh.vertices)
         vertex.z() -= 0.5 * size.z();

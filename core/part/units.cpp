@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 namespace trapwright::part {
@@ -44,6 +45,13 @@ std::optional<LengthUnit> findUnit(std::string_view name) {
         for (const auto& [unit, metres] : kUnits) {
             if (unit == spelling.name) return LengthUnit{std::string(unit), metres};
         }
+    }
+    return std::nullopt;
+}
+
+std::optional<LengthUnit> findUnit(double metres) {
+    for (const auto& [unit, length] : kUnits) {
+        if (std::abs(metres / length - 1.0) < 1e-9) return LengthUnit{std::string(unit), length};
     }
     return std::nullopt;
 }

@@ -18,6 +18,9 @@ struct LengthUnit {
 /// micron ...). Empty for an unknown one.
 std::optional<LengthUnit> findUnit(std::string_view name);
 
+/// The unit of this length. Empty if it is none of ours. [m]
+std::optional<LengthUnit> findUnit(double metres);
+
 /// What a file without a unit is taken to be, from its largest extent in file units: millimetres if that
 /// makes a part of 1 to 100 mm. Error otherwise: names the candidates with the size that the part would have
 /// under each.

@@ -1,0 +1,132 @@
+#include "core/part/bundled.h"
+
+#include <QFile>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cmath>
+
+#include "core/base/file.h"
+#include "core/geometry/mesh_files.h"
+#include "core/part/cad_export.h"
+#include "core/part/import.h"
+#include "core/part/materials.h"
+#include "tests/core/part/centred_solid.h"
+
+using namespace trapwright;
+using base::kMillimetre;
+
+class BundledTest : public QObject {
+    Q_OBJECT
+
+    QTemporaryDir folder_;
+
+    void addParts() {
+        QTest::addColumn<QString>("name");
+        for (const part::BundledPart& entry : part::listBundledParts()) {
+            const QString name = QString::fromUtf8(entry.name.data());
+            QTest::newRow(qPrintable(name)) << name;
+        }
+    }
+
+ private slots:
+    void initTestCase() { qunsetenv("TRAPWRIGHT_RESOURCES"); }
+
+    void filesAreTheGenerators_data() { addParts(); }
+
+    void filesAreTheGenerators() {
+        QFETCH(QString, name);
+        const auto entry = part::findBundledPart(name.toStdString());
+        QVERIFY(entry.ok());
+        const std::filesystem::path made = folder_.filePath(name + ".stl").toStdString();
+        QVERIFY(geometry::writeStl(made, part::makeBundledShape(entry->name)).ok());
+        const auto expected = base::readFile(made);
+        const auto committed = base::readFile(part::findBundledFile(*entry));
+        QVERIFY(expected.ok() && committed.ok());
+        QVERIFY2(*expected == *committed, "run generate_parts resources/parts");
+    }
+
+    void partsCanBeImported_data() { addParts(); }
+
+    void partsCanBeImported() {
+        QFETCH(QString, name);
+        const auto entry = part::findBundledPart(name.toStdString());
+        QVERIFY(entry.ok());
+        QVERIFY(part::findMaterial(entry->material).has_value());
+        const auto imported = part::importMesh(part::findBundledFile(*entry));
+        QVERIFY(imported.ok());
+        const double expected = geometry::calcMassProperties(part::makeBundledShape(entry->name), 1.0).volume;
+        QVERIFY(expected > 0.0);
+        QVERIFY(std::abs(geometry::calcMassProperties(imported->mesh, 1.0).volume / expected - 1.0) < 1e-6);
+    }
+
+    /// The hull of a turned part has a face per facet and conical surface, and two ends.
+    void hullsOfTurnedParts_data() {
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<int>("faces");
+        QTest::newRow("cone") << "cone" << 66;
+        QTest::newRow("pin") << "pin" << 66;
+        QTest::newRow("cup") << "cup" << 34;
+    }
+
+    void hullsOfTurnedParts() {
+        QFETCH(QString, name);
+        QFETCH(int, faces);
+        const part::CentredSolid solid(part::makeBundledShape(name.toStdString()));
+        QCOMPARE(static_cast<int>(solid.hull.faces.size()), faces);
+    }
+
+    /// Across another program's kernel: the STEP file is the same solid as the STL file.
+    void stepBracketIsTheStlBracket() {
+        const std::filesystem::path file =
+            std::filesystem::path(TRAPWRIGHT_SOURCE_DIR) / "resources/parts" / part::kBracketStepFile;
+        const auto imported = part::importMesh(file);
+        QVERIFY2(imported.ok(), imported ? "" : imported.error().message.c_str());
+        QVERIFY(imported->unitsFromFile);
+        QCOMPARE(imported->units, std::string("mm"));
+        const auto step = geometry::calcMassProperties(imported->mesh, 1000.0);
+        const auto stl = geometry::calcMassProperties(part::makeBundledShape("bracket"), 1000.0);
+        QVERIFY(std::abs(step.volume / stl.volume - 1.0) < 1e-9);
+        QVERIFY((step.centre - stl.centre).norm() < 1e-9);
+        QVERIFY((step.inertia - stl.inertia).norm() < 1e-9 * stl.inertia.norm());
+    }
+
+    /// Up to the header, in which another version of OpenCASCADE names itself.
+    void stepFileIsTheGenerators() {
+        const std::filesystem::path made = folder_.filePath("bracket.step").toStdString();
+        QVERIFY(part::writeStepPrism(made, part::bracketProfile(), part::bracketWidth()).ok());
+        const auto imported = part::importMesh(made);
+        QVERIFY(imported.ok());
+        QVERIFY(std::abs(geometry::calcMassProperties(imported->mesh, 1.0).volume - 390e-9) < 1e-15);
+        const auto failed =
+            part::writeStepPrism("/nowhere/a.step", part::bracketProfile(), part::bracketWidth());
+        QVERIFY(!failed.ok());
+        QVERIFY(failed.error().message.find("/nowhere/a.step") != std::string::npos);
+    }
+
+    void resourcesCanBeElsewhere() {
+        const auto entry = part::findBundledPart("cone");
+        QVERIFY(entry.ok());
+        qputenv("TRAPWRIGHT_RESOURCES", "/elsewhere");
+        QCOMPARE(part::findBundledFile(*entry), std::filesystem::path("/elsewhere/parts/cone.stl"));
+        qunsetenv("TRAPWRIGHT_RESOURCES");
+    }
+
+    void unknownNameIsRefused() {
+        const auto entry = part::findBundledPart("sprocket");
+        QVERIFY(!entry.ok());
+        QVERIFY(entry.error().message.find("cuboid, cone") != std::string::npos);
+    }
+
+    void materialsHaveSources() {
+        for (const part::Material& material : part::listMaterials()) {
+            QVERIFY(material.density > 500.0 && material.density < 20000.0);
+            QVERIFY(!material.source.empty());
+        }
+        QCOMPARE(part::findMaterial("abs")->density, 1040.0);
+        QCOMPARE(part::findMaterial("Brass")->density, 8500.0);
+        QVERIFY(!part::findMaterial("unobtainium").has_value());
+    }
+};
+
+QTEST_GUILESS_MAIN(BundledTest)
+#include "bundled_test.moc"
