@@ -29,6 +29,8 @@ class Engine {
 
     /// "simbody", "native".
     [[nodiscard]] virtual std::string name() const = 0;
+    /// The step of simulated time when none is asked for. [s]
+    [[nodiscard]] virtual double defaultStep() const = 0;
 
     /// Simulates every trial: result[b][i] is the outcome of batches[b].trials[i]. Advances `control` by one per finished trial.
     /// An error if cancelled (within 0.2 s) or if a batch cannot be simulated.

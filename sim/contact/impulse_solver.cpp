@@ -85,7 +85,9 @@ void ImpulseSolver::prepareRows(const BodyInertia& inertia, const BodyMotion& be
         // Not deeper than touching at the step's end; an impact inside the step rebounds.
         row.target = -std::max(contact.gap, 0.0) / dt;
         row.impactTime = 2.0;
-        const double approach = -(contact.normal.dot(before.at(contact.arm) - contact.trackVelocityBefore));
+        const Vec3 relativeBefore = before.at(contact.arm) - contact.trackVelocityBefore;
+        const double approach = -contact.normal.dot(relativeBefore);
+        row.slipBefore = Vec2(row.axis[1].dot(relativeBefore), row.axis[2].dot(relativeBefore));
         if (approach > kRestSpeed && contact.gap + dt * row.speed[0] < 0.0) {
             const double share = std::clamp(-std::max(contact.gap, 0.0) / (dt * row.speed[0]), 0.0, 1.0);
             // Velocities belong to the middles of steps; the impact lies between two of them.
@@ -94,6 +96,8 @@ void ImpulseSolver::prepareRows(const BodyInertia& inertia, const BodyMotion& be
             if (rebound > 0.0) {
                 row.target = rebound;
                 row.impactTime = share;
+                // An impact is over in no time: the slip has no time to turn round.
+                row.slipBefore = Vec2(row.speed[1], row.speed[2]);
             }
         }
 
@@ -127,9 +131,11 @@ BodyMotion ImpulseSolver::iterate(const BodyInertia& inertia, BodyMotion motion)
             row.push(motion, inertia.inverseMass, 0, step);
             change = std::max(change, std::abs(step) * row.inverseNormalMass);
 
-            Vec2 tangential = row.tangential - row.tangentStep * Vec2(row.velocityAlong(motion, 1),
-                                                                      row.velocityAlong(motion, 2));
-            row.sliding = clampToDisc(tangential, row.friction * row.normal);
+            const Vec2 slip(row.velocityAlong(motion, 1), row.velocityAlong(motion, 2));
+            const Friction friction = calcFriction(slip - row.tangential / row.tangentStep, row.slipBefore,
+                                                   row.friction * row.normal / row.tangentStep);
+            row.sliding = friction.sliding;
+            const Vec2 tangential = row.tangentStep * friction.change;
             const Vec2 tangentialStep = tangential - row.tangential;
             row.tangential = tangential;
             row.push(motion, inertia.inverseMass, 1, tangentialStep[0]);

@@ -73,6 +73,7 @@ class ImpulseSolver {
         double normal = 0.0;  // impulse [N s]
         base::Vec2 tangential = base::Vec2::Zero();
         double speed[3];  // before any impulse, to tell the work done
+        base::Vec2 slipBefore;  // tangential velocity in the step before
         bool sliding = false;
 
         [[nodiscard]] double velocityAlong(const BodyMotion& motion, int k) const {

@@ -25,13 +25,32 @@ inline double calcRestitution(double speed, double restitution) {
     return restitution * std::clamp((speed - kRestSpeed) / (kFullSpeed - kRestSpeed), 0.0, 1.0);
 }
 
-/// Coulomb's cone: shortens the tangential impulse or force `tangential` to at most `bound`. Returns true if
-/// it had to, that is, if the contact slides.
-inline bool clampToDisc(base::Vec2& tangential, double bound) {
-    const double square = tangential.squaredNorm();
-    if (square <= bound * bound) return false;
-    tangential *= bound / std::sqrt(square);
-    return true;
+/// What friction does to the slip at a contact over one step.
+struct Friction {
+    base::Vec2 change;  // of the slip velocity [m/s]
+    bool sliding;
+};
+
+/// Coulomb's cone over one step. `slip`: the slip velocity at the step's end without this contact's friction;
+/// `slipBefore`: at its begin; `bound`: the change that the full friction impulse makes. A contact that can hold
+/// sticks exactly; one that slides has the full impulse against its slip. Where the track carries the slip through zero
+/// and on within the step, friction acts against the old direction first and against the new one after:
+/// at 50 Hz and 0.2 ms the new direction alone would convey up to 20 % too fast.
+inline Friction calcFriction(const base::Vec2& slip, const base::Vec2& slipBefore, double bound) {
+    const double size = slip.norm();
+    const double before = slipBefore.norm();
+    if (before > 0.01 * bound) {
+        const base::Vec2 old = slipBefore / before;
+        const double end = slip.dot(old);
+        const double loss = before - end;
+        if (loss > bound && end < bound) {
+            const double share = before / (loss + bound);  // of the step until the slip turns round
+            const base::Vec2 other = end < 0.0 ? base::Vec2(slip / size) : base::Vec2(-old);
+            return {-bound * (share * old + (1.0 - share) * other), true};
+        }
+    }
+    if (size <= bound) return {-slip, false};
+    return {-bound / size * slip, true};
 }
 
 /// Damping ratio of the linear spring-damper whose free rebound from contact has ratio `restitution`:

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/verify/cases.h"
+#include "core/verify/scenes.h"
+#include "core/verify/stick_slip.h"
+
+namespace trapwright::verify {
+
+using base::kMillimetre;
+using base::Quaternion;
+using base::Vec3;
+
+namespace {
+
+/// The paper's cuboid lying on the level track (8 x 12 mm face down) under a drive.
+trial::TrialBatch makeLying(const trial::Drive& drive, double duration) {
+    const Quaternion lying = Quaternion::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ());
+    trial::TrialBatch scene = makeStillScene(makeFlat(), makePaperCuboid(), {lying, Vec3(0.08, 0.0, 17.0 * kMillimetre + 1e-9)}, duration);
+    scene.drive = drive;
+    return scene;
+}
+
+/// Mean speed along x between two whole numbers of periods. [m/s]
+double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene, int fromPeriod, int toPeriod, base::RunControl control) {
+    const double period = scene.drive.period();
+    const trial::Trajectory trajectory = replayScene(engine, scene, period, control);
+    const auto& samples = trajectory.samples;
+    if (static_cast<int>(samples.size()) <= toPeriod) return std::nan("");
+    return (samples[toPeriod].room.position.x() - samples[fromPeriod].room.position.x()) / ((toPeriod - fromPeriod) * period);
+}
+
+/// Whether the lying cuboid ever loses contact within ten periods.
+bool leavesTrack(const trial::Engine& engine, double halfStroke, base::RunControl control) {
+    trial::Drive drive;
+    drive.halfStroke = halfStroke;
+    trial::TrialBatch scene = makeLying(drive, 0.2);
+    scene.contact.restitution = 0.0;
+    const trial::Trajectory trajectory = replayScene(engine, scene, 1e-5, control);
+    return std::any_of(trajectory.samples.begin(), trajectory.samples.end(), [](const trial::TrajectorySample& sample) {
+        return sample.time > 0.04 && sample.contacts == 0;
+    });
+}
+
+/// Length of the longest flight after the first period of vertical vibration without restitution. [s]
+double measureFlight(const trial::Engine& engine, double throwNumber, base::RunControl control) {
+    trial::Drive drive;
+    drive.angle = 90.0 * base::kDegree;
+    drive.halfStroke = throwNumber * base::kStandardGravity / (drive.angularFrequency() * drive.angularFrequency());
+    trial::TrialBatch scene = makeLying(drive, 0.1);
+    scene.contact.restitution = 0.0;
+    const trial::Trajectory trajectory = replayScene(engine, scene, 1e-5, control);
+    double longest = 0.0;
+    double lastContact = 0.0;
+    for (const trial::TrajectorySample& sample : trajectory.samples) {
+        if (sample.contacts > 0) {
+            longest = std::max(longest, sample.time - lastContact);
+            lastContact = sample.time;
+        }
+    }
+    return longest;
+}
+
+}  // namespace
+
+std::vector<Row> runStickSlip(const EngineFactory& factory, base::RunControl control) {
+    const auto engine = factory({});
+    std::vector<Row> rows;
+    for (const double halfStroke : {0.25e-3, 0.35e-3, 0.45e-3}) {
+        for (const double friction : {0.3, 0.5}) {
+            trial::Drive drive;
+            drive.halfStroke = halfStroke;
+            trial::TrialBatch scene = makeLying(drive, 1.01);
+            scene.contact = {friction, friction, 0.3};
+            const double got = measureSpeed(*engine, scene, 25, 50, control);
+            const double expected = calcStickSlipSpeed(drive, friction, scene.gravity);
+            rows.push_back({fmt::format("stick-slip, half-stroke {:g} mm, friction {:g}", halfStroke * 1e3, friction),
+                            fmt::format("{:.3f} mm/s within 2 %", expected * 1e3), fmt::format("{:.3f} mm/s ({:+.2f} %)", got * 1e3, (got / expected - 1.0) * 100),
+                            std::abs(got / expected - 1.0) < 0.02});
+        }
+    }
+    return rows;
+}
+
+std::vector<Row> runLiftOff(const EngineFactory& factory, base::RunControl control) {
+    const auto engine = factory({});
+    const bool early = leavesTrack(*engine, 0.47e-3, control);
+    const bool late = leavesTrack(*engine, 0.49e-3, control);
+    return {{"lift-off at 50 Hz, 12 deg", "first flight between 0.47 and 0.49 mm",
+             fmt::format("{} at 0.47 mm, {} at 0.49 mm", early ? "flies" : "stays", late ? "flies" : "stays"), !early && late}};
+}
+
+std::vector<Row> runPlasticHop(const EngineFactory& factory, base::RunControl control) {
+    const auto engine = factory({});
+    const double expected = std::sqrt(1.0 + base::kPi * base::kPi);
+    double low = 0.95 * expected;
+    double high = 1.05 * expected;
+    const double period = trial::Drive{}.period();
+    for (int i = 0; i < 8; ++i) {
+        const double middle = 0.5 * (low + high);
+        (measureFlight(*engine, middle, control) < period ? low : high) = middle;
+    }
+    const double got = 0.5 * (low + high);
+    return {{"plastic hop of one period", fmt::format("throw number {:.3f} within 2 %", expected),
+             fmt::format("{:.3f} ({:+.2f} %)", got, (got / expected - 1.0) * 100), std::abs(got / expected - 1.0) < 0.02}};
+}
+
+std::vector<Row> runStepHalved(const EngineFactory& factory, base::RunControl control) {
+    std::vector<Row> rows;
+    const double step = factory({})->defaultStep();
+    for (const double halfStroke : {0.4e-3, 0.62e-3, 0.7e-3, 1.0e-3}) {
+        trial::Drive drive;
+        drive.halfStroke = halfStroke;
+        const trial::TrialBatch scene = makeLying(drive, 1.31);
+        const double whole = measureSpeed(*factory({0, step}), scene, 25, 65, control);
+        const double half = measureSpeed(*factory({0, 0.5 * step}), scene, 25, 65, control);
+        rows.push_back({fmt::format("step halved, flat speed at half-stroke {:g} mm", halfStroke * 1e3), "changes < 3 %",
+                        fmt::format("{:.2f} and {:.2f} mm/s ({:+.2f} %)", whole * 1e3, half * 1e3, (half / whole - 1.0) * 100),
+                        std::abs(half / whole - 1.0) < 0.03});
+    }
+    return rows;
+}
+
+}  // namespace trapwright::verify

@@ -1,0 +1,46 @@
+#include "core/verify/verify.h"
+
+#include <exception>
+
+#include "core/verify/cases.h"
+
+namespace trapwright::verify {
+
+std::vector<Case> allCases() {
+    return {{"tumbling", runTumbling},
+            {"bounce", runBounce},
+            {"slope", runSlope},
+            {"sliding", runSliding},
+            {"toppling", runToppling},
+            {"stick-slip", runStickSlip},
+            {"lift-off", runLiftOff},
+            {"plastic-hop", runPlasticHop},
+            {"ridge-balance", runRidgeBalance},
+            {"ridge-drop", runRidgeDrop},
+            {"ridge-slide", runRidgeSlide},
+            {"thin-wall", runThinWall},
+            {"still-track", runStillTrack},
+            {"step-halved", runStepHalved},
+            {"stable-poses", runStablePoses}};
+}
+
+bool runCases(const EngineFactory& factory, const std::string& filter, base::RunControl control,
+              const std::function<void(const Row&)>& report) {
+    bool passed = true;
+    for (const Case& test : allCases()) {
+        if (test.name.find(filter) == std::string::npos) continue;
+        if (control.cancelled()) return false;
+        try {
+            for (const Row& row : test.run(factory, control)) {
+                passed = passed && row.passed;
+                report(row);
+            }
+        } catch (const std::exception& e) {
+            passed = false;
+            report({test.name, "a result", e.what(), false});
+        }
+    }
+    return passed;
+}
+
+}  // namespace trapwright::verify
