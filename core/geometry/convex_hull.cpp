@@ -95,9 +95,10 @@ base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> point
     try {
         const TriangleMesh hull = computeHullTriangles(sorted);
         const double size = (calcBoundingBox(hull).size()).norm();
-        for (double tolerance = kCoplanarTolerance * size; tolerance > 1e-12 * size; tolerance *= 0.1)
-            if (auto polytope = mergeCoplanarTriangles(hull, tolerance)) return std::move(*polytope);
-        if (auto polytope = mergeCoplanarTriangles(hull, -1.0)) return std::move(*polytope);
+        // The last, negative one leaves every triangle a face of its own.
+        for (const double tolerance : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, -1.0})
+            if (auto polytope = mergeCoplanarTriangles(hull, tolerance * kCoplanarTolerance * size))
+                return std::move(*polytope);
         return base::Error{"No convex hull: the hull of " + std::to_string(sorted.size()) +
                            " points has no clean faces. Use a part with fewer tiny triangles."};
     } catch (const std::exception& failure) {
