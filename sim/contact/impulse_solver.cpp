@@ -92,12 +92,17 @@ void ImpulseSolver::prepareRows(const BodyInertia& inertia, const BodyMotion& be
             const double share = std::clamp(-std::max(contact.gap, 0.0) / (dt * row.speed[0]), 0.0, 1.0);
             // Velocities belong to the middles of steps; the impact lies between two of them.
             const double speed = approach + (0.5 + share) * (-row.speed[0] - approach);
-            const double rebound = speed * calcRestitution(speed, law.restitution);
+            // From the impact to the middle of this step the part goes on being pulled.
+            const double rebound = speed * calcRestitution(speed, law.restitution) +
+                                   (0.5 - share) * (row.speed[0] + approach);
             if (rebound > 0.0) {
                 row.target = rebound;
                 row.impactTime = share;
-                // An impact is over in no time: the slip has no time to turn round.
-                row.slipBefore = Vec2(row.speed[1], row.speed[2]);
+                // An impact is over in no time: what sticks has the track's velocity of that moment, and
+                // no slip has time to turn round.
+                const Vec2 slip(row.speed[1], row.speed[2]);
+                row.slipTarget = (0.5 - share) * (slip - row.slipBefore);
+                row.slipBefore = slip - row.slipTarget;
             }
         }
 
@@ -131,7 +136,7 @@ BodyMotion ImpulseSolver::iterate(const BodyInertia& inertia, BodyMotion motion)
             row.push(motion, inertia.inverseMass, 0, step);
             change = std::max(change, std::abs(step) * row.inverseNormalMass);
 
-            const Vec2 slip(row.velocityAlong(motion, 1), row.velocityAlong(motion, 2));
+            const Vec2 slip = Vec2(row.velocityAlong(motion, 1), row.velocityAlong(motion, 2)) - row.slipTarget;
             const Friction friction = calcFriction(slip - row.tangential / row.tangentStep, row.slipBefore,
                                                    row.friction * row.normal / row.tangentStep);
             row.sliding = friction.sliding;

@@ -46,6 +46,7 @@ struct FreeBodies::Model {
         BodyMotion motion;  // at the middle of the last step
         BodyMotion advance;
         Vec3 lastAngularAcceleration = Vec3::Zero();  // [rad/s^2]
+        Vec3 priorAngularAcceleration = Vec3::Zero();  // one step earlier
     };
 
     SimTK::MultibodySystem system;
@@ -94,6 +95,7 @@ void FreeBodies::place(int slot, const base::Pose& pose, const BodyMotion& motio
     const Vec3 momentum = rotation * (model_->inertiaTensor * (rotation.transpose() * w));
     s.lastAngularAcceleration =
         -(rotation * (model_->inverseInertia * (rotation.transpose() * w.cross(momentum))));
+    s.priorAngularAcceleration = s.lastAngularAcceleration;
     s.motion.velocity -= 0.5 * dt * model_->gravityVector;
     s.motion.angularVelocity -= 0.5 * dt * s.lastAngularAcceleration;
 }
@@ -110,7 +112,8 @@ void FreeBodies::beginStep(double dt) {
     SimTK::Vector& u = model_->state.updU();
     for (int i = 0; i < count(); ++i) {
         const Model::Slot& s = model_->slots[i];
-        const Vec3 now = s.motion.angularVelocity + 0.5 * dt * s.lastAngularAcceleration;
+        const Vec3 now = s.motion.angularVelocity +
+                         dt * (0.875 * s.lastAngularAcceleration - 0.375 * s.priorAngularAcceleration);
         for (int k = 0; k < 3; ++k) {
             u[kU * i + k] = now[k];
             u[kU * i + 3 + k] = s.motion.velocity[k];
@@ -120,6 +123,7 @@ void FreeBodies::beginStep(double dt) {
     const SimTK::Vector& acceleration = model_->state.getUDot();
     for (int i = 0; i < count(); ++i) {
         Model::Slot& s = model_->slots[i];
+        s.priorAngularAcceleration = s.lastAngularAcceleration;
         for (int k = 0; k < 3; ++k) {
             s.lastAngularAcceleration[k] = acceleration[kU * i + k];
             s.advance.angularVelocity[k] = s.motion.angularVelocity[k] + dt * acceleration[kU * i + k];
@@ -143,6 +147,16 @@ BodyMotion FreeBodies::free(int slot) const {
     return model_->slots[slot].advance;
 }
 
+BodyMotion FreeBodies::now(int slot, double dt) const {
+    // The acceleration is taken as linear in time over the last step and a half.
+    const Model::Slot& s = model_->slots[slot];
+    BodyMotion motion;
+    motion.velocity = 0.5 * (s.motion.velocity + s.advance.velocity);
+    motion.angularVelocity = s.motion.angularVelocity +
+                             dt * (0.375 * s.lastAngularAcceleration + 0.125 * s.priorAngularAcceleration);
+    return motion;
+}
+
 void FreeBodies::resolve(int slot, const contact::StepResult& result) {
     model_->slots[slot].motion = result.motion;
     model_->slots[slot].advance = result.advance;
@@ -151,23 +165,31 @@ void FreeBodies::resolve(int slot, const contact::StepResult& result) {
 void FreeBodies::endStep(double dt) {
     model_->advanceU.resize(kU * count());
     for (int i = 0; i < count(); ++i) {
-        const BodyMotion& advance = model_->slots[i].advance;
+        Model::Slot& s = model_->slots[i];
+        // A rotation whose axis wanders is not the mean angular velocity times the step: the next terms of
+        // Magnus' series (Iserles et al. 2000, section 4).
+        const Vec3& acceleration = s.lastAngularAcceleration;
+        s.advance.angularVelocity += dt * dt / 12.0 * acceleration.cross(s.advance.angularVelocity) +
+                                     dt / 24.0 * (acceleration - s.priorAngularAcceleration);
         for (int k = 0; k < 3; ++k) {
-            model_->advanceU[kU * i + k] = advance.angularVelocity[k];
-            model_->advanceU[kU * i + 3 + k] = advance.velocity[k];
+            model_->advanceU[kU * i + k] = s.advance.angularVelocity[k];
+            model_->advanceU[kU * i + 3 + k] = s.advance.velocity[k];
         }
     }
     model_->matter.multiplyByN(model_->state, false, model_->advanceU, model_->advanceQ);
     SimTK::Vector& q = model_->state.updQ();
-    q += dt * model_->advanceQ;
     for (int i = 0; i < count(); ++i) {
-        // A quaternion's chord is a little longer than its arc.
+        // The rate is tangent to the unit sphere: go along it by the tangent of the angle, then back onto the sphere.
+        const double half = 0.5 * dt * model_->slots[i].advance.angularVelocity.norm();
+        const double tangent = dt * (1.0 + half * half / 3.0);
         double square = 0.0;
-        for (int k = 0; k < 4; ++k)
-            square += q[kQ * i + k] * q[kQ * i + k];
+        for (int k = kQ * i; k < kQ * i + 4; ++k) {
+            q[k] += tangent * model_->advanceQ[k];
+            square += q[k] * q[k];
+        }
         const double scale = 1.0 / std::sqrt(square);
-        for (int k = 0; k < 4; ++k)
-            q[kQ * i + k] *= scale;
+        for (int k = kQ * i; k < kQ * i + 4; ++k) q[k] *= scale;
+        for (int k = kQ * i + 4; k < kQ * (i + 1); ++k) q[k] += dt * model_->advanceQ[k];
     }
 }
 

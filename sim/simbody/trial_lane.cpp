@@ -58,8 +58,9 @@ trial::TrajectorySample TrialLane::sample(const FreeBodies& bodies, int slot) co
     sample.room = bodies.pose(slot);
     sample.track = progress_.toTrackCoordinates(contact_.poseInTrack(sample.room));
     sample.drive = drive_.displacement(sample.time);
-    sample.velocity = 0.5 * (bodies.before(slot).velocity + bodies.free(slot).velocity);
-    sample.angularVelocity = 0.5 * (bodies.before(slot).angularVelocity + bodies.free(slot).angularVelocity);
+    const contact::BodyMotion motion = bodies.now(slot, dt_);
+    sample.velocity = motion.velocity;
+    sample.angularVelocity = motion.angularVelocity;
     sample.contacts = carrying_;
     return sample;
 }

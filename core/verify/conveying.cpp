@@ -1,0 +1,67 @@
+#include "core/verify/conveying.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/verify/scenes.h"
+
+namespace trapwright::verify {
+
+namespace {
+
+constexpr double kLength = 2.0;     // no part is conveyed so far [m]
+constexpr double kHalfWidth = 0.2;  // nor so far aside [m]
+constexpr double kHeight = 15e-3;
+constexpr double kClearance = 1e-6;
+
+std::shared_ptr<const track::Track> makeLongFlat() {
+    return makeSurface({-kLength, 0.0, kLength}, {-kHalfWidth, 0.0, kHalfWidth},
+                       [](double, double) { return kHeight; });
+}
+
+/// The part at rest above the track, turned by `heading` out of its most probable pose.
+base::Pose layDown(const part::Part& part, double heading) {
+    const part::StablePose& pose = part.stablePoses.front();
+    const base::Quaternion turn(Eigen::AngleAxisd(heading, base::Vec3::UnitZ()));
+    return {(turn * pose.rotation).normalized(), {0.0, 0.0, kHeight + pose.height + kClearance}};
+}
+
+/// Of the only trial of the scene, between two whole numbers of periods. [m/s]
+base::Result<double> measureSpeed(const trial::Engine& engine, const trial::TrialBatch& batch,
+                                  double settling, const base::RunControl& control) {
+    const double period = batch.drive.period();
+    const auto trajectory = engine.replay(batch, 0, period, control);
+    if (!trajectory) return trajectory.error();
+    const auto& samples = trajectory->samples;
+    const auto first = static_cast<std::size_t>(std::ceil(settling / period));
+    // The last sample is taken at the end of the trial, which need not be the end of a period.
+    if (samples.size() < first + 3)
+        return base::Error{"The part fell off the level track of the conveying test."};
+    const std::size_t last = samples.size() - 2;
+    return (samples[last].room.position.x() - samples[first].room.position.x()) /
+           (static_cast<double>(last - first) * period);
+}
+
+}  // namespace
+
+base::Result<ConveyingSpeed> measureConveyingSpeed(const trial::Engine& engine, const ConveyingScene& scene,
+                                                   base::RunControl control) {
+    if (scene.part->stablePoses.empty())
+        return base::Error{"The part " + scene.part->name + " has no stable pose to be conveyed in."};
+    ConveyingSpeed speed;
+    for (int i = 0; i < scene.headings; ++i) {
+        const double heading = 2.0 * base::kPi * i / scene.headings;
+        trial::TrialBatch batch =
+            makeStillScene(makeLongFlat(), scene.part, layDown(*scene.part, heading), scene.duration);
+        batch.drive = scene.drive;
+        batch.contact = scene.contact;
+        const auto one = measureSpeed(engine, batch, scene.settling, control);
+        if (!one) return one.error();
+        speed.mean += *one / scene.headings;
+        speed.least = i == 0 ? *one : std::min(speed.least, *one);
+        speed.most = i == 0 ? *one : std::max(speed.most, *one);
+    }
+    return speed;
+}
+
+}  // namespace trapwright::verify

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "core/base/result.h"
+#include "core/trial/engine.h"
+
+namespace trapwright::verify {
+
+/// How a part moves on a level track.
+struct ConveyingSpeed {
+    double mean = 0.0;   // over all headings [m/s]
+    double least = 0.0;  // of the headings [m/s]
+    double most = 0.0;
+};
+
+/// What is vibrated and simulated, and for how long.
+struct ConveyingScene {
+    std::shared_ptr<const part::Part> part;  // laid in its most probable stable pose
+    trial::Drive drive;
+    trial::ContactParameters contact;
+    int headings = 4;       // spread evenly over a turn
+    double settling = 0.5;  // before speed is measured [s]
+    double duration = 2.0;  // in all [s]
+};
+
+/// Conveying speed on a level, linear track, mean over whole periods of the drive. The choice of a
+/// half-stroke starts with it. Errors: a part without stable poses, engine, cancelled. Advances `control` by
+/// one per heading.
+base::Result<ConveyingSpeed> measureConveyingSpeed(const trial::Engine& engine, const ConveyingScene& scene,
+                                                   base::RunControl control);
+
+}  // namespace trapwright::verify
