@@ -49,9 +49,9 @@ class PopulationTest : public QObject {
 
     void childrenHaveTheirOwnStreams() {
         const auto parents = evolution::createPopulation(kLayout, 30, 5);
-        std::vector<double> fitnesses;
-        for (int i = 0; i < 30; ++i)
-            fitnesses.push_back(-i);
+        std::vector<double> fitnesses(30);
+        for (std::size_t i = 0; i < 30; ++i)
+            fitnesses[i] = -static_cast<double>(i);
         const auto children = evolution::nextGeneration(parents, fitnesses, {}, keep, 5, 1);
         QCOMPARE(children.size(), parents.size());
         QVERIFY(children == evolution::nextGeneration(parents, fitnesses, {}, keep, 5, 1));

@@ -22,6 +22,7 @@ class StatisticsTest : public QObject {
         QFETCH(int, count);
         QFETCH(int, top);
         std::vector<double> fitnesses;
+        fitnesses.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i)
             fitnesses.push_back((3 * i) % count);
         const auto best = evolution::findTop(fitnesses);

@@ -13,6 +13,7 @@ class SamplesTest : public QObject {
 
     static std::vector<double> draw(base::Random& random, int count, double shift) {
         std::vector<double> values;
+        values.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i)
             values.push_back(random.normal() + shift);
         return values;

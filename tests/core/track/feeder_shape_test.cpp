@@ -45,7 +45,8 @@ class FeederShapeTest : public QObject {
     void toTrackInverts_data() { addShapes(); }
     void toTrackInverts() {
         QFETCH(FeederShape, shape);
-        for (double x = -1.5; x < 3.0; x += 0.037) {
+        for (int i = -40; i <= 80; ++i) {
+            const double x = 0.037 * i;
             const base::Vec3 point(x, 0.4 * std::sin(9.0 * x) * 0.05, 0.02);
             for (const double off : {-0.2, 0.0, 0.2}) {
                 const base::Vec3 back = shape.toTrack(shape.toRoom(point), x + off);
@@ -58,7 +59,8 @@ class FeederShapeTest : public QObject {
     void tangentFrameIsTheDerivative_data() { addShapes(); }
     void tangentFrameIsTheDerivative() {
         QFETCH(FeederShape, shape);
-        for (double x = -0.3; x < 0.6; x += 0.05) {
+        for (int i = -6; i <= 12; ++i) {
+            const double x = 0.05 * i;
             const base::Mat3 frame = shape.tangentFrame(x);
             const double h = 1e-6;
             const base::Vec3 slope = (shape.toRoom({x + h, 0, 0}) - shape.toRoom({x - h, 0, 0})) / (2 * h);

@@ -25,7 +25,8 @@ std::vector<double> drawValues(std::uint64_t seed) {
 }
 
 std::size_t at(int i, int j, int component) {
-    return static_cast<std::size_t>(2 * (i * kColumns + j) + component);
+    const int index = 2 * (i * kColumns + j) + component;
+    return static_cast<std::size_t>(index);
 }
 
 }  // namespace
@@ -169,17 +170,17 @@ class SmoothingTest : public QObject {
     void smallGrids() {
         QFETCH(int, rows);
         QFETCH(int, columns);
-        std::vector<double> values;
-        for (int i = 0; i < rows * columns * 2; ++i)
-            values.push_back(i % 7);
+        std::vector<double> values(2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<double>(i % 7);
         base::Random random = makeRandom(5);
         const auto smooth = track::smoothSurface(values, rows, columns, 1.0, random);
-        // The middle of the first section's border is the mean of what is half as far on either side.
-        for (int j = 0; j < columns; ++j) {
-            const double t = j / (columns - 1.0);
-            const double expected =
-                (1 - t) * values[0] + t * values[static_cast<std::size_t>(2 * (columns - 1))];
-            QVERIFY(std::abs(smooth[static_cast<std::size_t>(2 * j)] - expected) < 1e-14);
+        // The first section is a straight line between its corners.
+        const auto last = static_cast<std::size_t>(columns) - 1;
+        for (std::size_t j = 0; j <= last; ++j) {
+            const double t = static_cast<double>(j) / static_cast<double>(last);
+            const double expected = (1 - t) * values[0] + t * values[2 * last];
+            QVERIFY(std::abs(smooth[2 * j] - expected) < 1e-14);
         }
     }
 };

@@ -18,6 +18,7 @@ namespace {
 std::vector<base::Quaternion> drawRotations(std::uint64_t seed, int count) {
     base::Random random({seed, 0, 0, 0, base::Purpose::test});
     std::vector<base::Quaternion> rotations;
+    rotations.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
         rotations.push_back(random.rotation());
     return rotations;
@@ -159,6 +160,7 @@ class FitnessTest : public QObject {
     // Two clusters of 10, a quarter turn apart: 100 of the 190 pairs are sqrt(pi / 2) apart.
     void twoClusters() {
         std::vector<base::Quaternion> clusters;
+        clusters.reserve(20);
         for (int i = 0; i < 20; ++i)
             clusters.push_back(turn(i % 2 == 0 ? 0.0 : 90.0, base::Vec3::UnitX()));
         const double got = trial::calcConcentration(clusters, testing::makeC1(), OrientationDistance::plain);
