@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <string>
+
+#include "app/trapwright/console.h"
+#include "app/trapwright/exit_codes.h"
+
+namespace trapwright::app {
+
+/// Does a command's work. The value is the exit status where it ran to its end.
+using CommandAction = std::function<Attempt<ExitCode>(const Console&)>;
+
+/// What the command line asked for.
+struct Invocation {
+    CommandAction action;
+    bool json = false;
+};
+
+/// Adds a command with --json and --help to the program. `example` is shown below the options. The caller
+/// adds its options to the result, and its action is chosen when the command line names it.
+CLI::App& addCommand(CLI::App& program, Invocation& invocation, const std::string& name,
+                     const std::string& description, const std::string& example, CommandAction action);
+
+// One per file, command_<name>.cpp.
+void addPartCommand(CLI::App& program, Invocation& invocation);
+void addNewCommand(CLI::App& program, Invocation& invocation);
+void addSettingsCommand(CLI::App& program, Invocation& invocation);
+void addEvolveCommand(CLI::App& program, Invocation& invocation);
+void addSelectCommand(CLI::App& program, Invocation& invocation);
+void addValidateCommand(CLI::App& program, Invocation& invocation);
+void addExportCommand(CLI::App& program, Invocation& invocation);
+void addReplayCommand(CLI::App& program, Invocation& invocation);
+void addTrackCommand(CLI::App& program, Invocation& invocation);
+void addSweepCommand(CLI::App& program, Invocation& invocation);
+void addVerifyCommand(CLI::App& program, Invocation& invocation);
+void addBenchCommand(CLI::App& program, Invocation& invocation);
+void addDemoCommand(CLI::App& program, Invocation& invocation);
+void addDumpCommand(CLI::App& program, Invocation& invocation);
+
+}  // namespace trapwright::app

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/learning_run.h"
+#include "app/trapwright/study_access.h"
+#include "app/trapwright/study_jobs.h"
+#include "app/trapwright/study_options.h"
+#include "app/trapwright/track_export.h"
+#include "core/study/tables.h"
+#include "core/study/track_design.h"
+
+namespace trapwright::app {
+
+namespace {
+
+// Small enough that learning, selection and validation end within four minutes on two cores.
+constexpr int kPopulation = 40;
+constexpr int kTrials = 20;
+constexpr double kLearningTime = 140.0;  // [s]
+constexpr int kSelectionWinners = 3;
+constexpr int kSelectionTrials = 150;
+constexpr int kTrialsPerPose = 100;
+
+struct Options {
+    std::string folder;
+    std::optional<int> generations;
+    double minutes = kLearningTime / 60.0;
+    unsigned threads = 0;
+};
+
+/// The study of the folder, made there if it is not.
+Attempt<OpenStudy> openOrCreate(const Options& options, const std::string& path, const Console& console) {
+    std::error_code failure;
+    if (std::filesystem::exists(path, failure)) {
+        auto study = openStudy(path, Access::write);
+        if (!study || !options.generations) return study;
+        study->settings.evolution.generations = *options.generations;
+        if (const auto checked = study::checkInputs({study->settings, study->part, nullptr}); !checked)
+            return Failure{ExitCode::usage, checked.error().message};
+        if (const auto changed = study->file.changeSettings(study->settings); !changed)
+            return Failure{ExitCode::cannotWrite, changed.error().message};
+        return study;
+    }
+    CreationOptions creation;
+    creation.preset = "cuboid";
+    SettingOptions settings;
+    settings.population = kPopulation;
+    settings.trials = kTrials;
+    settings.generations = options.generations;
+    auto file = createStudy(path, creation, settings, console);
+    if (!file) return file.failure();
+    return loadStudy(std::move(*file));
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    const std::filesystem::path folder = options.folder;
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) {
+        return Failure{ExitCode::cannotWrite,
+                       fmt::format("The folder {} cannot be made ({}). Choose another by --out.",
+                                   options.folder, failure.message())};
+    }
+    const std::string path = (folder / "cuboid.trap").string();
+    auto study = openOrCreate(options, path, console);
+    if (!study) return study.failure();
+    const auto before = study->file.generationCount();
+    if (!before) return Failure{ExitCode::badInput, before.error().message};
+    auto inputs = makeInputs(*study, std::nullopt, options.threads);
+    if (!inputs) return inputs.failure();
+
+    console.print(fmt::format(
+        "{} a track for the 4 x 8 x 12 mm cuboid in {}: {} individuals x {} trials, engine {}, {} "
+        "threads, for about {:.1f} minutes\n{}",
+        *before == 0 ? "Learning" : fmt::format("Going on from generation {} with", *before - 1), path,
+        study->settings.evolution.populationSize, study->settings.evolution.trialsPerEvaluation,
+        inputs->engine->name(), inputs->threads, options.minutes, kLearningHeading));
+    auto learned = runLearning(study->file, *inputs, console, options.minutes * 60.0);
+    if (!learned) return learned.failure();
+    if (learned->interrupted) {
+        return Failure{ExitCode::interrupted,
+                       fmt::format("Stopped. Go on with: trapwright evolve {} --resume", path)};
+    }
+
+    inputs->settings.validation.selectionWinners = kSelectionWinners;
+    inputs->settings.validation.selectionTrials = kSelectionTrials;
+    inputs->settings.validation.trialsPerPose = kTrialsPerPose;
+    auto selection = selectAndSave(study->file, *inputs, console);
+    if (!selection) return selection.failure();
+    console.print("\nThe best winners, simulated more often:\n" + study::formatSelection(*selection));
+    auto picked = findIndividual(study->file, {});
+    if (!picked) return picked.failure();
+    auto validation = validateAndSave(study->file, *inputs, *picked, std::nullopt, console);
+    if (!validation) return validation.failure();
+    console.print(fmt::format("\nThe track of generation {}, by the pose in which the parts arrive:\n{}\n",
+                              picked->generation, study::formatValidation(*validation)));
+
+    const auto track = study::decodeTrack(study->settings.track, picked->record.chromosome);
+    if (!track) return Failure{ExitCode::fault, track.error().message};
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    for (const char* name : {"cuboid.stl", "cuboid.3mf"}) {
+        auto exported =
+            exportTrack(*track, folder / name, fmt::format("cuboid, generation {}", picked->generation));
+        if (!exported) return exported.failure();
+        console.print(describeExport(*exported));
+        files.push_back(exported->path.string());
+    }
+    console.emit({{"study", path},
+                  {"selection", toJson(*selection)},
+                  {"validation", toJson(*validation, *study->part)},
+                  {"files", files}});
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addDemoCommand(CLI::App& program, Invocation& invocation) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = addCommand(
+        program, invocation, "demo",
+        "The main job in a few minutes: learns a track for the cuboid, selects, validates and exports it.\n"
+        "Goes on with the study if the folder has one.",
+        "trapwright demo --out ./trapwright-cuboid",
+        [options](const Console& console) { return run(*options, console); });
+    command.add_option("--out", options->folder, "The folder for the study and the track")->required();
+    command.add_option("--generations", options->generations,
+                       "At most so many in all (as many as the time allows)");
+    command.add_option("--minutes", options->minutes, "Time for learning (2.3)")
+        ->check(CLI::Range(0.0, 100000.0));
+    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+}
+
+}  // namespace trapwright::app

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/learning_run.h"
+#include "app/trapwright/study_access.h"
+#include "app/trapwright/study_options.h"
+#include "core/trial/fitness.h"
+
+namespace trapwright::app {
+
+namespace {
+
+struct Options {
+    std::string study;
+    CreationOptions creation;
+    SettingOptions settings;
+    unsigned threads = 0;
+    bool resume = false;
+};
+
+/// Opens the study that is to go on, with the settings that the user changed kept in it.
+Attempt<OpenStudy> openExisting(const Options& options) {
+    if (options.creation.given()) {
+        return Failure{ExitCode::usage,
+                       fmt::format("The study {} exists; leave out what belongs to a new one (--preset, "
+                                   "--part and the like), or choose another name.",
+                                   options.study)};
+    }
+    auto study = openStudy(options.study, Access::write);
+    if (!study) return study;
+    const auto count = study->file.generationCount();
+    if (!count) return Failure{ExitCode::badInput, count.error().message};
+    if (*count > 0 && !options.resume) {
+        return Failure{ExitCode::usage,
+                       fmt::format("The study {} has {} generations already. Go on with it by --resume, "
+                                   "or choose another name for a new one.",
+                                   options.study, *count)};
+    }
+    auto settings = applySettings(study->settings, options.settings);
+    if (!settings) return settings.failure();
+    if (*settings == study->settings) return study;
+    study->settings = std::move(*settings);
+    if (const auto checked = study::checkInputs({study->settings, study->part, nullptr}); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+    if (const auto changed = study->file.changeSettings(study->settings); !changed)
+        return Failure{ExitCode::usage, changed.error().message};
+    return study;
+}
+
+Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) {
+    std::error_code failure;
+    const bool exists = std::filesystem::exists(options.study, failure);
+    if (exists || (options.resume && !options.creation.given())) return openExisting(options);
+    auto file = createStudy(options.study, options.creation, options.settings, console);
+    if (!file) return file.failure();
+    return loadStudy(std::move(*file));
+}
+
+std::string describeStart(const OpenStudy& study, const study::StudyInputs& inputs) {
+    const study::EvolutionSettings& evolution = study.settings.evolution;
+    return fmt::format(
+        "Study {}: part {} (symmetry {}), {} individuals x {} trials, seed {}, engine {}, threads {}\n"
+        "A perfect feeder scores F_D 0 and F_O {:.3f}.\n{}",
+        study.file.path().string(), study.part->name, study.part->symmetry.name, evolution.populationSize,
+        evolution.trialsPerEvaluation, evolution.seed, inputs.engine->name(), inputs.threads,
+        trial::calcBestOrientationScore(study.part->symmetry, evolution.orientationDistance),
+        kLearningHeading);
+}
+
+std::string_view endName(study::LearningEnd end) {
+    switch (end) {
+        case study::LearningEnd::completed:
+            return "completed";
+        case study::LearningEnd::stopped:
+            return "stopped";
+        case study::LearningEnd::cancelled:
+            return "cancelled";
+    }
+    return "";
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    auto study = openOrCreate(options, console);
+    if (!study) return study.failure();
+    auto inputs = makeInputs(*study, std::nullopt, options.threads);
+    if (!inputs) return inputs.failure();
+    console.print(describeStart(*study, *inputs));
+
+    auto report = runLearning(study->file, *inputs, console, std::nullopt);
+    if (!report) return report.failure();
+    const auto summaries = study->file.loadSummaries();
+    if (!summaries) return Failure{ExitCode::badInput, summaries.error().message};
+    const double rate = report->seconds > 0.0 ? static_cast<double>(report->trials) / report->seconds : 0.0;
+    console.print(fmt::format("{}: {} generations in {}, {} trials in {:.1f} s ({:.1f}/s)\n",
+                              report->interrupted ? "Stopped" : "Done", summaries->size(), options.study,
+                              report->trials, report->seconds, rate));
+    if (report->interrupted && !console.json())
+        console.note(fmt::format("Go on with: trapwright evolve {} --resume", options.study));
+
+    nlohmann::ordered_json generations = nlohmann::ordered_json::array();
+    for (const study::GenerationSummary& summary : *summaries)
+        generations.push_back(toJson(summary));
+    console.emit({{"study", options.study},
+                  {"engine", inputs->engine->name()},
+                  {"threads", inputs->threads},
+                  {"end", endName(report->end)},
+                  {"trials", report->trials},
+                  {"seconds", report->seconds},
+                  {"trials_per_second", rate},
+                  {"generations", generations}});
+    return report->interrupted ? ExitCode::interrupted : ExitCode::ok;
+}
+
+}  // namespace
+
+void addEvolveCommand(CLI::App& program, Invocation& invocation) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = addCommand(
+        program, invocation, "evolve",
+        "Learns a track: generation after generation, each saved in the study as soon as it is complete.\n"
+        "Ctrl-C once stops after the generation, twice at once.",
+        "trapwright evolve cuboid.trap --preset cuboid --population 40 --trials 20 --generations 40\n"
+        "  trapwright evolve cuboid.trap --resume --generations 80",
+        [options](const Console& console) { return run(*options, console); });
+    command.add_option("STUDY", options->study, "The study's file; made if it does not exist")->required();
+    command.add_flag("--resume", options->resume, "Go on where the study stopped, bit for bit");
+    addSettingOptions(command, options->settings);
+    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+    addCreationOptions(command, options->creation);
+}
+
+}  // namespace trapwright::app

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/study_access.h"
+#include "app/trapwright/track_export.h"
+#include "core/study/track_design.h"
+
+namespace trapwright::app {
+
+namespace {
+
+struct Options {
+    std::string study;
+    std::vector<std::string> files;
+    IndividualChoice choice;
+};
+
+/// Beside the study, with its name.
+std::vector<std::string> defaultFiles(const std::string& study) {
+    return {std::filesystem::path(study).replace_extension(".stl").string(),
+            std::filesystem::path(study).replace_extension(".3mf").string()};
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    const auto file = store::StudyFile::openReadOnly(options.study);
+    if (!file) return Failure{ExitCode::badInput, file.error().message};
+    const auto settings = file->loadSettings();
+    if (!settings) return Failure{ExitCode::badInput, settings.error().message};
+    auto individual = findIndividual(*file, options.choice);
+    if (!individual) return individual.failure();
+    const auto track = study::decodeTrack(settings->track, individual->record.chromosome);
+    if (!track) return Failure{ExitCode::badInput, track.error().message};
+
+    const std::string name =
+        fmt::format("{}, generation {}, individual {}", std::filesystem::path(options.study).stem().string(),
+                    individual->generation, individual->individual);
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    for (const std::string& path : options.files.empty() ? defaultFiles(options.study) : options.files) {
+        auto exported = exportTrack(*track, path, name);
+        if (!exported) return exported.failure();
+        console.print(describeExport(*exported));
+        files.push_back({{"file", path},
+                         {"size_mm", toJson(exported->size, 1e3)},
+                         {"triangles", exported->triangles},
+                         {"volume_mm3", exported->report.volume * 1e9},
+                         {"closed_and_manifold", exported->report.isSolid()},
+                         {"overlapping_triangles", exported->report.overlappingTriangles}});
+    }
+    console.emit({{"study", options.study},
+                  {"generation", individual->generation},
+                  {"individual", individual->individual},
+                  {"files", files}});
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& program, Invocation& invocation) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command =
+        addCommand(program, invocation, "export",
+                   "Writes a track for printing as binary STL or 3MF in mm, and checks what was written.",
+                   "trapwright export cuboid.trap track.stl track.3mf",
+                   [options](const Console& console) { return run(*options, console); });
+    command.add_option("STUDY", options->study, "The study's file")->required();
+    command.add_option("FILE", options->files,
+                       "Files to write, .stl or .3mf (default: both, beside the study)");
+    addIndividualOptions(command, options->choice);
+}
+
+}  // namespace trapwright::app

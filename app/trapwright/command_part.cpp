@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/part_source.h"
+#include "core/geometry/mass_properties.h"
+#include "core/study/settings.h"
+#include "core/trial/fitness.h"
+
+namespace trapwright::app {
+
+namespace {
+
+constexpr double kPerMm3 = 1e9;
+constexpr double kPerGram = 1e3;
+constexpr double kPerGramMm2 = 1e9;
+
+/// The way down in the part's axes: which side lies below in that pose.
+base::Vec3 downDirection(const part::StablePose& pose) {
+    return pose.rotation.conjugate() * base::Vec3(0.0, 0.0, -1.0);
+}
+
+/// The centre of mass in the file's coordinates, from where the part was moved to its own origin.
+base::Vec3 findCentre(const LoadedPart& loaded) {
+    return geometry::calcBoundingBox(loaded.mesh).low - geometry::calcBoundingBox(loaded.part.mesh).low;
+}
+
+std::string describePart(const LoadedPart& loaded) {
+    const part::Part& part = loaded.part;
+    const base::Vec3 size = geometry::calcBoundingBox(part.mesh).size() * 1e3;
+    const base::Vec3 centre = findCentre(loaded) * 1e3;
+    const base::Mat3 inertia = part.massProperties.inertia * kPerGramMm2;
+    std::string text = fmt::format(
+        "Part          {} ({}), read in {}\n"
+        "Triangles     {}\n"
+        "Size          {:.6g} x {:.6g} x {:.6g} mm\n"
+        "Volume        {:.6g} mm^3\n"
+        "Density       {:.6g} kg/m^3\n"
+        "Mass          {:.6g} g\n"
+        "Centre        ({:.6g}, {:.6g}, {:.6g}) mm in the file's coordinates\n"
+        "Inertia       xx {:.6g}, yy {:.6g}, zz {:.6g}, xy {:.3g}, xz {:.3g}, yz {:.3g} g mm^2 about the "
+        "centre\n"
+        "Shape         {}\n"
+        "Symmetry      {}{}\n",
+        part.name, part.source, loaded.units, part.mesh.triangles.size(), size.x(), size.y(), size.z(),
+        part.massProperties.volume * kPerMm3, part.density, part.massProperties.mass * kPerGram, centre.x(),
+        centre.y(), centre.z(), inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2),
+        inertia(1, 2),
+        part.pieces.size() == 1 ? "convex" : fmt::format("{} convex pieces", part.pieces.size()),
+        part.symmetry.name,
+        part.symmetry.continuous ? fmt::format(" about ({:.4f}, {:.4f}, {:.4f})", part.symmetry.axis.x(),
+                                               part.symmetry.axis.y(), part.symmetry.axis.z())
+                                 : fmt::format(", {} rotations", part.symmetry.rotations.size()));
+    text +=
+        fmt::format("Best score    F_O {:.3f} for a perfect feeder\n",
+                    trial::calcBestOrientationScore(part.symmetry, trial::OrientationDistance::symmetric));
+    text += "\nStable pose   Probability   Height of centre   Side below (direction in the part's axes)\n";
+    int number = 0;
+    for (const part::StablePose& pose : part.stablePoses) {
+        const base::Vec3 down = downDirection(pose);
+        text += fmt::format("{:>11} {:>11.1f} % {:>15.3f} mm   ({:+.3f}, {:+.3f}, {:+.3f})\n", ++number,
+                            pose.probability * 100.0, pose.height * 1e3, down.x(), down.y(), down.z());
+    }
+    text += "\nFound and mended:\n";
+    for (const std::string& note : loaded.notes)
+        text += "  " + note + "\n";
+    return text;
+}
+
+nlohmann::ordered_json partToJson(const LoadedPart& loaded) {
+    const part::Part& part = loaded.part;
+    const base::Mat3 inertia = part.massProperties.inertia * kPerGramMm2;
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (int row = 0; row < 3; ++row)
+        rows.push_back(toJson(inertia.row(row).transpose(), 1.0));
+    nlohmann::ordered_json poses = nlohmann::ordered_json::array();
+    for (const part::StablePose& pose : part.stablePoses) {
+        poses.push_back({{"probability", pose.probability},
+                         {"height_mm", pose.height * 1e3},
+                         {"rotation", toJson(pose.rotation)},
+                         {"down", toJson(downDirection(pose), 1.0)}});
+    }
+    nlohmann::ordered_json symmetry = {{"name", part.symmetry.name},
+                                       {"continuous", part.symmetry.continuous},
+                                       {"rotations", part.symmetry.rotations.size()}};
+    if (part.symmetry.continuous) symmetry["axis"] = toJson(part.symmetry.axis, 1.0);
+    return {{"name", part.name},
+            {"source", part.source},
+            {"units", loaded.units},
+            {"notes", loaded.notes},
+            {"triangles", part.mesh.triangles.size()},
+            {"size_mm", toJson(geometry::calcBoundingBox(part.mesh).size(), 1e3)},
+            {"volume_mm3", part.massProperties.volume * kPerMm3},
+            {"density_kg_m3", part.density},
+            {"mass_g", part.massProperties.mass * kPerGram},
+            {"centre_mm", toJson(findCentre(loaded), 1e3)},
+            {"inertia_g_mm2", rows},
+            {"convex_pieces", part.pieces.size()},
+            {"symmetry", symmetry},
+            {"stable_poses", poses}};
+}
+
+Attempt<ExitCode> run(const PartRequest& request, const Console& console) {
+    auto loaded = loadPart(request, study::PartSettings{}.density);
+    if (!loaded) return loaded.failure();
+    console.print(describePart(*loaded));
+    console.emit(partToJson(*loaded));
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addPartCommand(CLI::App& program, Invocation& invocation) {
+    const auto request = std::make_shared<PartRequest>();
+    CLI::App& command =
+        addCommand(program, invocation, "part",
+                   "Imports a part and tells what was found and mended, its mass, symmetry and stable poses.",
+                   "trapwright part clip.stl --units mm --material POM\n  trapwright part cuboid",
+                   [request](const Console& console) { return run(*request, console); });
+    command
+        .add_option("FILE", request->part,
+                    "STL, OBJ, PLY, OFF, 3MF, glTF, STEP or IGES file, or a bundled part: cuboid, cone, "
+                    "bracket, pin, cup")
+        ->required();
+    addPartOptions(command, *request);
+}
+
+}  // namespace trapwright::app

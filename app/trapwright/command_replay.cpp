@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/study_access.h"
+#include "app/trapwright/study_jobs.h"
+#include "app/trapwright/work_display.h"
+#include "core/base/file.h"
+#include "core/study/track_design.h"
+#include "core/study/trial_batches.h"
+
+namespace trapwright::app {
+
+namespace {
+
+struct Options {
+    std::string study;
+    IndividualChoice choice;
+    std::string kind = "learning";
+    int trial = 0;
+    int pose = 1;           // as tables count
+    double interval = 5.0;  // [ms]
+    std::optional<std::string> out;
+};
+
+Failure refuseTrial(const Options& options, const study::Winner& individual, int trials) {
+    if (trials == 0) {
+        return {ExitCode::usage, fmt::format("Generation {}, individual {} has no {} trials to replay.",
+                                             individual.generation, individual.individual, options.kind)};
+    }
+    return {ExitCode::usage,
+            fmt::format("--trial {}: generation {}, individual {} has the {} trials 0 to {}.", options.trial,
+                        individual.generation, individual.individual, options.kind, trials - 1)};
+}
+
+/// How many selection trials the individual had in the last selection that it was in.
+Attempt<int> countSelectionTrials(const store::StudyFile& file, const study::Winner& individual) {
+    const auto selections = file.loadSelections();
+    if (!selections) return Failure{ExitCode::badInput, selections.error().message};
+    int trials = 0;
+    for (const study::SelectionRecord& selection : *selections)
+        for (const study::SelectionEntry& entry : selection.entries)
+            if (entry.generation == individual.generation && entry.individual == individual.individual)
+                trials = entry.trials;
+    return trials;
+}
+
+/// The same for a pose of its last validation, whose trials are numbered by pose.
+Attempt<int> countValidationTrials(const store::StudyFile& file, const study::Winner& individual, int pose) {
+    const auto validations = file.loadValidations();
+    if (!validations) return Failure{ExitCode::badInput, validations.error().message};
+    int trials = 0;
+    for (const study::ValidationRecord& validation : *validations)
+        if (validation.generation == individual.generation && validation.individual == individual.individual)
+            for (const study::ValidationRow& row : validation.rows)
+                if (row.pose == pose) trials = row.trials;
+    return trials;
+}
+
+/// The batch that holds the trial, as it was when it was simulated.
+Attempt<trial::TrialBatch> makeBatch(const Options& options, const OpenStudy& study,
+                                     const study::Winner& individual) {
+    auto track = study::decodeTrack(study.settings.track, individual.record.chromosome);
+    if (!track) return Failure{ExitCode::badInput, track.error().message};
+    const study::TrialScene scene{&study.settings.simulation, study.part,
+                                  std::make_shared<const track::Track>(std::move(*track)),
+                                  study.settings.evolution.seed};
+    const int pose = options.pose - 1;
+    Attempt<int> trials = individual.record.trials;
+    if (options.kind == "selection") trials = countSelectionTrials(study.file, individual);
+    if (options.kind == "validation") trials = countValidationTrials(study.file, individual, pose);
+    if (!trials) return trials.failure();
+    if (options.trial < 0 || options.trial >= *trials) return refuseTrial(options, individual, *trials);
+    if (options.kind == "selection")
+        return study::makeSelectionBatch(scene, individual.generation, individual.individual, *trials);
+    if (options.kind == "validation")
+        return study::makeValidationBatch(scene, individual.generation, individual.individual, pose, *trials);
+    return study::makeLearningBatch(scene, individual.generation, individual.individual, *trials);
+}
+
+void appendPose(std::string& text, const base::Pose& pose) {
+    const base::Vec3 place = pose.position * 1e3;
+    const base::Quaternion& q = pose.rotation;
+    fmt::format_to(std::back_inserter(text), ",{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}", place.x(),
+                   place.y(), place.z(), q.w(), q.x(), q.y(), q.z());
+}
+
+std::string toCsv(const std::string& about, const trial::Trajectory& trajectory) {
+    std::string text = about;
+    text +=
+        "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,room_x_mm,room_y_mm,room_z_mm,room_qw,room_qx,room_qy,room_qz,"
+        "drive_x_mm,drive_y_mm,drive_z_mm,contacts\n";
+    for (const trial::TrajectorySample& sample : trajectory.samples) {
+        fmt::format_to(std::back_inserter(text), "{:.6f}", sample.time);
+        appendPose(text, sample.track);
+        appendPose(text, sample.room);
+        const base::Vec3 drive = sample.drive * 1e3;
+        fmt::format_to(std::back_inserter(text), ",{:.6f},{:.6f},{:.6f},{}\n", drive.x(), drive.y(),
+                       drive.z(), sample.contacts);
+    }
+    return text;
+}
+
+nlohmann::ordered_json sampleToJson(const trial::TrajectorySample& sample) {
+    return {{"time_s", sample.time},
+            {"position_mm", toJson(sample.track.position, 1e3)},
+            {"rotation", toJson(sample.track.rotation)},
+            {"room_position_mm", toJson(sample.room.position, 1e3)},
+            {"room_rotation", toJson(sample.room.rotation)},
+            {"drive_mm", toJson(sample.drive, 1e3)},
+            {"contacts", sample.contacts}};
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    auto study = openStudy(options.study, Access::read);
+    if (!study) return study.failure();
+    auto individual = findIndividual(study->file, options.choice);
+    if (!individual) return individual.failure();
+    auto batch = makeBatch(options, *study, *individual);
+    if (!batch) return batch.failure();
+    auto inputs = makeInputs(*study, std::nullopt, 1);
+    if (!inputs) return inputs.failure();
+
+    base::RunControl control;
+    auto trajectory = [&] {
+        WorkWatch watch;
+        watch.progress = [] { return std::string("Simulating the trial again"); };
+        watch.interrupted = [control](int) mutable { control.cancel(); };
+        const WorkDisplay display(console, watch);
+        return inputs->engine->replay(*batch, static_cast<std::size_t>(options.trial),
+                                      options.interval * 1e-3, control);
+    }();
+    if (!trajectory) return describeRunFailure(control, trajectory.error());
+
+    const trial::Outcome& outcome = trajectory->outcome;
+    const std::string trialName =
+        options.kind == "validation"
+            ? fmt::format("validation trial {} of pose {}", options.trial, options.pose)
+            : fmt::format("{} trial {}", options.kind, options.trial);
+    const std::string about = fmt::format(
+        "# {}: generation {}, individual {}, {}, part {}, engine {}\n"
+        "# {} after {:.3f} s at x = {:.3f} mm; x along the track, y to its outer edge, z up; quaternions w, "
+        "x, y, z\n",
+        options.study, individual->generation, individual->individual, trialName, study->part->name,
+        inputs->engine->name(), trial::endingName(outcome.ending), outcome.time,
+        outcome.farthest.position.x() * 1e3);
+    if (options.out) {
+        if (const auto written = base::writeFile(*options.out, toCsv(about, *trajectory)); !written)
+            return Failure{ExitCode::cannotWrite, written.error().message};
+        console.print(about +
+                      fmt::format("Wrote {} poses to {}\n", trajectory->samples.size(), *options.out));
+    } else {
+        console.print(toCsv(about, *trajectory));
+    }
+    nlohmann::ordered_json samples = nlohmann::ordered_json::array();
+    if (console.json() && !options.out)
+        for (const trial::TrajectorySample& sample : trajectory->samples)
+            samples.push_back(sampleToJson(sample));
+    console.emit({{"study", options.study},
+                  {"generation", individual->generation},
+                  {"individual", individual->individual},
+                  {"kind", options.kind},
+                  {"trial", options.trial},
+                  {"ending", trial::endingName(outcome.ending)},
+                  {"time_s", outcome.time},
+                  {"farthest_x_mm", outcome.farthest.position.x() * 1e3},
+                  {"file", options.out ? nlohmann::ordered_json(*options.out) : nlohmann::ordered_json()},
+                  {"samples", samples}});
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addReplayCommand(CLI::App& program, Invocation& invocation) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = addCommand(
+        program, invocation, "replay",
+        "Simulates a stored trial again, bit for bit, and gives the part's poses over time as CSV.",
+        "trapwright replay cuboid.trap --generation 12 --trial 3 --out trial.csv",
+        [options](const Console& console) { return run(*options, console); });
+    command.add_option("STUDY", options->study, "The study's file")->required();
+    addIndividualOptions(command, options->choice);
+    command
+        .add_option("--kind", options->kind,
+                    "Which of its trials: learning, selection or validation (learning)")
+        ->check(CLI::IsMember({"learning", "selection", "validation"}));
+    command.add_option("--pose", options->pose, "Of a validation trial: the stable pose, from 1 (1)");
+    command.add_option("--trial", options->trial, "The trial's number, from 0 (0)");
+    command.add_option("--interval", options->interval, "Between two poses in ms (5)")
+        ->check(CLI::Range(0.01, 1e5));
+    command.add_option("--out", options->out, "The file to write (default: standard output)");
+}
+
+}  // namespace trapwright::app

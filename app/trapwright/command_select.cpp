@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/study_access.h"
+#include "app/trapwright/study_jobs.h"
+#include "core/study/tables.h"
+
+namespace trapwright::app {
+
+namespace {
+
+struct Options {
+    std::string study;
+    std::optional<int> winners;
+    std::optional<int> trials;
+    std::optional<std::string> engine;
+    unsigned threads = 0;
+};
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    auto study = openStudy(options.study, Access::write);
+    if (!study) return study.failure();
+    auto inputs = makeInputs(*study, options.engine, options.threads);
+    if (!inputs) return inputs.failure();
+    study::ValidationSettings& validation = inputs->settings.validation;
+    validation.selectionWinners = options.winners.value_or(validation.selectionWinners);
+    validation.selectionTrials = options.trials.value_or(validation.selectionTrials);
+
+    auto record = selectAndSave(study->file, *inputs, console);
+    if (!record) return record.failure();
+    console.print(study::formatSelection(*record));
+    console.emit({{"study", options.study}, {"selection", toJson(*record)}});
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addSelectCommand(CLI::App& program, Invocation& invocation) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command =
+        addCommand(program, invocation, "select",
+                   "Simulates the highest winners of all generations many times each and ranks them.",
+                   "trapwright select cuboid.trap --winners 10 --trials 1000",
+                   [options](const Console& console) { return run(*options, console); });
+    command.add_option("STUDY", options->study, "The study's file")->required();
+    command.add_option("--winners", options->winners,
+                       "How many of the highest winners (default: as in the study)");
+    command.add_option("--trials", options->trials, "Trials of each (default: as in the study)");
+    command.add_option("--engine", options->engine, "What simulates (default: as in the study)");
+    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+}
+
+}  // namespace trapwright::app

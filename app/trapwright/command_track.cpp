@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/engines.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/part_source.h"
+#include "app/trapwright/study_jobs.h"
+#include "app/trapwright/track_trials.h"
+#include "app/trapwright/work_display.h"
+#include "core/stats/binomial.h"
+#include "core/study/evaluator.h"
+#include "core/track/track_file.h"
+
+namespace trapwright::app {
+
+namespace {
+
+struct Options {
+    std::string file;
+    PartRequest part;
+    int trials = 1000;
+    std::uint64_t seed = 1;
+    double halfStroke = 0.8;  // [mm]
+    std::optional<double> friction;
+    std::optional<double> restitution;
+    double step = 0.0;        // [ms]; 0: the engine's own
+    double tolerance = 25.0;  // [deg]
+    std::string engine = "simbody";
+    unsigned threads = 0;
+};
+
+study::Settings settingsFor(const Options& options, const track::Track& track) {
+    study::Settings settings;
+    settings.simulation.drive.halfStroke = options.halfStroke * base::kMillimetre;
+    trial::ContactParameters& contact = settings.simulation.contact;
+    contact.staticFriction = options.friction.value_or(contact.staticFriction);
+    contact.kineticFriction = options.friction.value_or(contact.kineticFriction);
+    contact.restitution = options.restitution.value_or(contact.restitution);
+    settings.evolution.trialsPerEvaluation = options.trials;
+    settings.validation.tolerance = options.tolerance * base::kDegree;
+    // So that a part that is too large for this track is refused.
+    const double leadInEnd = track.sections[static_cast<std::size_t>(track.firstTrapSection)].x;
+    settings.track.shape = track.shape;
+    settings.track.segmentWidth = track.width;
+    settings.track.leadInLength = leadInEnd - track.begin();
+    settings.track.startFromLeadInEnd = leadInEnd - track.start;
+    return settings;
+}
+
+std::string describeShare(const char* what, int count, int trials) {
+    const stats::Interval bounds = stats::calcClopperPearson(count, trials);
+    return fmt::format("{:<10} {:>6} of {}   {:5.1f} %   95 % bounds {:5.1f} ... {:5.1f} %\n", what, count,
+                       trials, 100.0 * count / trials, 100.0 * bounds.low, 100.0 * bounds.high);
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    const auto file = track::readTrackFile(options.file);
+    if (!file) return Failure{ExitCode::badInput, file.error().message};
+    auto loaded = loadPart(options.part, study::PartSettings{}.density);
+    if (!loaded) return loaded.failure();
+    auto engine = makeEngine(options.engine, {options.threads, options.step * 1e-3});
+    if (!engine) return engine.failure();
+    const auto part = std::make_shared<const part::Part>(loaded->part);
+    const study::Settings settings = settingsFor(options, file->track);
+    if (const auto checked = study::checkInputs({settings, part, *engine}); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+
+    const trial::TrialBatch batch = makeTrackBatch(std::make_shared<const track::Track>(file->track), part,
+                                                   settings.simulation, options.seed, options.trials);
+    base::RunControl control;
+    const auto outcomes = [&] {
+        const WorkDisplay display(console, watchTrials("Simulating", options.trials, control));
+        return study::runTrials(**engine, {&batch, 1}, control);
+    }();
+    if (!outcomes) return describeRunFailure(control, outcomes.error());
+    const TrialCounts counts = countTrials(outcomes->front(), part->symmetry, file->expectedOrientation,
+                                           settings.validation.tolerance);
+
+    console.print(fmt::format("{}: part {}, half-stroke {:g} mm, throw number {:.3f}, engine {}\n",
+                              options.file, part->name, options.halfStroke,
+                              trial::calcThrowNumber(batch.drive), options.engine) +
+                  describeShare("Finished", counts.finished, counts.trials) +
+                  describeShare("Fell off", counts.fellOff, counts.trials) +
+                  describeShare("Stuck", counts.stuck, counts.trials) +
+                  describeShare("Oriented", counts.oriented, counts.trials) +
+                  fmt::format("Oriented: finished within {:g} deg of {}.\n", options.tolerance,
+                              file->expectedOrientation ? "the orientation that the file expects"
+                                                        : "the most frequent final orientation"));
+    console.emit({{"track", options.file},
+                  {"part", part->name},
+                  {"engine", options.engine},
+                  {"half_stroke_mm", options.halfStroke},
+                  {"throw_number", trial::calcThrowNumber(batch.drive)},
+                  {"trials", counts.trials},
+                  {"finished", shareToJson(counts.finished, counts.trials)},
+                  {"fell_off", shareToJson(counts.fellOff, counts.trials)},
+                  {"stuck", shareToJson(counts.stuck, counts.trials)},
+                  {"oriented", shareToJson(counts.oriented, counts.trials)},
+                  {"expected_orientation", toJson(counts.expected)},
+                  {"mean_simulated_s", counts.simulatedTime / counts.trials}});
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addTrackCommand(CLI::App& program, Invocation& invocation) {
+    const auto options = std::make_shared<Options>();
+    options->part.part = "cuboid";
+    CLI::App& command =
+        addCommand(program, invocation, "track",
+                   "Simulates parts on a track file: how many finish, fall off, get stuck, are oriented.",
+                   "trapwright track resources/tracks/cuboid_track.json --part cuboid --trials 1000",
+                   [options](const Console& console) { return run(*options, console); });
+    command.add_option("FILE", options->file, "The track, JSON in mm")->required();
+    command.add_option("--part", options->part.part,
+                       "The part: a file, or the name of a bundled one (cuboid)");
+    addPartOptions(command, options->part);
+    command.add_option("--trials", options->trials, "How many (1000)");
+    command.add_option("--seed", options->seed, "Of the random starts (1)");
+    command.add_option("--half-stroke", options->halfStroke,
+                       "Amplitude along the vibration line in mm (0.8)");
+    command.add_option("--friction", options->friction, "Static and kinetic (0.5)");
+    command.add_option("--restitution", options->restitution, "From 0 to 1 (0.3)");
+    command.add_option("--step", options->step, "Of simulated time in ms (the engine's own)")
+        ->check(CLI::Range(1e-4, 2.0));
+    command.add_option("--tolerance", options->tolerance, "Of the orientation in degrees (25)");
+    command.add_option("--engine", options->engine, "What simulates (simbody)");
+    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+}
+
+}  // namespace trapwright::app

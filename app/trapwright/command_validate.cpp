@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
+#include "app/trapwright/study_access.h"
+#include "app/trapwright/study_jobs.h"
+#include "core/study/tables.h"
+
+namespace trapwright::app {
+
+namespace {
+
+struct Options {
+    std::string study;
+    IndividualChoice choice;
+    std::optional<int> trials;
+    std::optional<double> tolerance;  // [deg]
+    std::vector<double> expected;     // w x y z
+    std::optional<std::string> engine;
+    unsigned threads = 0;
+};
+
+Attempt<std::optional<base::Quaternion>> readExpected(const std::vector<double>& values) {
+    if (values.empty()) return std::optional<base::Quaternion>();
+    const base::Quaternion expected(values[0], values[1], values[2], values[3]);
+    if (!(expected.norm() > 0.0)) return Failure{ExitCode::usage, "--expected must not be all zero."};
+    return std::optional(expected.normalized());
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    auto expected = readExpected(options.expected);
+    if (!expected) return expected.failure();
+    auto study = openStudy(options.study, Access::write);
+    if (!study) return study.failure();
+    auto individual = findIndividual(study->file, options.choice);
+    if (!individual) return individual.failure();
+    auto inputs = makeInputs(*study, options.engine, options.threads);
+    if (!inputs) return inputs.failure();
+    study::ValidationSettings& validation = inputs->settings.validation;
+    validation.trialsPerPose = options.trials.value_or(validation.trialsPerPose);
+    if (options.tolerance) validation.tolerance = *options.tolerance * base::kDegree;
+
+    auto record = validateAndSave(study->file, *inputs, *individual, *expected, console);
+    if (!record) return record.failure();
+    const base::Quaternion& goal = record->expectedOrientation;
+    console.print(fmt::format(
+        "Generation {}, individual {}, engine {}; success: finished within {:g} deg of the orientation "
+        "(w, x, y, z) = ({:.3f}, {:.3f}, {:.3f}, {:.3f})\n{}",
+        record->generation, record->individual, record->engine, record->tolerance / base::kDegree, goal.w(),
+        goal.x(), goal.y(), goal.z(), study::formatValidation(*record)));
+    console.emit({{"study", options.study}, {"validation", toJson(*record, *study->part)}});
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addValidateCommand(CLI::App& program, Invocation& invocation) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = addCommand(
+        program, invocation, "validate",
+        "Success of one track per stable pose of the part: trials T, failures F, success P with 95 % bounds.",
+        "trapwright validate cuboid.trap --trials 1000",
+        [options](const Console& console) { return run(*options, console); });
+    command.add_option("STUDY", options->study, "The study's file")->required();
+    addIndividualOptions(command, options->choice);
+    command.add_option("--trials", options->trials, "Trials per stable pose (default: as in the study)");
+    command.add_option("--tolerance", options->tolerance,
+                       "Of the orientation, in degrees (default: as in the study)");
+    command
+        .add_option("--expected", options->expected,
+                    "The orientation that counts as success, w x y z (default: the most frequent final one)")
+        ->expected(4);
+    command.add_option("--engine", options->engine, "What simulates (default: as in the study)");
+    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+}
+
+}  // namespace trapwright::app

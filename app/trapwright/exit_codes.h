@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace trapwright::app {
+
+/// What the program's exit status means. The same for all commands; `trapwright --help` lists them.
+enum class ExitCode : int {
+    ok = 0,
+    no = 1,             // it ran and the answer is no: verify failed, an exported file is not closed
+    usage = 2,          // arguments or settings that cannot be used
+    badInput = 3,       // a file that is missing, empty, damaged or cannot be used
+    cannotWrite = 4,    // full disk, read-only folder
+    locked = 5,         // another process writes this study
+    fault = 6,          // the engine or the program failed
+    interrupted = 130,  // Ctrl-C; what was finished before is saved
+};
+
+/// The list above for people.
+inline constexpr const char* kExitCodesText =
+    "Exit codes: 0 all went well; 1 the answer is no (verify failed, an exported file is not closed); 2 "
+    "arguments or\n"
+    "settings that cannot be used; 3 a bad input file; 4 cannot write; 5 another process writes the study; 6 "
+    "the engine\n"
+    "or the program failed; 130 interrupted by Ctrl-C.\n"
+    "With --json a command prints one JSON document on stdout and nothing else; if it fails that is\n"
+    "{\"error\": MESSAGE, \"exit_code\": N}, and the message goes to stderr as well.";
+
+/// Why a command ends without having done its work.
+struct Failure {
+    ExitCode code = ExitCode::fault;
+    std::string message;
+};
+
+/// A value, or why there is none and with which status the program ends.
+template <class T>
+class [[nodiscard]] Attempt {
+ public:
+    Attempt(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+    Attempt(Failure failure) : state_(std::in_place_index<1>, std::move(failure)) {}
+
+    explicit operator bool() const { return state_.index() == 0; }
+    /// The value; only where true.
+    T& operator*() { return *std::get_if<0>(&state_); }
+    T* operator->() { return std::get_if<0>(&state_); }
+    /// The failure; only where false.
+    [[nodiscard]] const Failure& failure() const { return *std::get_if<1>(&state_); }
+
+ private:
+    std::variant<T, Failure> state_;
+};
+
+}  // namespace trapwright::app

@@ -1,0 +1,101 @@
+#include "app/trapwright/json_records.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/stats/binomial.h"
+#include "core/study/validation.h"
+
+namespace trapwright::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rowToJson(const study::ValidationRow& row) {
+    return {{"trials", row.trials},
+            {"failures", row.failures},
+            {"success", shareToJson(row.trials - row.failures, row.trials)},
+            {"wrong_orientation", row.wrongOrientation},
+            {"stuck", row.stuck},
+            {"fell_off", row.fellOff}};
+}
+
+}  // namespace
+
+Json toJson(const base::Quaternion& rotation) {
+    return Json::array({rotation.w(), rotation.x(), rotation.y(), rotation.z()});
+}
+
+Json toJson(const base::Vec3& vector, double scale) {
+    return Json::array({vector.x() * scale, vector.y() * scale, vector.z() * scale});
+}
+
+Json toJson(const trial::Fitness& fitness) {
+    return {{"F", fitness.total()},
+            {"F_C", fitness.collision},
+            {"F_D", fitness.distance},
+            {"F_O", fitness.orientation}};
+}
+
+Json toJson(const study::IndividualRecord& record) {
+    Json json = toJson(record.fitness);
+    json.update({{"overlaps", record.overlaps},
+                 {"trials", record.trials},
+                 {"finished", record.finished},
+                 {"fell_off", record.fellOff},
+                 {"stuck", record.stuck}});
+    return json;
+}
+
+Json toJson(const study::GenerationSummary& summary) {
+    const study::GenerationStatistics& statistics = summary.statistics;
+    return {{"generation", summary.index},
+            {"winner", summary.winner},
+            {"best", toJson(statistics.best)},
+            {"top_30_percent_mean", toJson(statistics.topMean)},
+            {"p_x", statistics.topStrategy.crossover},
+            {"p_dm", statistics.topStrategy.mutation},
+            {"p_s", statistics.topStrategy.smoothing},
+            {"seconds", summary.seconds}};
+}
+
+Json toJson(const study::SelectionRecord& record) {
+    Json entries = Json::array();
+    for (const study::SelectionEntry& entry : record.entries) {
+        entries.push_back({{"generation", entry.generation},
+                           {"individual", entry.individual},
+                           {"fitness", toJson(entry.fitness)},
+                           {"trials", entry.trials},
+                           {"finished", entry.finished},
+                           {"oriented", shareToJson(entry.oriented, entry.trials)},
+                           {"modal_orientation", toJson(entry.modalOrientation)}});
+    }
+    return {{"engine", record.engine}, {"entries", entries}};
+}
+
+Json toJson(const study::ValidationRecord& record, const part::Part& part) {
+    Json rows = Json::array();
+    for (const study::ValidationRow& row : record.rows) {
+        Json json = {{"pose", row.pose + 1},
+                     {"rotation", toJson(part.stablePoses[static_cast<std::size_t>(row.pose)].rotation)}};
+        json.update(rowToJson(row));
+        rows.push_back(json);
+    }
+    return {{"generation", record.generation},
+            {"individual", record.individual},
+            {"engine", record.engine},
+            {"expected_orientation", toJson(record.expectedOrientation)},
+            {"tolerance_deg", record.tolerance / base::kDegree},
+            {"poses", rows},
+            {"total", rowToJson(study::calcTotal(record))}};
+}
+
+Json shareToJson(int count, int trials) {
+    const stats::Interval bounds = stats::calcClopperPearson(count, trials);
+    return {{"count", count},
+            {"share", trials > 0 ? Json(static_cast<double>(count) / trials) : Json()},
+            {"low", bounds.low},
+            {"high", bounds.high}};
+}
+
+}  // namespace trapwright::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/part/part.h"
+#include "core/study/records.h"
+
+namespace trapwright::app {
+
+/// Records as --json shows them. Angles in degrees, quaternions [w, x, y, z]; shares with their 95 % bounds
+/// after Clopper and Pearson.
+nlohmann::ordered_json toJson(const base::Quaternion& rotation);
+nlohmann::ordered_json toJson(const base::Vec3& vector, double scale);
+nlohmann::ordered_json toJson(const trial::Fitness& fitness);
+nlohmann::ordered_json toJson(const study::IndividualRecord& record);
+nlohmann::ordered_json toJson(const study::GenerationSummary& summary);
+nlohmann::ordered_json toJson(const study::SelectionRecord& record);
+nlohmann::ordered_json toJson(const study::ValidationRecord& record, const part::Part& part);
+/// {"count", "share", "low", "high"} of `count` successes in `trials`.
+nlohmann::ordered_json shareToJson(int count, int trials);
+
+}  // namespace trapwright::app

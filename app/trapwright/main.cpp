@@ -1,0 +1,67 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "app/trapwright/command.h"
+#include "app/trapwright/program.h"
+
+namespace {
+
+using namespace trapwright::app;
+
+/// Where the command line itself is wrong, --json has to be found by hand.
+bool asksForJson(int count, char** arguments) {
+    return std::any_of(arguments, arguments + count,
+                       [](const char* argument) { return std::string_view(argument) == "--json"; });
+}
+
+Attempt<ExitCode> perform(const CommandAction& action, const Console& console) {
+    try {
+        return action(console);
+    } catch (const std::exception& exception) {
+        return Failure{ExitCode::fault, std::string("A fault of the program or of a library that it uses: ") +
+                                            exception.what() + ". Please report it with the command."};
+    }
+}
+
+ExitCode runProgram(int count, char** arguments) {
+    CLI::App program("Designs tracks for vibratory part feeders.");
+    program.footer(std::string("COMMAND --help tells its options and shows an example.\n") + kExitCodesText);
+    program.set_version_flag("--version", std::string(kProgram));
+    program.require_subcommand(1);
+    program.failure_message(CLI::FailureMessage::simple);
+
+    Invocation invocation;
+    for (const auto add :
+         {addPartCommand, addNewCommand, addSettingsCommand, addEvolveCommand, addSelectCommand,
+          addValidateCommand, addExportCommand, addReplayCommand, addTrackCommand, addSweepCommand,
+          addVerifyCommand, addBenchCommand, addDemoCommand, addDumpCommand}) {
+        add(program, invocation);
+    }
+    try {
+        program.parse(count, arguments);
+    } catch (const CLI::Success& helpOrVersion) {
+        return static_cast<ExitCode>(program.exit(helpOrVersion));
+    } catch (const CLI::ParseError& error) {
+        return Console(asksForJson(count, arguments))
+            .fail({ExitCode::usage, std::string(error.what()) + ". See trapwright --help."});
+    }
+
+    const Console console(invocation.json);
+    Attempt<ExitCode> result = perform(invocation.action, console);
+    const ExitCode code = result ? *result : console.fail(result.failure());
+    if (console.flush()) return code;
+    console.note("Not everything could be printed: standard output cannot be written (is the disk full?).");
+    return ExitCode::cannotWrite;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A file that reaches its size limit is an error to report like a full disk, not the end of the process.
+    (void)std::signal(SIGXFSZ, SIG_IGN);
+    return static_cast<int>(runProgram(argc, argv));
+}

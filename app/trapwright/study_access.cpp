@@ -1,0 +1,132 @@
+#include "app/trapwright/study_access.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "app/trapwright/engines.h"
+#include "app/trapwright/program.h"
+#include "core/base/parallel.h"
+#include "core/store/file_lock.h"
+#include "core/study/selection.h"
+
+namespace trapwright::app {
+
+namespace {
+
+bool canWriteFolder(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    return ::access(folder.c_str(), W_OK) == 0;
+}
+
+bool canWriteFile(const std::string& path) {
+    return ::access(path.c_str(), W_OK) == 0;
+}
+
+/// Whether another process has the study open for writing, at this moment.
+bool isLocked(const std::string& path) {
+    return canWriteFolder(path) && !store::FileLock::acquire(path).ok();
+}
+
+}  // namespace
+
+Failure describeOpenFailure(const std::string& path, const base::Error& error) {
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(path, failure)) return {ExitCode::badInput, error.message};
+    if (!canWriteFolder(path) || !canWriteFile(path)) return {ExitCode::cannotWrite, error.message};
+    return {isLocked(path) ? ExitCode::locked : ExitCode::badInput, error.message};
+}
+
+Failure describeCreateFailure(const std::string& path, const base::Error& error) {
+    std::error_code failure;
+    if (std::filesystem::exists(path, failure)) return {ExitCode::usage, error.message};
+    return {isLocked(path) ? ExitCode::locked : ExitCode::cannotWrite, error.message};
+}
+
+Attempt<OpenStudy> openStudy(const std::string& path, Access access) {
+    auto file = access == Access::write ? store::StudyFile::open(path, kProgram)
+                                        : store::StudyFile::openReadOnly(path);
+    if (!file) {
+        if (access == Access::write) return describeOpenFailure(path, file.error());
+        return Failure{ExitCode::badInput, file.error().message};
+    }
+    return loadStudy(std::move(*file));
+}
+
+Attempt<OpenStudy> loadStudy(store::StudyFile file) {
+    auto settings = file.loadSettings();
+    if (!settings) return Failure{ExitCode::badInput, settings.error().message};
+    const auto stored = file.loadPart();
+    if (!stored) return Failure{ExitCode::badInput, stored.error().message};
+    auto built = part::buildPart(stored->mesh, stored->options);
+    if (!built) {
+        return Failure{ExitCode::badInput, fmt::format("The part of the study {}: {}", file.path().string(),
+                                                       built.error().message)};
+    }
+    return OpenStudy{std::move(file), std::move(*settings),
+                     std::make_shared<const part::Part>(std::move(built->part))};
+}
+
+void addIndividualOptions(CLI::App& command, IndividualChoice& choice) {
+    auto* generation = command.add_option("--generation", choice.generation, "Of the individual, from 0");
+    command
+        .add_option(
+            "--individual", choice.individual,
+            "Its number in the generation, from 0 (default: the winner). Without both: the first of the last "
+            "selection, or else the fittest winner")
+        ->needs(generation);
+}
+
+Attempt<study::Winner> findIndividual(const store::StudyFile& file, const IndividualChoice& choice) {
+    const auto count = file.generationCount();
+    if (!count) return Failure{ExitCode::badInput, count.error().message};
+    if (*count == 0) {
+        return Failure{ExitCode::badInput,
+                       fmt::format("The study {} has no generations yet. Learn some first: "
+                                   "trapwright evolve {}",
+                                   file.path().string(), file.path().string())};
+    }
+    int generation = 0;
+    int individual = 0;
+    if (choice.generation) {
+        generation = *choice.generation;
+        if (generation < 0 || generation >= *count) {
+            return Failure{ExitCode::usage,
+                           fmt::format("--generation {}: the study {} has the generations 0 to {}.",
+                                       generation, file.path().string(), *count - 1)};
+        }
+        const auto record = file.loadGeneration(generation);
+        if (!record) return Failure{ExitCode::badInput, record.error().message};
+        individual = choice.individual.value_or(record->winner);
+        const int size = static_cast<int>(record->individuals.size());
+        if (individual < 0 || individual >= size) {
+            return Failure{ExitCode::usage,
+                           fmt::format("--individual {}: generation {} has the individuals 0 to {}.",
+                                       individual, generation, size - 1)};
+        }
+        return study::Winner{generation, individual,
+                             record->individuals[static_cast<std::size_t>(individual)]};
+    }
+    const auto selections = file.loadSelections();
+    if (!selections) return Failure{ExitCode::badInput, selections.error().message};
+    if (!selections->empty() && !selections->back().entries.empty()) {
+        const study::SelectionEntry& first = selections->back().entries.front();
+        auto record = file.loadIndividual(first.generation, first.individual);
+        if (!record) return Failure{ExitCode::badInput, record.error().message};
+        return study::Winner{first.generation, first.individual, std::move(*record)};
+    }
+    auto winners = file.loadWinners();
+    if (!winners) return Failure{ExitCode::badInput, winners.error().message};
+    return study::rankWinners(std::move(*winners), 1).front();
+}
+
+Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
+                                       unsigned threads) {
+    auto made = makeEngine(engine.value_or(study.settings.simulation.engine), {threads, 0.0});
+    if (!made) return made.failure();
+    return study::StudyInputs{study.settings, study.part, *made,
+                              threads == 0 ? base::availableThreads() : threads};
+}
+
+}  // namespace trapwright::app

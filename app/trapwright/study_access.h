@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/trapwright/exit_codes.h"
+#include "core/store/study_file.h"
+#include "core/study/evaluator.h"
+
+namespace trapwright::app {
+
+enum class Access { read, write };
+
+/// An open study with its settings and its part as it was built when the study was made.
+struct OpenStudy {
+    store::StudyFile file;
+    study::Settings settings;
+    std::shared_ptr<const part::Part> part;
+};
+
+Attempt<OpenStudy> openStudy(const std::string& path, Access access);
+
+/// The same of a file that is open already.
+Attempt<OpenStudy> loadStudy(store::StudyFile file);
+
+/// What cannot be opened or made, with the status that tells why.
+Failure describeOpenFailure(const std::string& path, const base::Error& error);
+Failure describeCreateFailure(const std::string& path, const base::Error& error);
+
+/// How a command names one individual of a study.
+struct IndividualChoice {
+    std::optional<int> generation;
+    std::optional<int> individual;
+};
+
+/// Adds --generation and --individual.
+void addIndividualOptions(CLI::App& command, IndividualChoice& choice);
+
+/// The individual that is meant: the one named; a generation's winner; otherwise the first of the last
+/// selection, or without any the fittest winner.
+Attempt<study::Winner> findIndividual(const store::StudyFile& file, const IndividualChoice& choice);
+
+/// The study's engine, or the one named, made for these threads (0: all).
+Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
+                                       unsigned threads);
+
+}  // namespace trapwright::app

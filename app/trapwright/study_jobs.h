@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "app/trapwright/console.h"
+#include "core/store/study_file.h"
+#include "core/study/evaluator.h"
+#include "core/study/records.h"
+
+namespace trapwright::app {
+
+/// Selection of a study's winners with progress and Ctrl-C, its result saved in the file.
+Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                              const Console& console);
+
+/// Validation of one individual likewise. `expected`: the orientation that counts as success, if not the
+/// mode.
+Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                                 const study::Winner& individual,
+                                                 const std::optional<base::Quaternion>& expected,
+                                                 const Console& console);
+
+/// The failure that a cancelled or broken run of trials means.
+Failure describeRunFailure(const base::RunControl& control, const base::Error& error);
+
+}  // namespace trapwright::app

@@ -1,0 +1,156 @@
+#include "app/trapwright/study_options.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/trapwright/engines.h"
+#include "app/trapwright/program.h"
+#include "app/trapwright/study_access.h"
+#include "core/base/file.h"
+#include "core/study/evaluator.h"
+#include "core/study/presets.h"
+
+namespace trapwright::app {
+
+namespace {
+
+/// {"track": {"segmentWidth_mm": 50}} for "track.segmentWidth_mm=50"; a value that is no JSON is taken as a
+/// string.
+Attempt<std::string> toJson(const std::string& assignment) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        return Failure{ExitCode::usage,
+                       fmt::format("--set {}: write KEY=VALUE, as in --set "
+                                   "track.segmentWidth_mm=50; `trapwright settings STUDY` shows the keys.",
+                                   assignment)};
+    }
+    const std::string value = assignment.substr(equals + 1);
+    // The number's own text goes on: parsing it here would lose digits.
+    std::string json = nlohmann::json::accept(value) ? value : nlohmann::json(value).dump();
+    std::string key = assignment.substr(0, equals);
+    for (std::size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
+        json = fmt::format("{{{}: {}}}", nlohmann::json(key.substr(dot + 1)).dump(), json);
+        key.resize(dot);
+    }
+    return fmt::format("{{{}: {}}}", nlohmann::json(key).dump(), json);
+}
+
+Attempt<study::Settings> startingSettings(const CreationOptions& creation) {
+    study::Settings settings;
+    if (creation.preset) {
+        auto preset = study::presetSettings(*creation.preset);
+        if (!preset) return Failure{ExitCode::usage, preset.error().message};
+        settings = std::move(*preset);
+    }
+    if (creation.contact) {
+        const auto contact = study::findContactPreset(*creation.contact);
+        if (!contact) return Failure{ExitCode::usage, contact.error().message};
+        settings.simulation.contact = contact->contact;
+        settings.part.density = contact->density;
+    }
+    if (creation.paper) settings = study::paperMode(settings);
+    if (creation.settingsFile) {
+        const auto text = base::readFile(*creation.settingsFile);
+        if (!text) return Failure{ExitCode::badInput, text.error().message};
+        auto read = study::settingsFromJson(*text, settings);
+        if (!read) return Failure{ExitCode::badInput, *creation.settingsFile + ": " + read.error().message};
+        settings = std::move(*read);
+    }
+    return settings;
+}
+
+/// Without another word of the user the part is what the settings say it is.
+PartRequest completeRequest(PartRequest request, const study::Settings& settings,
+                            const CreationOptions& creation) {
+    const study::PartSettings& known = settings.part;
+    if (request.part.empty()) {
+        request.part = known.file;
+        if (!request.units && !known.units.empty()) request.units = known.units;
+        if (!request.density && !request.material) request.density = known.density;
+    } else if (creation.contact && !request.density && !request.material) {
+        request.density = known.density;
+    }
+    if (!request.tolerance) request.tolerance = known.symmetryTolerance;
+    return request;
+}
+
+}  // namespace
+
+bool CreationOptions::given() const {
+    return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
+           contact || settingsFile || paper;
+}
+
+void addCreationOptions(CLI::App& command, CreationOptions& options) {
+    command.add_option("--preset", options.preset, "Start from the paper's Table 1: cuboid or cone");
+    command.add_option("--part", options.part.part, "The part: a file, or the name of a bundled one");
+    addPartOptions(command, options.part);
+    command.add_option(
+        "--contact", options.contact,
+        "Friction, restitution and density by pair: abs-on-printed-plastic, brass-on-printed-plastic");
+    command.add_option("--settings", options.settingsFile,
+                       "Settings in JSON, as `trapwright settings` prints them");
+    command.add_flag("--paper", options.paper, "The paper's own choices where the defaults go past it");
+}
+
+void addSettingOptions(CLI::App& command, SettingOptions& options) {
+    command.add_option("--set", options.assignments, "Set one setting, as in --set track.segmentWidth_mm=50")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    command.add_option("--generations", options.generations, "Generations in all");
+    command.add_option("--population", options.population, "Individuals of a generation");
+    command.add_option("--trials", options.trials, "Simulated trials of every individual");
+    command.add_option("--seed", options.seed, "Of all random numbers");
+    command.add_option("--engine", options.engine, "What simulates: simbody");
+}
+
+Attempt<study::Settings> applySettings(study::Settings settings, const SettingOptions& options) {
+    for (const std::string& assignment : options.assignments) {
+        auto json = toJson(assignment);
+        if (!json) return json.failure();
+        auto changed = study::settingsFromJson(*json, settings);
+        if (!changed) return Failure{ExitCode::usage, "--set " + assignment + ": " + changed.error().message};
+        settings = std::move(*changed);
+    }
+    study::EvolutionSettings& evolution = settings.evolution;
+    evolution.generations = options.generations.value_or(evolution.generations);
+    evolution.populationSize = options.population.value_or(evolution.populationSize);
+    evolution.trialsPerEvaluation = options.trials.value_or(evolution.trialsPerEvaluation);
+    evolution.seed = options.seed.value_or(evolution.seed);
+    settings.simulation.engine = options.engine.value_or(settings.simulation.engine);
+    if (auto engine = findEngine(settings.simulation.engine); !engine) return engine.failure();
+    return settings;
+}
+
+Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
+                                      const SettingOptions& options, const Console& console) {
+    auto settings = startingSettings(creation);
+    if (!settings) return settings.failure();
+    const PartRequest request = completeRequest(creation.part, *settings, creation);
+    if (request.part.empty()) {
+        return Failure{ExitCode::usage, "A new study needs a part: give --preset cuboid or --part FILE."};
+    }
+    auto applied = applySettings(*settings, options);
+    if (!applied) return applied.failure();
+    auto loaded = loadPart(request, applied->part.density);
+    if (!loaded) return loaded.failure();
+    applied->part = {loaded->file, loaded->units, loaded->options.density, loaded->options.symmetryTolerance};
+
+    const auto part = std::make_shared<const part::Part>(loaded->part);
+    if (const auto checked = study::checkInputs({*applied, part, nullptr}); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+    for (const std::string& note : loaded->notes)
+        console.note(loaded->options.name + ": " + note);
+    for (const std::string& recommendation : study::findRecommendations(*applied))
+        console.note(recommendation);
+
+    auto file =
+        store::StudyFile::create(path, *applied, {std::move(loaded->mesh), loaded->options}, kProgram);
+    if (!file) return describeCreateFailure(path, file.error());
+    return std::move(*file);
+}
+
+}  // namespace trapwright::app

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/trapwright/console.h"
+#include "app/trapwright/part_source.h"
+#include "core/store/study_file.h"
+#include "core/study/settings.h"
+
+namespace trapwright::app {
+
+/// What a new study is made from.
+struct CreationOptions {
+    std::optional<std::string> preset;
+    PartRequest part;
+    std::optional<std::string> contact;       // a pair of materials
+    std::optional<std::string> settingsFile;  // JSON
+    bool paper = false;
+
+    /// Whether the user gave any of them.
+    [[nodiscard]] bool given() const;
+};
+
+/// What can be set of a new study and, as far as its file allows, of an old one.
+struct SettingOptions {
+    std::vector<std::string> assignments;  // "track.segmentWidth_mm=50"
+    std::optional<int> generations;
+    std::optional<int> population;
+    std::optional<int> trials;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::string> engine;
+};
+
+void addCreationOptions(CLI::App& command, CreationOptions& options);
+void addSettingOptions(CLI::App& command, SettingOptions& options);
+
+/// The settings with what the user set. An unknown engine is a failure; ranges are not looked at.
+Attempt<study::Settings> applySettings(study::Settings settings, const SettingOptions& options);
+
+/// Makes the study file: preset, then `paper`, the settings file, the part, the single settings. Refuses
+/// settings that cannot be used, and a part that does not fit the track.
+Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
+                                      const SettingOptions& settings, const Console& console);
+
+}  // namespace trapwright::app

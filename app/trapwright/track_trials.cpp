@@ -1,0 +1,37 @@
+#include "app/trapwright/track_trials.h"
+
+#include "core/study/final_orientation.h"
+#include "core/study/trial_batches.h"
+#include "core/trial/fitness.h"
+
+namespace trapwright::app {
+
+trial::TrialBatch makeTrackBatch(std::shared_ptr<const track::Track> track,
+                                 std::shared_ptr<const part::Part> part,
+                                 const study::SimulationSettings& simulation, std::uint64_t seed,
+                                 int trials) {
+    return study::makeLearningBatch({&simulation, std::move(part), std::move(track), seed}, 0, 0, trials);
+}
+
+TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
+                        const std::optional<base::Quaternion>& expected, double tolerance) {
+    TrialCounts counts;
+    counts.trials = static_cast<int>(outcomes.size());
+    counts.expected =
+        expected ? *expected
+                 : trial::findModalOrientation(study::finalOrientations(outcomes), symmetry, tolerance);
+    for (const trial::Outcome& outcome : outcomes) {
+        counts.simulatedTime += outcome.time;
+        if (outcome.ending == trial::Ending::finished) {
+            ++counts.finished;
+        } else if (outcome.ending == trial::Ending::fellOff) {
+            ++counts.fellOff;
+        } else {
+            ++counts.stuck;
+        }
+        if (study::isOriented(outcome, counts.expected, symmetry, tolerance)) ++counts.oriented;
+    }
+    return counts;
+}
+
+}  // namespace trapwright::app

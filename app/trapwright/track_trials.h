@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/study/settings.h"
+#include "core/trial/batch.h"
+#include "core/trial/outcome.h"
+
+namespace trapwright::app {
+
+/// How the trials of one part on one track ended.
+struct TrialCounts {
+    int trials = 0;
+    int finished = 0;
+    int fellOff = 0;
+    int stuck = 0;               // or timed out
+    int oriented = 0;            // finished within the tolerance of `expected`
+    double simulatedTime = 0.0;  // of all together [s]
+    base::Quaternion expected = base::Quaternion::Identity();
+};
+
+/// Trials from random starts on a track that is of no study.
+trial::TrialBatch makeTrackBatch(std::shared_ptr<const track::Track> track,
+                                 std::shared_ptr<const part::Part> part,
+                                 const study::SimulationSettings& simulation, std::uint64_t seed, int trials);
+
+/// `expected`: the orientation that counts; without it the most frequent final one. `tolerance` [rad].
+TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
+                        const std::optional<base::Quaternion>& expected, double tolerance);
+
+}  // namespace trapwright::app
