@@ -86,7 +86,7 @@ std::filesystem::path findBundledFile(const BundledPart& part) {
         return std::filesystem::path(folder) / relative;
     }
     std::error_code failure;
-    const std::filesystem::path installed = installedResources() / relative;
+    std::filesystem::path installed = installedResources() / relative;
     if (std::filesystem::exists(installed, failure)) return installed;
     return std::filesystem::path(TRAPWRIGHT_SOURCE_RESOURCES) / relative;
 }

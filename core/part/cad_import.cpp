@@ -67,7 +67,11 @@ base::Result<FileMesh> tessellate(const std::filesystem::path& path, const TopoD
     }
     const double size = std::sqrt(box.SquareExtent());
     // One thread: the mesh must not depend on the machine.
-    BRepMesh_IncrementalMesh(shape, kChordTolerance * size, false, kAngleStep, false);
+    const BRepMesh_IncrementalMesh mesher(shape, kChordTolerance * size, false, kAngleStep, false);
+    if (!mesher.IsDone()) {
+        return Error{fmt::format(
+            "{}: the surfaces could not be triangulated. Heal the model and export it again", path.string())};
+    }
     for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
         appendFace(TopoDS::Face(face.Current()), result.mesh);
     }

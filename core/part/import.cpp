@@ -148,6 +148,7 @@ base::Result<LengthUnit> chooseUnit(const std::filesystem::path& path, const Fil
 
 std::vector<std::string> supportedExtensions() {
     std::vector<std::string> result;
+    result.reserve(kFormats.size());
     for (const Format& format : kFormats)
         result.emplace_back(format.extension);
     return result;

@@ -135,7 +135,7 @@ SymmetryGroup findSymmetry(const geometry::TriangleMesh& mesh, const geometry::C
     const SelfMap map(mesh, options.tolerance * radius, options.roundness);
 
     const Eigen::SelfAdjointEigenSolver<base::Mat3> solver(inertia);
-    const Vec3 moments = solver.eigenvalues();  // ascending
+    const Vec3& moments = solver.eigenvalues();  // ascending
     std::vector<Vec3> axes = {solver.eigenvectors().col(0), solver.eigenvectors().col(1),
                               solver.eigenvectors().col(2)};
     const bool lowEqual = moments[1] - moments[0] < kEqualMoments * moments[2];
