@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "core/base/result.h"
 #include "core/part/part.h"
 #include "core/track/track.h"
 #include "core/trial/drive.h"
@@ -20,23 +23,24 @@ struct ContactParameters {
 
 /// When a trial ends (paper, section 3.4; decision 10).
 struct Termination {
-    double timeLimit = 10.0;        // simulated [s]
-    double stuckTime = 1.5;         // without stuckProgress: stuck [s]
-    double stuckProgress = 1e-3;    // along the track [m]
+    double timeLimit = 10.0;      // simulated [s]
+    double stuckTime = 1.5;       // without stuckProgress: stuck [s]
+    double stuckProgress = 1e-3;  // along the track [m]
 };
 
 /// Where and how one part starts: at rest in the room, in this pose of the track at its mean position (room
 /// axes), displaced with the track by the drive's phase.
 struct TrialStart {
-    base::Pose pose;                // part frame to room
-    double phase = 0.0;             // of the drive at time 0 [rad]
-    base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room; at rest when learning [m/s]
+    base::Pose pose;     // part frame to room
+    double phase = 0.0;  // of the drive at time 0 [rad]
+    base::Vec3 velocity =
+        base::Vec3::Zero();  // of the centre of mass in the room; at rest when learning [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
 };
 
 /// One simulated run to be made. Scales are relative to the batch's contact parameters.
 struct TrialSpec {
-    base::StreamKey stream;         // names the trial for ever; its start was drawn from it
+    base::StreamKey stream;  // names the trial for ever; its start was drawn from it
     TrialStart start;
     double frictionScale = 1.0;
     double restitutionScale = 1.0;
@@ -52,5 +56,9 @@ struct TrialBatch {
     double gravity = base::kStandardGravity;  // [m/s^2]
     std::vector<TrialSpec> trials;
 };
+
+/// Why no engine can simulate this batch, or its trial `index` alone; none if it can.
+std::optional<base::Error> findProblem(const TrialBatch& batch);
+std::optional<base::Error> findProblem(const TrialBatch& batch, std::size_t index);
 
 }  // namespace trapwright::trial

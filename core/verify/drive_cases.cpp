@@ -18,18 +18,21 @@ namespace {
 /// The paper's cuboid lying on the level track (8 x 12 mm face down) under a drive.
 trial::TrialBatch makeLying(const trial::Drive& drive, double duration) {
     const Quaternion lying = Quaternion::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ());
-    trial::TrialBatch scene = makeStillScene(makeFlat(), makePaperCuboid(), {lying, Vec3(0.08, 0.0, 17.0 * kMillimetre + 1e-9)}, duration);
+    trial::TrialBatch scene = makeStillScene(makeFlat(), makePaperCuboid(),
+                                             {lying, Vec3(0.08, 0.0, 17.0 * kMillimetre + 1e-9)}, duration);
     scene.drive = drive;
     return scene;
 }
 
 /// Mean speed along x between two whole numbers of periods. [m/s]
-double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene, int fromPeriod, int toPeriod, base::RunControl control) {
+double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene, int fromPeriod, int toPeriod,
+                    base::RunControl control) {
     const double period = scene.drive.period();
     const trial::Trajectory trajectory = replayScene(engine, scene, period, control);
     const auto& samples = trajectory.samples;
     if (static_cast<int>(samples.size()) <= toPeriod) return std::nan("");
-    return (samples[toPeriod].room.position.x() - samples[fromPeriod].room.position.x()) / ((toPeriod - fromPeriod) * period);
+    return (samples[toPeriod].room.position.x() - samples[fromPeriod].room.position.x()) /
+           ((toPeriod - fromPeriod) * period);
 }
 
 /// Whether the lying cuboid ever loses contact within ten periods.
@@ -39,17 +42,18 @@ bool leavesTrack(const trial::Engine& engine, double halfStroke, base::RunContro
     trial::TrialBatch scene = makeLying(drive, 0.2);
     scene.contact.restitution = 0.0;
     const trial::Trajectory trajectory = replayScene(engine, scene, 1e-5, control);
-    return std::any_of(trajectory.samples.begin(), trajectory.samples.end(), [](const trial::TrajectorySample& sample) {
-        return sample.time > 0.04 && sample.contacts == 0;
-    });
+    return std::any_of(
+        trajectory.samples.begin(), trajectory.samples.end(),
+        [](const trial::TrajectorySample& sample) { return sample.time > 0.04 && sample.contacts == 0; });
 }
 
-/// Length of the first flight under vertical vibration without restitution, from the instant at which the track's
-/// acceleration passes -g (known in closed form) to the landing, found between two samples. [s]
+/// Length of the first flight under vertical vibration without restitution, from the instant at which the
+/// track's acceleration passes -g (known in closed form) to the landing, found between two samples. [s]
 double measureFlight(const trial::Engine& engine, double throwNumber, base::RunControl control) {
     trial::Drive drive;
     drive.angle = 90.0 * base::kDegree;
-    drive.halfStroke = throwNumber * base::kStandardGravity / (drive.angularFrequency() * drive.angularFrequency());
+    drive.halfStroke =
+        throwNumber * base::kStandardGravity / (drive.angularFrequency() * drive.angularFrequency());
     trial::TrialBatch scene = makeLying(drive, 0.06);
     scene.contact.restitution = 0.0;
     scene.trials[0].start.phase = -0.5 * base::kPi;  // at rest, like the part
@@ -80,9 +84,11 @@ std::vector<Row> runStickSlip(const EngineFactory& factory, base::RunControl con
             scene.contact = {friction, friction, 0.3};
             const double got = measureSpeed(*engine, scene, 25, 50, control);
             const double expected = calcStickSlipSpeed(drive, friction, scene.gravity);
-            rows.push_back({fmt::format("stick-slip, half-stroke {:g} mm, friction {:g}", halfStroke * 1e3, friction),
-                            fmt::format("{:.3f} mm/s within 2 %", expected * 1e3), fmt::format("{:.3f} mm/s ({:+.2f} %)", got * 1e3, (got / expected - 1.0) * 100),
-                            std::abs(got / expected - 1.0) < 0.02});
+            rows.push_back(
+                {fmt::format("stick-slip, half-stroke {:g} mm, friction {:g}", halfStroke * 1e3, friction),
+                 fmt::format("{:.3f} mm/s within 2 %", expected * 1e3),
+                 fmt::format("{:.3f} mm/s ({:+.2f} %)", got * 1e3, (got / expected - 1.0) * 100),
+                 std::abs(got / expected - 1.0) < 0.02});
         }
     }
     return rows;
@@ -93,7 +99,8 @@ std::vector<Row> runLiftOff(const EngineFactory& factory, base::RunControl contr
     const bool early = leavesTrack(*engine, 0.47e-3, control);
     const bool late = leavesTrack(*engine, 0.49e-3, control);
     return {{"lift-off at 50 Hz, 12 deg", "first flight between 0.47 and 0.49 mm",
-             fmt::format("{} at 0.47 mm, {} at 0.49 mm", early ? "flies" : "stays", late ? "flies" : "stays"), !early && late}};
+             fmt::format("{} at 0.47 mm, {} at 0.49 mm", early ? "flies" : "stays", late ? "flies" : "stays"),
+             !early && late}};
 }
 
 std::vector<Row> runPlasticHop(const EngineFactory& factory, base::RunControl control) {
@@ -108,7 +115,8 @@ std::vector<Row> runPlasticHop(const EngineFactory& factory, base::RunControl co
     }
     const double got = 0.5 * (low + high);
     return {{"plastic hop of one period", fmt::format("throw number {:.3f} within 2 %", expected),
-             fmt::format("{:.3f} ({:+.2f} %)", got, (got / expected - 1.0) * 100), std::abs(got / expected - 1.0) < 0.02}};
+             fmt::format("{:.3f} ({:+.2f} %)", got, (got / expected - 1.0) * 100),
+             std::abs(got / expected - 1.0) < 0.02}};
 }
 
 std::vector<Row> runStepHalved(const EngineFactory& factory, base::RunControl control) {
@@ -120,8 +128,10 @@ std::vector<Row> runStepHalved(const EngineFactory& factory, base::RunControl co
         const trial::TrialBatch scene = makeLying(drive, 1.31);
         const double whole = measureSpeed(*factory({0, step}), scene, 25, 65, control);
         const double half = measureSpeed(*factory({0, 0.5 * step}), scene, 25, 65, control);
-        rows.push_back({fmt::format("step halved, flat speed at half-stroke {:g} mm", halfStroke * 1e3), "changes < 3 %",
-                        fmt::format("{:.2f} and {:.2f} mm/s ({:+.2f} %)", whole * 1e3, half * 1e3, (half / whole - 1.0) * 100),
+        rows.push_back({fmt::format("step halved, flat speed at half-stroke {:g} mm", halfStroke * 1e3),
+                        "changes < 3 %",
+                        fmt::format("{:.2f} and {:.2f} mm/s ({:+.2f} %)", whole * 1e3, half * 1e3,
+                                    (half / whole - 1.0) * 100),
                         std::abs(half / whole - 1.0) < 0.03});
     }
     return rows;

@@ -14,20 +14,24 @@ using base::Vec3;
 namespace {
 
 /// Largest relative deviation that a tumbling body may show in 10 s.
-double tumblingTolerance(const std::string& engine) { return engine == "simbody" ? 1e-6 : 1e-3; }
+double tumblingTolerance(const std::string& engine) {
+    return engine == "simbody" ? 1e-6 : 1e-3;
+}
 
-/// Rebound over impact speed of a part dropped so that it hits a plane at `speed`: from the heights of its centre.
-double measureRebound(const trial::Engine& engine, const base::Quaternion& rotation, double speed, double restitution,
-                      base::RunControl control) {
+/// Rebound over impact speed of a part dropped so that it hits a plane at `speed`: from the heights of its
+/// centre.
+double measureRebound(const trial::Engine& engine, const base::Quaternion& rotation, double speed,
+                      double restitution, base::RunControl control) {
     const auto part = makePaperCuboid();
     const auto track = makeFlat();
     double lowest = 0.0;
-    for (const Vec3& vertex : part->hull.vertices) lowest = std::min(lowest, (rotation * vertex).z());
+    for (const Vec3& vertex : part->hull.vertices)
+        lowest = std::min(lowest, (rotation * vertex).z());
     const double rest = 15.0 * kMillimetre - lowest;
     const double drop = speed * speed / (2.0 * base::kStandardGravity);
     const double flight = speed / base::kStandardGravity;
-    trial::TrialBatch scene =
-        makeStillScene(track, part, {rotation, Vec3(0.1, 0.0, rest + drop)}, flight + restitution * 2.0 * flight + 2e-3);
+    trial::TrialBatch scene = makeStillScene(track, part, {rotation, Vec3(0.1, 0.0, rest + drop)},
+                                             flight + restitution * 2.0 * flight + 2e-3);
     scene.contact.restitution = restitution;
     const trial::Trajectory trajectory = replayScene(engine, scene, 1e-4, control);
     double apex = 0.0;
@@ -41,7 +45,9 @@ double measureRebound(const trial::Engine& engine, const base::Quaternion& rotat
 
 std::vector<Row> runTumbling(const EngineFactory& factory, base::RunControl control) {
     const auto engine = factory({});
-    trial::TrialBatch scene = makeStillScene(makeFlat(), makePaperCuboid(), {base::Quaternion(0.9, 0.3, -0.2, 0.1).normalized(), Vec3(0.1, 0, 0.1)}, 10.0);
+    trial::TrialBatch scene =
+        makeStillScene(makeFlat(), makePaperCuboid(),
+                       {base::Quaternion(0.9, 0.3, -0.2, 0.1).normalized(), Vec3(0.1, 0, 0.1)}, 10.0);
     scene.gravity = 0.0;
     scene.trials[0].start.angularVelocity = Vec3(12.0, 9.0, -15.0);
     const trial::Trajectory trajectory = replayScene(*engine, scene, 0.01, control);
@@ -60,8 +66,8 @@ std::vector<Row> runTumbling(const EngineFactory& factory, base::RunControl cont
     }
     const double tolerance = tumblingTolerance(engine->name());
     const bool whole = trajectory.outcome.time > 9.9;
-    return {{"tumbling for 10 s: energy", fmt::format("within {:.0e}", tolerance), fmt::format("{:.1e}", energyError),
-             whole && energyError < tolerance},
+    return {{"tumbling for 10 s: energy", fmt::format("within {:.0e}", tolerance),
+             fmt::format("{:.1e}", energyError), whole && energyError < tolerance},
             {"tumbling for 10 s: angular momentum", fmt::format("within {:.0e}", tolerance),
              fmt::format("{:.1e}", momentumError), whole && momentumError < tolerance}};
 }
@@ -72,7 +78,8 @@ std::vector<Row> runBounce(const EngineFactory& factory, base::RunControl contro
     const base::Quaternion onCorner = base::Quaternion::FromTwoVectors(Vec3(2, 4, 6), Vec3::UnitZ());
     for (const double restitution : {0.0, 0.3, 0.6}) {
         for (const double speed : {0.03, 0.1, 0.5}) {
-            const double flat = measureRebound(*engine, base::Quaternion::Identity(), speed, restitution, control);
+            const double flat =
+                measureRebound(*engine, base::Quaternion::Identity(), speed, restitution, control);
             const double corner = measureRebound(*engine, onCorner, speed, restitution, control);
             rows.push_back({fmt::format("bounce at {:g} m/s, e = {:g}", speed, restitution),
                             fmt::format("{:g} within 0.03", restitution),

@@ -17,19 +17,22 @@ namespace {
 
 constexpr double kFriction = 0.5;
 
-/// A part standing on makeSlope(slopeX, slopeY) with its face -z down, turned by `heading` about the slope's normal.
-trial::TrialBatch makeOnSlope(std::shared_ptr<const part::Part> part, double halfHeight, double slopeX, double slopeY, double heading,
-                              double duration) {
+/// A part standing on makeSlope(slopeX, slopeY) with its face -z down, turned by `heading` about the slope's
+/// normal.
+trial::TrialBatch makeOnSlope(std::shared_ptr<const part::Part> part, double halfHeight, double slopeX,
+                              double slopeY, double heading, double duration) {
     const auto track = makeSlope(slopeX, slopeY);
     const Vec3 normal = Vec3(-std::tan(slopeX), -std::tan(slopeY), 1.0).normalized();
     const Vec3 foot(0.33, 0.01, findSurfaceHeight(*track, 0.33, 0.01));
-    const Quaternion rotation =
-        Quaternion::FromTwoVectors(Vec3::UnitZ(), normal) * Quaternion(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
+    const Quaternion rotation = Quaternion::FromTwoVectors(Vec3::UnitZ(), normal) *
+                                Quaternion(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
     return makeStillScene(track, std::move(part), {rotation, foot + (halfHeight + 1e-6) * normal}, duration);
 }
 
 /// A flat block that does not topple: 12 x 12 x 4 mm.
-std::shared_ptr<const part::Part> makeFlatBlock() { return makeCuboid(Vec3(12, 12, 4) * kMillimetre, 1040.0); }
+std::shared_ptr<const part::Part> makeFlatBlock() {
+    return makeCuboid(Vec3(12, 12, 4) * kMillimetre, 1040.0);
+}
 
 const trial::TrajectorySample& sampleAt(const trial::Trajectory& trajectory, double time) {
     const auto at = std::lower_bound(trajectory.samples.begin(), trajectory.samples.end(), time - 1e-9,
@@ -46,12 +49,14 @@ std::vector<Row> runSlope(const EngineFactory& factory, base::RunControl control
     for (const bool along : {true, false}) {
         for (const double heading : {0.0, 0.5}) {
             const auto slope = [&](double angle) {
-                return makeOnSlope(makeFlatBlock(), 2.0 * kMillimetre, along ? angle : 0.0, along ? 0.0 : angle, heading, 1.5);
+                return makeOnSlope(makeFlatBlock(), 2.0 * kMillimetre, along ? angle : 0.0,
+                                   along ? 0.0 : angle, heading, 1.5);
             };
             trial::TrialBatch below = slope(24.0 * kDegree);
             below.contact = {kFriction, kFriction, 0.0};
             const trial::Trajectory rest = replayScene(*engine, below, 0.1, control);
-            creep = std::max(creep, (sampleAt(rest, 1.4).room.position - sampleAt(rest, 0.4).room.position).norm());
+            creep = std::max(creep,
+                             (sampleAt(rest, 1.4).room.position - sampleAt(rest, 0.4).room.position).norm());
 
             const double angle = 30.0 * kDegree;
             trial::TrialBatch above = slope(angle);
@@ -63,10 +68,10 @@ std::vector<Row> runSlope(const EngineFactory& factory, base::RunControl control
             if (std::abs(error) > std::abs(worst)) worst = error;
         }
     }
-    return {{"rest on a 24 deg slope, friction 0.5 (26.6 deg)", "creep < 0.1 mm/s", fmt::format("{:.2g} mm/s", creep * 1e3),
-             creep < 1e-4},
-            {"slide on a 30 deg slope, friction 0.5", "g (sin - mu cos) within 1 %", fmt::format("off by {:+.3f} %", worst * 100),
-             std::abs(worst) < 0.01}};
+    return {{"rest on a 24 deg slope, friction 0.5 (26.6 deg)", "creep < 0.1 mm/s",
+             fmt::format("{:.2g} mm/s", creep * 1e3), creep < 1e-4},
+            {"slide on a 30 deg slope, friction 0.5", "g (sin - mu cos) within 1 %",
+             fmt::format("off by {:+.3f} %", worst * 100), std::abs(worst) < 0.01}};
 }
 
 std::vector<Row> runSliding(const EngineFactory& factory, base::RunControl control) {
@@ -75,10 +80,11 @@ std::vector<Row> runSliding(const EngineFactory& factory, base::RunControl contr
     double most = 0.0;
     for (const double heading : {0.0, 45.0, 90.0, 20.0}) {
         const Quaternion turned(Eigen::AngleAxisd(0.3, Vec3::UnitZ()));
-        trial::TrialBatch scene =
-            makeStillScene(makeFlat(), makeFlatBlock(), {turned, Vec3(0.1, 0, 17.0 * kMillimetre + 1e-7)}, 0.2);
+        trial::TrialBatch scene = makeStillScene(makeFlat(), makeFlatBlock(),
+                                                 {turned, Vec3(0.1, 0, 17.0 * kMillimetre + 1e-7)}, 0.2);
         scene.contact = {kFriction, kFriction, 0.0};
-        scene.trials[0].start.velocity = 0.3 * Vec3(std::cos(heading * kDegree), std::sin(heading * kDegree), 0.0);
+        scene.trials[0].start.velocity =
+            0.3 * Vec3(std::cos(heading * kDegree), std::sin(heading * kDegree), 0.0);
         const trial::Trajectory slide = replayScene(*engine, scene, 1e-3, control);
         const double loss = sampleAt(slide, 0.005).velocity.norm() - sampleAt(slide, 0.045).velocity.norm();
         least = std::min(least, loss / 0.04);
@@ -95,7 +101,8 @@ std::vector<Row> runToppling(const EngineFactory& factory, base::RunControl cont
     // 8 mm wide, 12 mm high: topples about its lower edge from atan(8 / 12) on.
     const double limit = std::atan2(8.0, 12.0);
     const auto topples = [&](double angle) {
-        trial::TrialBatch scene = makeOnSlope(makeCuboid(Vec3(8, 8, 12) * kMillimetre, 1040.0), 6.0 * kMillimetre, angle, 0.0, 0.0, 1.5);
+        trial::TrialBatch scene = makeOnSlope(makeCuboid(Vec3(8, 8, 12) * kMillimetre, 1040.0),
+                                              6.0 * kMillimetre, angle, 0.0, 0.0, 1.5);
         scene.contact = {1.5, 1.5, 0.0};
         const trial::Trajectory trajectory = replayScene(*engine, scene, 0.01, control);
         const Vec3 up = scene.trials[0].start.pose.rotation * Vec3::UnitZ();
@@ -105,8 +112,10 @@ std::vector<Row> runToppling(const EngineFactory& factory, base::RunControl cont
     double low = limit - 1.5 * kDegree;
     double high = limit + 1.5 * kDegree;
     if (topples(low) || !topples(high))
-        return {{"toppling of an 8 x 12 mm block", "at 33.7 deg within 0.5 deg", "not within 1.5 deg", false}};
-    while (high - low > 0.05 * kDegree) (topples(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+        return {
+            {"toppling of an 8 x 12 mm block", "at 33.7 deg within 0.5 deg", "not within 1.5 deg", false}};
+    while (high - low > 0.05 * kDegree)
+        (topples(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
     const double found = 0.5 * (low + high);
     return {{"toppling of an 8 x 12 mm block", fmt::format("at {:.2f} deg within 0.5 deg", limit / kDegree),
              fmt::format("{:.2f} deg", found / kDegree), std::abs(found - limit) < 0.5 * kDegree}};

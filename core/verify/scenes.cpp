@@ -17,7 +17,8 @@ namespace {
 
 std::vector<double> spread(double from, double to, int count) {
     std::vector<double> values;
-    for (int i = 0; i < count; ++i) values.push_back(from + (to - from) * i / (count - 1));
+    for (int i = 0; i < count; ++i)
+        values.push_back(from + (to - from) * i / (count - 1));
     return values;
 }
 
@@ -29,7 +30,8 @@ std::shared_ptr<const part::Part> makeCuboid(const Vec3& size, double density) {
     part->density = density;
     std::vector<Vec3> corners;
     for (int i = 0; i < 8; ++i)
-        corners.emplace_back(Vec3((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1).cwiseProduct(0.5 * size));
+        corners.emplace_back(
+            Vec3((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1).cwiseProduct(0.5 * size));
     part->hull = geometry::computeConvexHull(corners).value();
     part->pieces = {part->hull};
     part->mesh = geometry::toMesh(part->hull);
@@ -40,7 +42,9 @@ std::shared_ptr<const part::Part> makeCuboid(const Vec3& size, double density) {
     return part;
 }
 
-std::shared_ptr<const part::Part> makePaperCuboid() { return makeCuboid(Vec3(4, 8, 12) * kMillimetre, 1040.0); }
+std::shared_ptr<const part::Part> makePaperCuboid() {
+    return makeCuboid(Vec3(4, 8, 12) * kMillimetre, 1040.0);
+}
 
 std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, const std::vector<double>& ys,
                                                 const std::function<double(double x, double y)>& height) {
@@ -48,10 +52,12 @@ std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, c
     for (const double x : xs) {
         track::CrossSection section;
         section.x = x;
-        for (const double y : ys) section.points.emplace_back(y, height(x, y));
+        for (const double y : ys)
+            section.points.emplace_back(y, height(x, y));
         result->sections.push_back(section);
     }
-    const track::TrackSolid solid = track::buildTrackSolid(result->shape, result->sections, 3.0 * kMillimetre);
+    const track::TrackSolid solid =
+        track::buildTrackSolid(result->shape, result->sections, 3.0 * kMillimetre);
     result->solid = solid.mesh;
     result->surfaceTriangles = solid.surfaceTriangles;
     result->firstTrapSection = 1;
@@ -64,7 +70,8 @@ std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, c
 }
 
 std::shared_ptr<const track::Track> makeFlat() {
-    return makeSurface(spread(0.0, 0.4, 11), spread(-0.03, 0.03, 8), [](double, double) { return 15.0 * kMillimetre; });
+    return makeSurface(spread(0.0, 0.4, 11), spread(-0.03, 0.03, 8),
+                       [](double, double) { return 15.0 * kMillimetre; });
 }
 
 std::shared_ptr<const track::Track> makeSlope(double slopeX, double slopeY) {
@@ -75,7 +82,8 @@ std::shared_ptr<const track::Track> makeSlope(double slopeX, double slopeY) {
 
 std::shared_ptr<const track::Track> makeRough() {
     return makeSurface(spread(0.0, 0.4, 17), spread(-0.03, 0.03, 9), [](double x, double y) {
-        return 15e-3 + 2.0e-3 * std::sin(110.0 * x + 60.0 * y) + 1.5e-3 * std::sin(230.0 * y - 70.0 * x) + 60.0 * y * y / 9.0;
+        return 15e-3 + 2.0e-3 * std::sin(110.0 * x + 60.0 * y) + 1.5e-3 * std::sin(230.0 * y - 70.0 * x) +
+               60.0 * y * y / 9.0;
     });
 }
 
@@ -95,8 +103,9 @@ double findSurfaceHeight(const track::Track& track, double x, double y) {
     return highest;
 }
 
-trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track, std::shared_ptr<const part::Part> part,
-                                 const base::Pose& pose, double duration) {
+trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track,
+                                 std::shared_ptr<const part::Part> part, const base::Pose& pose,
+                                 double duration) {
     trial::TrialBatch scene;
     scene.track = std::move(track);
     scene.part = std::move(part);

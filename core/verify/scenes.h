@@ -17,7 +17,8 @@ std::shared_ptr<const part::Part> makeCuboid(const base::Vec3& size, double dens
 /// The bundled cuboid of the paper: 4 x 8 x 12 mm, ABS.
 std::shared_ptr<const part::Part> makePaperCuboid();
 
-/// A linear track whose surface is z = height(x, y), sampled at the given x and y. Start at the first x + 60 mm, finish at the last x.
+/// A linear track whose surface is z = height(x, y), sampled at the given x and y. Start at the first x + 60
+/// mm, finish at the last x.
 std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, const std::vector<double>& ys,
                                                 const std::function<double(double x, double y)>& height);
 /// Level at z = 15 mm, 400 mm long, 60 mm wide.
@@ -27,14 +28,17 @@ std::shared_ptr<const track::Track> makeSlope(double slopeX, double slopeY);
 /// Hills and valleys of some millimetres, the same every time.
 std::shared_ptr<const track::Track> makeRough();
 
-/// Height of a track's surface as makeSurface made it is a function; this asks the mesh: the highest surface point at (x, y). [m]
+/// Height of a track's surface as makeSurface made it is a function; this asks the mesh: the highest surface
+/// point at (x, y). [m]
 double findSurfaceHeight(const track::Track& track, double x, double y);
 
 /// A batch of one trial that never ends before `duration` unless the part falls, without vibration.
-trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track, std::shared_ptr<const part::Part> part,
-                                 const base::Pose& pose, double duration);
+trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track,
+                                 std::shared_ptr<const part::Part> part, const base::Pose& pose,
+                                 double duration);
 
-/// Replays the only trial of a scene, sampled every `interval` seconds. Throws std::runtime_error if the engine fails.
+/// Replays the only trial of a scene, sampled every `interval` seconds. Throws std::runtime_error if the
+/// engine fails.
 trial::Trajectory replayScene(const trial::Engine& engine, const trial::TrialBatch& scene, double interval,
                               base::RunControl control);
 

@@ -8,7 +8,7 @@ namespace {
 
 /// The plane's motion (displacement amplitude times sine) and the point's friction limit.
 class Plane {
-   public:
+ public:
     Plane(const trial::Drive& drive, double friction, double gravity)
         : w_(drive.angularFrequency()),
           x_(drive.halfStroke * std::cos(drive.angle)),
@@ -19,7 +19,9 @@ class Plane {
     [[nodiscard]] double speed(double t) const { return x_ * w_ * std::cos(w_ * t); }
     [[nodiscard]] double acceleration(double t) const { return -x_ * w_ * w_ * std::sin(w_ * t); }
     /// Largest acceleration that friction can give.
-    [[nodiscard]] double limit(double t) const { return friction_ * (gravity_ - z_ * w_ * w_ * std::sin(w_ * t)); }
+    [[nodiscard]] double limit(double t) const {
+        return friction_ * (gravity_ - z_ * w_ * w_ * std::sin(w_ * t));
+    }
     /// Integral of limit from 0 to t, and the integral of that.
     [[nodiscard]] double limitIntegral(double t) const {
         return friction_ * (gravity_ * t + z_ * w_ * (std::cos(w_ * t) - 1.0));
@@ -29,7 +31,7 @@ class Plane {
     }
     [[nodiscard]] double displacement(double t) const { return x_ * std::sin(w_ * t); }
 
-   private:
+ private:
     double w_, x_, z_, friction_, gravity_;
 };
 
@@ -51,7 +53,7 @@ double calcStickSlipSpeed(const trial::Drive& drive, double friction, double gra
     constexpr int kPeriods = 60;
 
     double t = 0.0;
-    double v = 0.0;       // of the point, in the room
+    double v = 0.0;  // of the point, in the room
     double x = 0.0;
     int direction = v > plane.speed(0.0) ? 1 : -1;  // of the point relative to the plane; 0: sticks
     double markX = 0.0;
@@ -61,7 +63,9 @@ double calcStickSlipSpeed(const trial::Drive& drive, double friction, double gra
         while (t < end - 1e-12) {
             double next = std::min(t + scan, end);
             if (direction == 0) {
-                const auto holds = [&](double s) { return std::abs(plane.acceleration(s)) <= plane.limit(s); };
+                const auto holds = [&](double s) {
+                    return std::abs(plane.acceleration(s)) <= plane.limit(s);
+                };
                 const bool slips = !holds(next);
                 if (slips) next = bisect(holds, t, next);
                 x += plane.displacement(next) - plane.displacement(t);
@@ -79,8 +83,9 @@ double calcStickSlipSpeed(const trial::Drive& drive, double friction, double gra
             // Just after slip sets in the relative speed grows from zero; look one scan ahead only.
             const bool ends = !slides(next);
             if (ends) next = bisect(slides, t, next);
-            x += v0 * (next - t0) - direction * (plane.limitDoubleIntegral(next) - plane.limitDoubleIntegral(t0) -
-                                                 plane.limitIntegral(t0) * (next - t0));
+            x += v0 * (next - t0) -
+                 direction * (plane.limitDoubleIntegral(next) - plane.limitDoubleIntegral(t0) -
+                              plane.limitIntegral(t0) * (next - t0));
             v = speedAt(next);
             t = next;
             if (ends) {

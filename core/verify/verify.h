@@ -12,7 +12,7 @@ namespace trapwright::verify {
 
 /// One row of the table of design.md section 6: what must come out, what came out.
 struct Row {
-    std::string name;        // short, for people
+    std::string name;  // short, for people
     std::string expected;
     std::string got;
     bool passed = false;
@@ -30,8 +30,8 @@ struct Case {
 /// Every case that any engine must pass, in the order of design.md section 6.
 std::vector<Case> allCases();
 
-/// Runs the cases whose names contain `filter` (all if empty), handing out each case's rows as they come. True if all passed.
-/// A cancelled run counts as not passed.
+/// Runs the cases whose names contain `filter` (all if empty), handing out each case's rows as they come.
+/// True if all passed. A cancelled run counts as not passed.
 bool runCases(const EngineFactory& factory, const std::string& filter, base::RunControl control,
               const std::function<void(const Row&)>& report);
 

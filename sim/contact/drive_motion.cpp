@@ -4,11 +4,16 @@
 
 namespace trapwright::contact {
 
-base::Pose TrackPlacement::toTrack(const base::Pose& pose) const {
-    // Half-angle of the rotation, exact for the small angles of a drive.
+base::Pose TrackPlacement::toRoom(const base::Pose& pose) const {
     const double half = 0.5 * std::atan2(sine, cosine);
-    const base::Quaternion back(std::cos(half), 0.0, 0.0, -std::sin(half));
-    return {back * pose.rotation, toTrack(pose.position)};
+    return {base::Quaternion(std::cos(half), 0.0, 0.0, std::sin(half)) * pose.rotation,
+            toRoom(pose.position)};
+}
+
+base::Pose TrackPlacement::toTrack(const base::Pose& pose) const {
+    const double half = 0.5 * std::atan2(sine, cosine);
+    return {base::Quaternion(std::cos(half), 0.0, 0.0, -std::sin(half)) * pose.rotation,
+            toTrack(pose.position)};
 }
 
 DriveMotion::DriveMotion(const trial::Drive& drive, const track::FeederShape& shape, double phase)

@@ -21,6 +21,7 @@ struct TrackPlacement {
     }
     [[nodiscard]] base::Vec3 toRoom(const base::Vec3& p) const { return turn(p) + shift; }
     [[nodiscard]] base::Vec3 toTrack(const base::Vec3& p) const { return turnBack(p - shift); }
+    [[nodiscard]] base::Pose toRoom(const base::Pose& pose) const;
     [[nodiscard]] base::Pose toTrack(const base::Pose& pose) const;
 };
 

@@ -93,8 +93,8 @@ void ImpulseSolver::prepareRows(const BodyInertia& inertia, const BodyMotion& be
             // Velocities belong to the middles of steps; the impact lies between two of them.
             const double speed = approach + (0.5 + share) * (-row.speed[0] - approach);
             // From the impact to the middle of this step the part goes on being pulled.
-            const double rebound = speed * calcRestitution(speed, law.restitution) +
-                                   (0.5 - share) * (row.speed[0] + approach);
+            const double rebound =
+                speed * calcRestitution(speed, law.restitution) + (0.5 - share) * (row.speed[0] + approach);
             if (rebound > 0.0) {
                 row.target = rebound;
                 row.impactTime = share;
@@ -136,7 +136,8 @@ BodyMotion ImpulseSolver::iterate(const BodyInertia& inertia, BodyMotion motion)
             row.push(motion, inertia.inverseMass, 0, step);
             change = std::max(change, std::abs(step) * row.inverseNormalMass);
 
-            const Vec2 slip = Vec2(row.velocityAlong(motion, 1), row.velocityAlong(motion, 2)) - row.slipTarget;
+            const Vec2 slip =
+                Vec2(row.velocityAlong(motion, 1), row.velocityAlong(motion, 2)) - row.slipTarget;
             const Friction friction = calcFriction(slip - row.tangential / row.tangentStep, row.slipBefore,
                                                    row.friction * row.normal / row.tangentStep);
             row.sliding = friction.sliding;

@@ -72,8 +72,8 @@ class ImpulseSolver {
         double friction;
         double normal = 0.0;  // impulse [N s]
         base::Vec2 tangential = base::Vec2::Zero();
-        double speed[3];  // before any impulse, to tell the work done
-        base::Vec2 slipBefore;  // tangential velocity in the step before
+        double speed[3];                             // before any impulse, to tell the work done
+        base::Vec2 slipBefore;                       // tangential velocity in the step before
         base::Vec2 slipTarget = base::Vec2::Zero();  // tangential velocity of what sticks
         bool sliding = false;
 

@@ -45,7 +45,7 @@ struct FreeBodies::Model {
     struct Slot {
         BodyMotion motion;  // at the middle of the last step
         BodyMotion advance;
-        Vec3 lastAngularAcceleration = Vec3::Zero();  // [rad/s^2]
+        Vec3 lastAngularAcceleration = Vec3::Zero();   // [rad/s^2]
         Vec3 priorAngularAcceleration = Vec3::Zero();  // one step earlier
     };
 
@@ -179,7 +179,8 @@ void FreeBodies::endStep(double dt) {
     model_->matter.multiplyByN(model_->state, false, model_->advanceU, model_->advanceQ);
     SimTK::Vector& q = model_->state.updQ();
     for (int i = 0; i < count(); ++i) {
-        // The rate is tangent to the unit sphere: go along it by the tangent of the angle, then back onto the sphere.
+        // The rate is tangent to the unit sphere: go along it by the tangent of the angle, then back onto the
+        // sphere.
         const double half = 0.5 * dt * model_->slots[i].advance.angularVelocity.norm();
         const double tangent = dt * (1.0 + half * half / 3.0);
         double square = 0.0;
@@ -188,8 +189,10 @@ void FreeBodies::endStep(double dt) {
             square += q[k] * q[k];
         }
         const double scale = 1.0 / std::sqrt(square);
-        for (int k = kQ * i; k < kQ * i + 4; ++k) q[k] *= scale;
-        for (int k = kQ * i + 4; k < kQ * (i + 1); ++k) q[k] += dt * model_->advanceQ[k];
+        for (int k = kQ * i; k < kQ * i + 4; ++k)
+            q[k] *= scale;
+        for (int k = kQ * i + 4; k < kQ * (i + 1); ++k)
+            q[k] += dt * model_->advanceQ[k];
     }
 }
 

@@ -33,7 +33,7 @@ class FreeBodies {
     [[nodiscard]] base::Pose pose(int slot) const;             // at the step's begin
     [[nodiscard]] contact::BodyMotion before(int slot) const;  // motion of the step before
     [[nodiscard]] contact::BodyMotion free(int slot) const;    // before + unconstrained acceleration * dt
-    [[nodiscard]] contact::BodyMotion now(int slot, double dt) const;    // at the pose's time, third order
+    [[nodiscard]] contact::BodyMotion now(int slot, double dt) const;  // at the pose's time, third order
     /// Says what the contacts made of it.
     void resolve(int slot, const contact::StepResult& result);
     /// Moves all bodies to the step's end.

@@ -138,17 +138,6 @@ class Worker {
     std::vector<int> ended_;
 };
 
-std::optional<base::Error> findProblem(const trial::TrialBatch& batch) {
-    if (!batch.track || !batch.part) return base::Error{"A batch of trials has no track or no part."};
-    if (batch.part->pieces.empty())
-        return base::Error{"The part '" + batch.part->name +
-                           "' has no convex pieces to make contact with; import it again."};
-    if (!(batch.part->massProperties.mass > 0.0))
-        return base::Error{"The part '" + batch.part->name +
-                           "' has no mass; check its density and that its mesh is closed."};
-    return std::nullopt;
-}
-
 }  // namespace
 
 SimbodyEngine::SimbodyEngine(const trial::EngineOptions& options)
@@ -192,10 +181,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
 
 base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                       double interval, base::RunControl control) const {
-    if (const auto problem = findProblem(batch)) return *problem;
-    if (index >= batch.trials.size())
-        return base::Error{"There is no trial " + std::to_string(index) + ": the batch has " +
-                           std::to_string(batch.trials.size()) + "."};
+    if (const auto problem = findProblem(batch, index)) return *problem;
     try {
         const geometry::MassProperties& mass = batch.part->massProperties;
         FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);

@@ -10,13 +10,13 @@ namespace {
 /// The ending is looked for this often. [s]
 constexpr double kCheckInterval = 2e-3;
 
+}  // namespace
+
 contact::SurfaceLaw lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
     return {batch.contact.staticFriction * spec.frictionScale,
             batch.contact.kineticFriction * spec.frictionScale,
             batch.contact.restitution * spec.restitutionScale};
 }
-
-}  // namespace
 
 Scene::Scene(const trial::TrialBatch& b)
     : batch(&b), track(contact::prepareTrack(b.track->solid)), body(contact::prepareBody(b.part->pieces)) {}
@@ -31,11 +31,7 @@ TrialLane::TrialLane(std::shared_ptr<const Scene> scene, std::size_t trial, Free
       progress_(*scene_->batch->track, scene_->batch->termination) {
     // At rest in the room, where the track is at the drive's phase.
     const trial::TrialStart& start = scene_->batch->trials[trial].start;
-    const contact::TrackPlacement placement = drive_.placement(0.0);
-    const double half = 0.5 * std::atan2(placement.sine, placement.cosine);
-    const base::Quaternion turn(std::cos(half), 0.0, 0.0, std::sin(half));
-    bodies.place(slot, {turn * start.pose.rotation, placement.toRoom(start.pose.position)},
-                 {start.velocity, start.angularVelocity}, dt);
+    bodies.place(slot, drive_.placement(0.0).toRoom(start.pose), {start.velocity, start.angularVelocity}, dt);
 }
 
 std::optional<trial::Ending> TrialLane::step(FreeBodies& bodies, int slot) {

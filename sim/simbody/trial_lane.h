@@ -19,6 +19,9 @@ struct Scene {
     contact::ContactBody body;
 };
 
+/// The material pair of one trial of a batch.
+contact::SurfaceLaw lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec);
+
 /// One running trial in one body of a FreeBodies.
 class TrialLane {
  public:

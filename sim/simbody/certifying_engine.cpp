@@ -1,0 +1,96 @@
+#include "sim/simbody/certifying_engine.h"
+
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/trial/progress.h"
+#include "sim/simbody/certifying_trial.h"
+#include "sim/simbody/trial_lane.h"
+
+namespace trapwright::simbody {
+
+namespace {
+
+/// Simulates one trial, taking a sample every `interval` (none where it is 0). Nothing if cancelled.
+std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index, double checkInterval,
+                                          double interval, const base::RunControl& control) {
+    const trial::TrialBatch& batch = *scene.batch;
+    const trial::TrialSpec& spec = batch.trials[index];
+    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.start.phase);
+    const contact::TrackPlacement placement = drive.placement(0.0);
+    CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, batch.drive, spec.start.phase,
+                             batch.part->massProperties.mass, batch.part->massProperties.inertia,
+                             batch.gravity, lawOf(batch, spec)},
+                            placement.toRoom(spec.start.pose),
+                            {spec.start.velocity, spec.start.angularVelocity});
+    trial::Progress progress(*batch.track, batch.termination);
+    trial::Trajectory trajectory;
+    long checks = 0;
+    double time = 0.0;
+    while (true) {
+        if (control.cancelled()) return std::nullopt;
+        const double checkTime = static_cast<double>(checks) * checkInterval;
+        const double sampleTime = static_cast<double>(trajectory.samples.size()) * interval;
+        const bool sampling = interval > 0.0 && sampleTime <= checkTime;
+        time = sampling ? sampleTime : checkTime;
+        running.advanceTo(time);
+        if (sampling) {
+            const contact::BodyMotion motion = running.motion();
+            trajectory.samples.push_back(
+                {time, running.pose(), progress.toTrackCoordinates(running.poseInTrack()),
+                 drive.displacement(time), motion.velocity, motion.angularVelocity, running.contacts()});
+            continue;
+        }
+        ++checks;
+        if (progress.update(time, running.poseInTrack())) break;
+    }
+    trajectory.outcome = progress.outcome();
+    return trajectory;
+}
+
+}  // namespace
+
+CertifyingEngine::CertifyingEngine(const trial::EngineOptions& options)
+    : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
+      step_(options.step > 0.0 ? options.step : defaultStep()) {}
+
+base::Result<std::vector<std::vector<trial::Outcome>>> CertifyingEngine::run(
+    std::span<const trial::TrialBatch> batches, base::RunControl control) const {
+    std::vector<std::vector<trial::Outcome>> outcomes;
+    for (const trial::TrialBatch& batch : batches) {
+        if (const auto problem = findProblem(batch)) return *problem;
+        outcomes.emplace_back(batch.trials.size());
+    }
+    try {
+        for (std::size_t b = 0; b < batches.size(); ++b) {
+            const Scene scene(batches[b]);
+            base::parallelFor(batches[b].trials.size(), threads_, [&](std::size_t i, unsigned) {
+                if (auto trajectory = simulate(scene, i, step_, 0.0, control)) {
+                    outcomes[b][i] = trajectory->outcome;
+                    control.advance(1);
+                }
+            });
+        }
+    } catch (const std::exception& e) {
+        return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
+    }
+    if (control.cancelled()) return base::Error{"The simulation was cancelled."};
+    return outcomes;
+}
+
+base::Result<trial::Trajectory> CertifyingEngine::replay(const trial::TrialBatch& batch, std::size_t index,
+                                                         double interval, base::RunControl control) const {
+    if (const auto problem = findProblem(batch, index)) return *problem;
+    try {
+        auto trajectory = simulate(Scene(batch), index, step_, interval, control);
+        if (!trajectory) return base::Error{"The replay was cancelled."};
+        control.advance(1);
+        return *std::move(trajectory);
+    } catch (const std::exception& e) {
+        return base::Error{std::string("Simbody could not replay the trial: ") + e.what()};
+    }
+}
+
+}  // namespace trapwright::simbody
