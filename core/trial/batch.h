@@ -18,7 +18,7 @@ namespace trapwright::trial {
 struct ContactParameters {
     double staticFriction = 0.5;
     double kineticFriction = 0.5;
-    double restitution = 0.3;
+    double restitution = 0.2;
 };
 
 /// When a trial ends (paper, section 3.4; decision 10).

@@ -80,7 +80,7 @@ class SettingsCheckTest : public QObject {
         const auto abs = study::findContactPreset("abs-on-printed-plastic");
         QVERIFY(abs.ok());
         QCOMPARE(abs->contact.staticFriction, 0.5);
-        QCOMPARE(abs->contact.restitution, 0.3);
+        QCOMPARE(abs->contact.restitution, 0.2);
         for (const study::ContactPreset& preset : study::contactPresets())
             QVERIFY(!preset.source.empty());
         QVERIFY(study::findContactPreset("glass").error().message.find("\"brass-on-printed-plastic\"") !=
