@@ -13,7 +13,6 @@
 #include "tests/core/part/centred_solid.h"
 
 using namespace trapwright;
-using base::kMillimetre;
 
 class BundledTest : public QObject {
     Q_OBJECT
