@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/study/learning_control.h"
+#include "core/study/records.h"
+#include "core/study/settings.h"
+#include "core/trial/engine.h"
+
+namespace trapwright::study {
+
+/// What learning, selection and validation work with. The results depend on settings and part, and on the
+/// engine's; not on the number of threads.
+struct StudyInputs {
+    Settings settings;
+    std::shared_ptr<const part::Part> part;
+    std::shared_ptr<const trial::Engine> engine;
+    unsigned threads = 1;  // for building tracks; the engine has its own
+};
+
+/// An error that lists everything that is wrong with settings and part, if anything is.
+base::Status checkInputs(const StudyInputs& inputs);
+
+/// Simulates the batches. An error of the engine, also if it breaks its contract: a wrong number of outcomes,
+/// a pose that is not finite.
+base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::Engine& engine,
+                                                                 std::span<const trial::TrialBatch> batches,
+                                                                 base::RunControl control);
+
+/// Judges every individual of a generation (paper, section 3, step 2a): its track is built, overlapping
+/// triangles are counted, and all trials of all individuals go to the engine at once. A track that overlaps
+/// itself is not simulated unless the settings want it. `planned` is called once, before the trials begin. An
+/// error if cancelled.
+base::Result<std::vector<IndividualRecord>> evaluateGeneration(
+    const StudyInputs& inputs, int generation, std::span<const evolution::Chromosome> population,
+    const std::function<void(const GenerationPlan&)>& planned, base::RunControl control);
+
+}  // namespace trapwright::study

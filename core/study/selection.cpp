@@ -1,0 +1,82 @@
+#include "core/study/selection.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/study/final_orientation.h"
+#include "core/study/track_design.h"
+#include "core/study/trial_batches.h"
+
+namespace trapwright::study {
+
+namespace {
+
+bool isBetter(const SelectionEntry& a, const SelectionEntry& b) {
+    return std::make_tuple(-a.oriented, -a.fitness.total(), a.generation, a.individual) <
+           std::make_tuple(-b.oriented, -b.fitness.total(), b.generation, b.individual);
+}
+
+}  // namespace
+
+std::vector<Winner> rankWinners(std::vector<Winner> winners, int count) {
+    std::stable_sort(winners.begin(), winners.end(), [](const Winner& a, const Winner& b) {
+        return std::make_tuple(-a.record.fitness.total(), a.generation, a.individual) <
+               std::make_tuple(-b.record.fitness.total(), b.generation, b.individual);
+    });
+    std::vector<Winner> ranked;
+    for (Winner& winner : winners) {
+        if (ranked.size() == static_cast<std::size_t>(count)) break;
+        const bool known = std::any_of(ranked.begin(), ranked.end(), [&](const Winner& better) {
+            return better.record.chromosome == winner.record.chromosome;
+        });
+        if (!known) ranked.push_back(std::move(winner));
+    }
+    return ranked;
+}
+
+base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
+                                            base::RunControl control) {
+    if (const auto checked = checkInputs(inputs); !checked) return checked.error();
+    if (winners.empty())
+        return base::Error{"There are no winners to select from. Learn some generations first."};
+    const Settings& settings = inputs.settings;
+
+    const std::vector<Winner> ranked = rankWinners(std::move(winners), settings.validation.selectionWinners);
+    std::vector<trial::TrialBatch> batches;
+    for (const Winner& winner : ranked) {
+        auto track = decodeTrack(settings.track, winner.record.chromosome);
+        if (!track) return track.error();
+        const TrialScene scene{&settings.simulation, inputs.part,
+                               std::make_shared<const track::Track>(std::move(track).value()),
+                               settings.evolution.seed};
+        batches.push_back(makeSelectionBatch(scene, winner.generation, winner.individual,
+                                             settings.validation.selectionTrials));
+    }
+    const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
+    if (!outcomes) return outcomes.error();
+
+    SelectionRecord record{inputs.engine->name(), {}};
+    for (std::size_t i = 0; i < ranked.size(); ++i) {
+        const std::vector<trial::Outcome>& own = (*outcomes)[i];
+        SelectionEntry entry;
+        entry.generation = ranked[i].generation;
+        entry.individual = ranked[i].individual;
+        entry.fitness = trial::calcFitness(*batches[i].track, own, ranked[i].record.overlaps,
+                                           inputs.part->symmetry, settings.evolution.orientationDistance);
+        entry.trials = static_cast<int>(own.size());
+        const std::vector<base::Quaternion> finals = finalOrientations(own);
+        entry.finished = static_cast<int>(finals.size());
+        entry.modalOrientation =
+            trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
+        entry.oriented =
+            static_cast<int>(std::count_if(own.begin(), own.end(), [&](const trial::Outcome& outcome) {
+                return isOriented(outcome, entry.modalOrientation, inputs.part->symmetry,
+                                  settings.validation.tolerance);
+            }));
+        record.entries.push_back(entry);
+    }
+    std::sort(record.entries.begin(), record.entries.end(), isBetter);
+    return record;
+}
+
+}  // namespace trapwright::study

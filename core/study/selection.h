@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_control.h"
+#include "core/study/evaluator.h"
+#include "core/study/records.h"
+
+namespace trapwright::study {
+
+/// The `count` fittest of these winners, best first, no chromosome twice (the highest score of each counts;
+/// among equals the earlier generation is first).
+std::vector<Winner> rankWinners(std::vector<Winner> winners, int count);
+
+/// Selecting the final solution (paper, section 6.1.1; decision 11): the highest of all generations' winners
+/// are re-simulated with many fresh trials each. Best first: by the number of parts that finish within the
+/// tolerance of that track's modal orientation, then by fitness, then the earlier generation. Errors:
+/// settings or part that cannot be used, no winners, engine, cancelled.
+base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
+                                            base::RunControl control);
+
+}  // namespace trapwright::study

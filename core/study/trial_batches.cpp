@@ -1,0 +1,55 @@
+#include "core/study/trial_batches.h"
+
+#include "core/trial/start.h"
+
+namespace trapwright::study {
+
+namespace {
+
+trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& policy, base::StreamKey first,
+                            int trials) {
+    trial::TrialBatch batch;
+    batch.track = scene.track;
+    batch.part = scene.part;
+    batch.drive = scene.simulation->drive;
+    batch.contact = scene.simulation->contact;
+    batch.termination = scene.simulation->termination;
+    batch.gravity = scene.simulation->gravity;
+    batch.trials.reserve(static_cast<std::size_t>(trials));
+    for (int i = 0; i < trials; ++i, ++first.trial) {
+        base::Random random(first);
+        trial::TrialSpec spec;
+        spec.stream = first;
+        spec.start = trial::drawStart(*scene.track, *scene.part, policy, random);
+        batch.trials.push_back(spec);
+    }
+    return batch;
+}
+
+base::StreamKey keyOf(const TrialScene& scene, int generation, int individual, int trial,
+                      base::Purpose purpose) {
+    return {scene.seed, static_cast<std::uint32_t>(generation), static_cast<std::uint32_t>(individual),
+            static_cast<std::uint32_t>(trial), purpose};
+}
+
+}  // namespace
+
+trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials) {
+    return makeBatch(scene, scene.simulation->start,
+                     keyOf(scene, generation, individual, 0, base::Purpose::trialStart), trials);
+}
+
+trial::TrialBatch makeSelectionBatch(const TrialScene& scene, int generation, int individual, int trials) {
+    return makeBatch(scene, scene.simulation->start,
+                     keyOf(scene, generation, individual, 0, base::Purpose::finalSelection), trials);
+}
+
+trial::TrialBatch makeValidationBatch(const TrialScene& scene, int generation, int individual, int pose,
+                                      int trials) {
+    trial::StartPolicy policy = scene.simulation->start;
+    policy.nearPose = scene.part->stablePoses[static_cast<std::size_t>(pose)].rotation;
+    return makeBatch(scene, policy,
+                     keyOf(scene, generation, individual, pose * trials, base::Purpose::validation), trials);
+}
+
+}  // namespace trapwright::study

@@ -1,0 +1,103 @@
+#include "core/study/validation.h"
+
+#include <limits>
+
+#include "core/study/final_orientation.h"
+#include "core/study/track_design.h"
+#include "core/study/trial_batches.h"
+
+namespace trapwright::study {
+
+namespace {
+
+ValidationRow makeRow(int pose, std::span<const trial::Outcome> outcomes, const ValidationRecord& record,
+                      const part::SymmetryGroup& symmetry) {
+    ValidationRow row;
+    row.pose = pose;
+    row.trials = static_cast<int>(outcomes.size());
+    for (const trial::Outcome& outcome : outcomes) {
+        switch (outcome.ending) {
+            case trial::Ending::finished:
+                if (!isOriented(outcome, record.expectedOrientation, symmetry, record.tolerance))
+                    ++row.wrongOrientation;
+                break;
+            case trial::Ending::fellOff:
+                ++row.fellOff;
+                break;
+            case trial::Ending::stuck:
+            case trial::Ending::timedOut:
+                ++row.stuck;
+                break;
+        }
+    }
+    row.failures = row.wrongOrientation + row.stuck + row.fellOff;
+    return row;
+}
+
+}  // namespace
+
+base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner& individual,
+                                        const std::optional<base::Quaternion>& expected,
+                                        base::RunControl control) {
+    if (const auto checked = checkInputs(inputs); !checked) return checked.error();
+    const Settings& settings = inputs.settings;
+    const int poses = static_cast<int>(inputs.part->stablePoses.size());
+    const int trials = settings.validation.trialsPerPose;
+    if (poses == 0) {
+        return base::Error{"The part " + inputs.part->name +
+                           " has no stable poses to start from, so it cannot be validated."};
+    }
+    if (std::int64_t{poses} * trials > std::numeric_limits<int>::max()) {
+        return base::Error{"validation.trialsPerPose is " + std::to_string(trials) + "; for a part with " +
+                           std::to_string(poses) + " stable poses that is too many. Set it lower."};
+    }
+    auto built = decodeTrack(settings.track, individual.record.chromosome);
+    if (!built) return built.error();
+    const TrialScene scene{&settings.simulation, inputs.part,
+                           std::make_shared<const track::Track>(std::move(built).value()),
+                           settings.evolution.seed};
+    std::vector<trial::TrialBatch> batches;
+    for (int pose = 0; pose < poses; ++pose) {
+        batches.push_back(
+            makeValidationBatch(scene, individual.generation, individual.individual, pose, trials));
+    }
+    const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
+    if (!outcomes) return outcomes.error();
+
+    ValidationRecord record;
+    record.generation = individual.generation;
+    record.individual = individual.individual;
+    record.engine = inputs.engine->name();
+    record.tolerance = settings.validation.tolerance;
+    if (expected) {
+        record.expectedOrientation = *expected;
+    } else {
+        std::vector<base::Quaternion> finals;
+        for (const std::vector<trial::Outcome>& own : *outcomes) {
+            const std::vector<base::Quaternion> some = finalOrientations(own);
+            finals.insert(finals.end(), some.begin(), some.end());
+        }
+        record.expectedOrientation =
+            trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
+    }
+    for (int pose = 0; pose < poses; ++pose) {
+        record.rows.push_back(
+            makeRow(pose, (*outcomes)[static_cast<std::size_t>(pose)], record, inputs.part->symmetry));
+    }
+    return record;
+}
+
+ValidationRow calcTotal(const ValidationRecord& record) {
+    ValidationRow total;
+    total.pose = -1;
+    for (const ValidationRow& row : record.rows) {
+        total.trials += row.trials;
+        total.failures += row.failures;
+        total.wrongOrientation += row.wrongOrientation;
+        total.stuck += row.stuck;
+        total.fellOff += row.fellOff;
+    }
+    return total;
+}
+
+}  // namespace trapwright::study

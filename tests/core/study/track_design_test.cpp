@@ -1,0 +1,139 @@
+#include "core/study/track_design.h"
+
+#include <QtTest>
+
+#include "core/evolution/gray.h"
+#include "fake_engine.h"
+
+using namespace trapwright;
+
+namespace {
+
+study::TrackSettings smallSettings() {
+    study::TrackSettings settings;
+    settings.crossSections = 3;
+    settings.pointsPerSection = 4;
+    settings.minSegmentLength = 10e-3;
+    settings.maxSegmentLength = 30e-3;
+    return settings;
+}
+
+evolution::Chromosome chromosomeOf(const std::vector<double>& points, const std::vector<double>& lengths) {
+    return {evolution::encodeGray(points, evolution::kPointBits),
+            evolution::encodeGray(lengths, evolution::kLengthBits),
+            evolution::encodeGray(std::vector<double>{0.5, 0.5, 0.5}, evolution::kStrategyBits)};
+}
+
+}  // namespace
+
+class TrackDesignTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void layoutIsThatOfTheGenes() {
+        const evolution::ChromosomeLayout layout = study::chromosomeLayout(smallSettings());
+        QCOMPARE(layout.points, 12);
+        QCOMPARE(layout.lengths, 3);
+        base::Random random({.seed = 1});
+        VERIFY_OK(study::decodeTrack(smallSettings(), evolution::createRandomChromosome(layout, random)));
+    }
+
+    void genesBecomePlaces() {
+        // z: section s at s/2 of the height; y in the middle of each strip; lengths 0, 1/2 (nearly), 1.
+        std::vector<double> points;
+        for (const double z : {0.0, 1.0, 1.0}) {
+            for (int j = 0; j < 4; ++j)
+                points.insert(points.end(), {j % 2 == 0 ? 0.0 : 1.0, z});
+        }
+        const auto track = study::decodeTrack(smallSettings(), chromosomeOf(points, {0.0, 0.0, 1.0}));
+        VERIFY_OK(track);
+        QCOMPARE(track->firstTrapSection, 1);
+        QCOMPARE(track->lastTrapSection, 4);
+        const std::vector<double> x = {0.0, 0.080, 0.090, 0.100, 0.130, 0.160, 0.190};
+        QCOMPARE(track->sections.size(), x.size());
+        for (std::size_t s = 0; s < x.size(); ++s)
+            QVERIFY(qAbs(track->sections[s].x - x[s]) < 1e-12);
+        QVERIFY(qAbs(track->start - 0.060) < 1e-12);
+        QVERIFY(qAbs(track->finish - 0.175) < 1e-12);
+        for (std::size_t s = 2; s < 5; ++s) {
+            const std::vector<double> y = {-0.030, 0.0, 0.0,
+                                           0.030};  // strips of 15 mm: 0, 1, 0, 1 within them
+            for (std::size_t j = 0; j < 4; ++j) {
+                QVERIFY(qAbs(track->sections[s].points[j].x() - y[j]) < 1e-12);
+                QVERIFY(qAbs(track->sections[s].points[j].y() - (s == 2 ? 0.0 : 0.030)) < 1e-12);
+            }
+        }
+    }
+
+    void settingsOfTheTrackArriveThere() {
+        study::TrackSettings settings = smallSettings();
+        settings.shape = {track::FeederType::bowl, 0.2, track::Conveying::anticlockwise};
+        settings.segmentWidth = 50e-3;
+        settings.segmentHeight = 20e-3;
+        settings.leadOutSegments = 3;
+        settings.baseThickness = 5e-3;
+        const auto track = study::decodeTrack(
+            settings, chromosomeOf(std::vector<double>(24, 0.0), std::vector<double>(3, 0.0)));
+        VERIFY_OK(track);
+        QVERIFY(track->shape.type == track::FeederType::bowl);
+        QCOMPARE(track->shape.bowlRadius, 0.2);
+        QVERIFY(track->shape.conveying == track::Conveying::anticlockwise);
+        QCOMPARE(track->width, 50e-3);
+        QCOMPARE(track->height, 20e-3);
+        QCOMPARE(track->sections.size(), std::size_t{2 + 3 + 3});
+        QVERIFY(qAbs(geometry::calcBoundingBox(track->solid).low.z() + 5e-3) < 1e-12);
+    }
+
+    void genesOfAnotherLengthAreRefused() {
+        const auto track = study::decodeTrack(
+            smallSettings(), chromosomeOf(std::vector<double>(26, 0.0), std::vector<double>(3, 0.0)));
+        QVERIFY(!track.ok());
+        QVERIFY2(track.error().message.find("260, 30 and 60 bits") != std::string::npos,
+                 track.error().message.c_str());
+        QVERIFY(track.error().message.find("240, 30 and 60 bits") != std::string::npos);
+    }
+
+    void smoothingWorksOnGenes() {
+        base::Random random({.seed = 3});
+        const evolution::Bits gene =
+            evolution::createRandomChromosome(study::chromosomeLayout(smallSettings()), random).points;
+        const evolution::SmoothPoints smooth = study::makeSmoothing(smallSettings());
+        QVERIFY(smooth(gene, 0.0, random) == gene);
+
+        // Probability 1: the bilinear patch of the four corners, to half a step of 10 bits.
+        const std::vector<double> before = evolution::decodeGray(gene, evolution::kPointBits);
+        const std::vector<double> after =
+            evolution::decodeGray(smooth(gene, 1.0, random), evolution::kPointBits);
+        const auto at = [](const std::vector<double>& values, int section, int point, int k) {
+            return values[static_cast<std::size_t>((section * 4 + point) * 2 + k)];
+        };
+        for (int s = 0; s < 3; ++s) {
+            for (int j = 0; j < 4; ++j) {
+                for (int k = 0; k < 2; ++k) {
+                    const double u = s / 2.0;
+                    const double v = j / 3.0;
+                    const double patch = (1 - u) * (1 - v) * at(before, 0, 0, k) +
+                                         (1 - u) * v * at(before, 0, 3, k) +
+                                         u * (1 - v) * at(before, 2, 0, k) + u * v * at(before, 2, 3, k);
+                    QVERIFY(qAbs(at(after, s, j, k) - patch) <= 0.5 / 1023 + 1e-12);
+                }
+            }
+        }
+    }
+
+    void evolutionSettingsArriveThere() {
+        study::EvolutionSettings settings;
+        settings.tournamentSize = 9;
+        settings.staticMutation = 0.011;
+        settings.smoothingLimit = 0.77;
+        settings.mutationFloor = 0.003;
+        const evolution::GenerationParameters parameters = study::generationParameters(settings);
+        QCOMPARE(parameters.tournamentSize, 9);
+        QCOMPARE(parameters.transition.staticMutation, 0.011);
+        QCOMPARE(parameters.transition.smoothingLimit, 0.77);
+        QCOMPARE(parameters.transition.mutationFloor, 0.003);
+    }
+};
+
+QTEST_APPLESS_MAIN(TrackDesignTest)
+#include "track_design_test.moc"

@@ -1,0 +1,278 @@
+#include "core/study/validation.h"
+
+#include <QtTest>
+#include <set>
+
+#include "core/study/runner.h"
+#include "core/study/selection.h"
+#include "core/study/tables.h"
+#include "core/study/track_design.h"
+#include "core/study/trial_batches.h"
+#include "fake_engine.h"
+
+using namespace trapwright;
+
+namespace {
+
+base::Quaternion about(const base::Vec3& axis, double degrees) {
+    return base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, axis));
+}
+
+trial::Outcome ended(trial::Ending ending, const base::Quaternion& rotation = base::Quaternion::Identity()) {
+    trial::Outcome outcome;
+    outcome.ending = ending;
+    outcome.farthest.rotation = rotation;
+    return outcome;
+}
+
+study::Winner winnerOf(const study::StudyInputs& inputs, int generation, std::uint64_t genes,
+                       double fitness) {
+    base::Random random({.seed = genes});
+    study::Winner winner;
+    winner.generation = generation;
+    winner.individual = generation % 5;
+    winner.record.chromosome =
+        evolution::createRandomChromosome(study::chromosomeLayout(inputs.settings.track), random);
+    winner.record.fitness = {0.0, fitness, 0.0};
+    return winner;
+}
+
+}  // namespace
+
+class ValidationTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void winnersAreRankedWithoutTwins() {
+        const study::StudyInputs inputs = fake::waveInputs();
+        const std::vector<study::Winner> ranked = study::rankWinners(
+            {winnerOf(inputs, 0, 1, -3.0), winnerOf(inputs, 1, 2, -1.0), winnerOf(inputs, 2, 3, -2.0),
+             winnerOf(inputs, 3, 2, -1.5), winnerOf(inputs, 4, 4, -2.0)},
+            3);
+        QCOMPARE(ranked.size(), std::size_t{3});
+        QCOMPARE(ranked[0].generation, 1);  // its twin of generation 3 is left out
+        QCOMPARE(ranked[1].generation, 2);  // the earlier among equals
+        QCOMPARE(ranked[2].generation, 4);
+    }
+
+    void selectionIsByFreshTrials() {
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.validation.selectionWinners = 3;
+        inputs.settings.validation.selectionTrials = 50;
+        std::vector<study::Winner> winners;
+        for (int g = 0; g < 5; ++g)
+            winners.push_back(winnerOf(inputs, g, 100 + static_cast<std::uint64_t>(g), -g));
+
+        // Individuals of generation 1 do best, those of 0 and 2 equally well but for the distance.
+        std::mutex mutex;
+        std::set<std::uint32_t> trials;
+        bool fresh = true;
+        inputs.engine = std::make_shared<fake::FakeEngine>(
+            [&](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                const std::lock_guard lock(mutex);
+                trials.insert(spec.stream.trial);
+                fresh = fresh && spec.stream.purpose == base::Purpose::finalSelection;
+                const bool lost = spec.stream.trial < (spec.stream.generation == 1 ? 2U : 5U);
+                // Every second part ends turned about a symmetry axis: the same to the eye.
+                trial::Outcome outcome = ended(lost ? trial::Ending::fellOff : trial::Ending::finished,
+                                               spec.stream.trial % 2 == 0 ? about(base::Vec3::UnitX(), 180)
+                                                                          : about(base::Vec3::UnitZ(), 0));
+                outcome.farthest.position.x() =
+                    lost ? (spec.stream.generation == 2 ? batch.track->finish - 0.01 : 0.0)
+                         : batch.track->finish;
+                if (spec.stream.trial == 10) outcome.farthest.rotation = about(base::Vec3::UnitX(), 40);
+                return outcome;
+            },
+            2);
+        const auto record = study::selectWinners(inputs, winners, {});
+        VERIFY_OK(record);
+        QVERIFY(fresh);
+        QCOMPARE(trials.size(), std::size_t{50});
+        QCOMPARE(record->engine, std::string("fake"));
+        QCOMPARE(record->entries.size(), std::size_t{3});
+        QCOMPARE(record->entries[0].generation, 1);
+        QCOMPARE(record->entries[1].generation, 2);
+        QCOMPARE(record->entries[2].generation, 0);
+        QCOMPARE(record->entries[0].trials, 50);
+        QCOMPARE(record->entries[0].finished, 48);
+        QCOMPARE(record->entries[0].oriented, 47);
+        QCOMPARE(record->entries[1].oriented, 44);
+        QVERIFY(trial::calcOrientationAngle(record->entries[0].modalOrientation, base::Quaternion::Identity(),
+                                            inputs.part->symmetry,
+                                            trial::OrientationDistance::symmetric) < 1e-6);
+    }
+
+    void selectionNeedsWinners() {
+        QVERIFY(fake::messageOf(study::selectWinners(fake::waveInputs(), {}, {})).contains("no winners"));
+    }
+
+    void validationCountsFailuresByKind_data() {
+        QTest::addColumn<bool>("given");
+        QTest::newRow("expected orientation is the mode") << false;
+        QTest::newRow("expected orientation is given") << true;
+    }
+    void validationCountsFailuresByKind() {
+        QFETCH(bool, given);
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.validation.trialsPerPose = 100;
+        // Pose p: p of the trials fall off, 2p stick, p time out; of the others 10 end 90 degrees off.
+        inputs.engine =
+            std::make_shared<fake::FakeEngine>([](const trial::TrialBatch&, const trial::TrialSpec& spec) {
+                const int pose = static_cast<int>(spec.stream.trial) / 100;
+                const int i = static_cast<int>(spec.stream.trial) % 100;
+                if (spec.stream.purpose != base::Purpose::validation) return ended(trial::Ending::timedOut);
+                if (i < pose) return ended(trial::Ending::fellOff);
+                if (i < 3 * pose) return ended(trial::Ending::stuck);
+                if (i < 4 * pose) return ended(trial::Ending::timedOut);
+                if (i < 4 * pose + 10) return ended(trial::Ending::finished, about(base::Vec3::UnitX(), 90));
+                return ended(trial::Ending::finished,
+                             i % 2 == 0 ? about(base::Vec3::UnitZ(), 20) : about(base::Vec3::UnitZ(), 200));
+            });
+        const study::Winner winner = winnerOf(inputs, 6, 5, 0.0);
+        const auto expected = given ? std::optional(about(base::Vec3::UnitX(), 90)) : std::nullopt;
+        const auto record = study::validate(inputs, winner, expected, {});
+        VERIFY_OK(record);
+        QCOMPARE(record->generation, 6);
+        QCOMPARE(record->individual, 1);
+        QCOMPARE(record->engine, std::string("fake"));
+        QCOMPARE(record->tolerance, 25.0 * base::kDegree);
+        QCOMPARE(record->rows.size(), std::size_t{3});
+        for (int pose = 0; pose < 3; ++pose) {
+            const study::ValidationRow& row = record->rows[static_cast<std::size_t>(pose)];
+            QCOMPARE(row.pose, pose);
+            QCOMPARE(row.trials, 100);
+            QCOMPARE(row.fellOff, pose);
+            QCOMPARE(row.stuck, 3 * pose);
+            QCOMPARE(row.wrongOrientation, given ? 90 - 4 * pose : 10);
+            QCOMPARE(row.failures, row.fellOff + row.stuck + row.wrongOrientation);
+        }
+        if (!given) {
+            QVERIFY(trial::calcOrientationAngle(record->expectedOrientation, about(base::Vec3::UnitZ(), 20),
+                                                inputs.part->symmetry,
+                                                trial::OrientationDistance::symmetric) < 1e-6);
+        }
+        const study::ValidationRow total = study::calcTotal(*record);
+        QCOMPARE(total.trials, 300);
+        QCOMPARE(total.fellOff, 3);
+        QCOMPARE(total.stuck, 9);
+    }
+
+    void validationStartsNearThePoses() {
+        const study::StudyInputs inputs = fake::waveInputs();
+        const auto track = std::make_shared<const track::Track>(
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.chromosome).value());
+        const study::TrialScene scene{&inputs.settings.simulation, inputs.part, track, 7};
+        double sum = 0.0;
+        base::Vec3 heading = base::Vec3::Zero();
+        constexpr int kTrials = 400;
+        for (int pose = 0; pose < 3; ++pose) {
+            const trial::TrialBatch batch = study::makeValidationBatch(scene, 3, 4, pose, kTrials);
+            const base::Quaternion& stable =
+                inputs.part->stablePoses[static_cast<std::size_t>(pose)].rotation;
+            for (int i = 0; i < kTrials; ++i) {
+                const trial::TrialSpec& spec = batch.trials[static_cast<std::size_t>(i)];
+                QCOMPARE(spec.stream,
+                         (base::StreamKey{7, 3, 4, static_cast<std::uint32_t>(pose * kTrials + i),
+                                          base::Purpose::validation}));
+                // The part's up direction is within a few standard deviations of 2 degrees of the pose's.
+                const base::Vec3 up = spec.start.pose.rotation.inverse() * base::Vec3::UnitZ();
+                const double tilt = std::acos(std::min(1.0, up.dot(stable.inverse() * base::Vec3::UnitZ())));
+                QVERIFY(tilt < 12 * base::kDegree);
+                sum += tilt * tilt;
+                heading += spec.start.pose.rotation * (stable.inverse() * base::Vec3::UnitX());
+            }
+        }
+        const double variance = sum / (3 * kTrials) / 2;  // two axes
+        QVERIFY(qAbs(std::sqrt(variance) / base::kDegree - 2.0) < 0.2);
+        QVERIFY((heading / (3 * kTrials)).norm() < 0.1);  // any heading
+    }
+
+    void trialsCanBeMadeAgainOneByOne() {
+        const study::StudyInputs inputs = fake::waveInputs();
+        const auto track = std::make_shared<const track::Track>(
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.chromosome).value());
+        const study::TrialScene scene{&inputs.settings.simulation, inputs.part, track, 7};
+        const trial::TrialBatch few = study::makeLearningBatch(scene, 3, 4, 5);
+        const trial::TrialBatch many = study::makeLearningBatch(scene, 3, 4, 50);
+        const trial::TrialBatch fresh = study::makeSelectionBatch(scene, 3, 4, 5);
+        for (std::size_t i = 0; i < 5; ++i) {
+            QCOMPARE(few.trials[i].stream,
+                     (base::StreamKey{7, 3, 4, static_cast<std::uint32_t>(i), base::Purpose::trialStart}));
+            QVERIFY(few.trials[i].start.pose == many.trials[i].start.pose);
+            QCOMPARE(few.trials[i].start.phase, many.trials[i].start.phase);
+            QVERIFY(!(few.trials[i].start.pose == fresh.trials[i].start.pose));
+        }
+    }
+
+    void partWithoutPosesIsRefused() {
+        study::StudyInputs inputs = fake::waveInputs();
+        part::Part part = *inputs.part;
+        part.stablePoses.clear();
+        inputs.part = std::make_shared<part::Part>(part);
+        QVERIFY(fake::messageOf(study::validate(inputs, winnerOf(inputs, 0, 1, 0), std::nullopt, {}))
+                    .contains("no stable poses"));
+    }
+
+    void tableIsThePapers() {
+        // Table 2, the cube's simulation column. All successes: the lower bound is 0.025^(1/1000) = 99.63 %.
+        study::ValidationRecord record;
+        const std::vector<int> failures = {0, 10, 5, 9, 7, 7};
+        for (int i = 0; i < 6; ++i)
+            record.rows.push_back({i, 1000, failures[static_cast<std::size_t>(i)],
+                                   failures[static_cast<std::size_t>(i)], 0, 0});
+        const QStringList lines = QString::fromStdString(study::formatValidation(record)).split('\n');
+        const auto words = [&](int line) { return lines[line].simplified(); };
+        QCOMPARE(lines.size(), 9);
+        QVERIFY(words(0).startsWith("Pose T F P 95 % bounds"));
+        QCOMPARE(words(1), QString("1 1000 0 100.0 % 99.6 ... 100.0 % 0 0 0"));
+        QVERIFY(words(2).startsWith("2 1000 10 99.0 % "));
+        QVERIFY(words(3).startsWith("3 1000 5 99.5 % "));
+        QVERIFY(words(7).startsWith("Total 6000 38 99.4 % 99.1 ... 99.6 %"));
+        for (int i = 1; i < 8; ++i)
+            QCOMPARE(lines[i].size(), lines[0].size());
+    }
+
+    void selectionTableListsTheBestFirst() {
+        study::SelectionRecord record{"fake", {}};
+        record.entries.push_back(
+            {439, 17, {0.0, -0.01, 0.85}, 1000, 1000, 1000, base::Quaternion::Identity()});
+        record.entries.push_back({12, 3, {0.0, -0.25, 0.5}, 0, 0, 0, base::Quaternion::Identity()});
+        const QStringList lines = QString::fromStdString(study::formatSelection(record)).split('\n');
+        QCOMPARE(lines[1].simplified(), QString("1 439 17 -0.010 0.850 1000 1000 100.0 % 99.6 ... 100.0 %"));
+        QCOMPARE(lines[2].simplified(), QString("2 12 3 -0.250 0.500 0 0 - -"));
+        QCOMPARE(lines[1].size(), lines[0].size());
+    }
+
+    void evolveSelectAndValidateAgree() {
+        study::StudyInputs inputs = fake::waveInputs(2);
+        inputs.settings.evolution.generations = 12;
+        inputs.settings.validation = {4, 60, 30, 25.0 * base::kDegree};
+        std::vector<study::Winner> winners;
+        study::LearningEvents events;
+        events.save = [&](const study::GenerationRecord& record) {
+            winners.push_back(
+                {record.index, record.winner, record.individuals[static_cast<std::size_t>(record.winner)]});
+            return base::success();
+        };
+        VERIFY_OK(study::evolve(inputs, std::nullopt, events, {}));
+        const auto selection = study::selectWinners(inputs, winners, {});
+        VERIFY_OK(selection);
+        QCOMPARE(selection->entries.size(), std::size_t{4});
+        const auto best = std::find_if(winners.begin(), winners.end(), [&](const study::Winner& w) {
+            return w.generation == selection->entries[0].generation;
+        });
+        QVERIFY(best != winners.end());
+        const auto table = study::validate(inputs, *best, std::nullopt, {});
+        VERIFY_OK(table);
+        QCOMPARE(study::calcTotal(*table).trials, 90);
+        // The same again, on one thread.
+        study::StudyInputs single = fake::waveInputs(1);
+        single.settings = inputs.settings;
+        const auto again = study::validate(single, *best, std::nullopt, {});
+        VERIFY_OK(again);
+        QCOMPARE(study::formatValidation(*again), study::formatValidation(*table));
+    }
+};
+
+QTEST_APPLESS_MAIN(ValidationTest)
+#include "validation_test.moc"
