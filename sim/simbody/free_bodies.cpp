@@ -19,6 +19,10 @@ Vec3 fromSimbody(const SimTK::Vec3& v) {
     return {v[0], v[1], v[2]};
 }
 
+SimTK::Vec3 toSimbody(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
 SimTK::Inertia toSimbody(const Mat3& i) {
     return SimTK::Inertia(SimTK::Vec3(i(0, 0), i(1, 1), i(2, 2)), SimTK::Vec3(i(0, 1), i(0, 2), i(1, 2)));
 }
@@ -119,16 +123,23 @@ void FreeBodies::beginStep(double dt) {
             u[kU * i + 3 + k] = s.motion.velocity[k];
         }
     }
-    model_->system.realize(model_->state, SimTK::Stage::Acceleration);
-    const SimTK::Vector& acceleration = model_->state.getUDot();
+    // Simbody's forces over Simbody's inertia. Realizing its accelerations would also build the
+    // articulated-body inertias, which for free bodies are their own: 2.4 times the time.
+    model_->system.realize(model_->state, SimTK::Stage::Dynamics);
+    const SimTK::Vector_<SimTK::SpatialVec>& forces =
+        model_->system.getRigidBodyForces(model_->state, SimTK::Stage::Dynamics);
     for (int i = 0; i < count(); ++i) {
         Model::Slot& s = model_->slots[i];
+        const SimTK::MobilizedBody& body = model_->bodies[i];
+        const SimTK::SpatialVec force =
+            forces[body.getMobilizedBodyIndex()] -
+            model_->matter.getGyroscopicForce(model_->state, body.getMobilizedBodyIndex());
+        const SimTK::Rotation& rotation = body.getBodyRotation(model_->state);
+        const Vec3 torque = fromSimbody(~rotation * force[0]);
         s.priorAngularAcceleration = s.lastAngularAcceleration;
-        for (int k = 0; k < 3; ++k) {
-            s.lastAngularAcceleration[k] = acceleration[kU * i + k];
-            s.advance.angularVelocity[k] = s.motion.angularVelocity[k] + dt * acceleration[kU * i + k];
-            s.advance.velocity[k] = s.motion.velocity[k] + dt * acceleration[kU * i + 3 + k];
-        }
+        s.lastAngularAcceleration = fromSimbody(rotation * toSimbody(Vec3(model_->inverseInertia * torque)));
+        s.advance.angularVelocity = s.motion.angularVelocity + dt * s.lastAngularAcceleration;
+        s.advance.velocity = s.motion.velocity + dt * model_->inverseMass * fromSimbody(force[1]);
     }
 }
 
