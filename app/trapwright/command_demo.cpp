@@ -25,13 +25,13 @@ constexpr int kPopulation = 40;
 constexpr int kTrials = 20;
 constexpr double kLearningTime = 140.0;  // [s]
 constexpr int kSelectionWinners = 3;
-constexpr int kSelectionTrials = 150;
-constexpr int kTrialsPerPose = 100;
 
 struct Options {
     std::string folder;
-    std::optional<int> generations;
+    SettingOptions settings;
     double minutes = kLearningTime / 60.0;
+    int selectionTrials = 150;
+    int trialsPerPose = 100;
     unsigned threads = 0;
 };
 
@@ -40,20 +40,15 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const std::string& path,
     std::error_code failure;
     if (std::filesystem::exists(path, failure)) {
         auto study = openStudy(path, Access::write);
-        if (!study || !options.generations) return study;
-        study->settings.evolution.generations = *options.generations;
-        if (const auto checked = study::checkInputs({study->settings, study->part, nullptr}); !checked)
-            return Failure{ExitCode::usage, checked.error().message};
-        if (const auto changed = study->file.changeSettings(study->settings); !changed)
-            return Failure{ExitCode::cannotWrite, changed.error().message};
+        if (!study) return study;
+        if (auto changed = changeSettings(*study, options.settings); !changed) return changed.failure();
         return study;
     }
     CreationOptions creation;
     creation.preset = "cuboid";
-    SettingOptions settings;
-    settings.population = kPopulation;
-    settings.trials = kTrials;
-    settings.generations = options.generations;
+    SettingOptions settings = options.settings;
+    settings.population = settings.population.value_or(kPopulation);
+    settings.trials = settings.trials.value_or(kTrials);
     auto file = createStudy(path, creation, settings, console);
     if (!file) return file.failure();
     return loadStudy(std::move(*file));
@@ -90,8 +85,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     }
 
     inputs->settings.validation.selectionWinners = kSelectionWinners;
-    inputs->settings.validation.selectionTrials = kSelectionTrials;
-    inputs->settings.validation.trialsPerPose = kTrialsPerPose;
+    inputs->settings.validation.selectionTrials = options.selectionTrials;
+    inputs->settings.validation.trialsPerPose = options.trialsPerPose;
     auto selection = selectAndSave(study->file, *inputs, console);
     if (!selection) return selection.failure();
     console.print("\nThe best winners, simulated more often:\n" + study::formatSelection(*selection));
@@ -130,10 +125,11 @@ void addDemoCommand(CLI::App& program, Invocation& invocation) {
         "trapwright demo --out ./trapwright-cuboid",
         [options](const Console& console) { return run(*options, console); });
     command.add_option("--out", options->folder, "The folder for the study and the track")->required();
-    command.add_option("--generations", options->generations,
-                       "At most so many in all (as many as the time allows)");
     command.add_option("--minutes", options->minutes, "Time for learning (2.3)")
         ->check(CLI::Range(0.0, 100000.0));
+    command.add_option("--selection-trials", options->selectionTrials, "Of each of the best winners (150)");
+    command.add_option("--trials-per-pose", options->trialsPerPose, "Of the validation (100)");
+    addSettingOptions(command, options->settings);
     command.add_option("--threads", options->threads, "Threads (default: all processors)");
 }
 

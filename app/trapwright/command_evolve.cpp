@@ -41,14 +41,7 @@ Attempt<OpenStudy> openExisting(const Options& options) {
                                    "or choose another name for a new one.",
                                    options.study, *count)};
     }
-    auto settings = applySettings(study->settings, options.settings);
-    if (!settings) return settings.failure();
-    if (*settings == study->settings) return study;
-    study->settings = std::move(*settings);
-    if (const auto checked = study::checkInputs({study->settings, study->part, nullptr}); !checked)
-        return Failure{ExitCode::usage, checked.error().message};
-    if (const auto changed = study->file.changeSettings(study->settings); !changed)
-        return Failure{ExitCode::usage, changed.error().message};
+    if (auto changed = changeSettings(*study, options.settings); !changed) return changed.failure();
     return study;
 }
 

@@ -50,6 +50,7 @@ class Situation {
     std::optional<study::GenerationPlan> plan_;
 };
 
+// Adding 0 makes the -0 of a track without overlaps a 0.
 std::string describeGeneration(const study::GenerationRecord& record) {
     const trial::Fitness& best = record.statistics.best;
     const trial::Fitness& top = record.statistics.topMean;
@@ -59,7 +60,7 @@ std::string describeGeneration(const study::GenerationRecord& record) {
         "{:>10} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>9} {:>9.3f} {:>6.1f} {:>7.3f} {:>7.3f} {:>7.4f} "
         "{:>7.4f} {:>7.4f} "
         "{:>7.1f}\n",
-        record.index, best.total(), best.collision, best.distance, best.orientation,
+        record.index, best.total(), best.collision + 0.0, best.distance, best.orientation,
         fmt::format("{}/{}", winner.finished, winner.trials), top.total(), top.collision, top.distance,
         top.orientation, strategy.crossover, strategy.mutation, strategy.smoothing, record.seconds);
 }

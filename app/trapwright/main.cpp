@@ -28,7 +28,7 @@ Attempt<ExitCode> perform(const CommandAction& action, const Console& console) {
 }
 
 ExitCode runProgram(int count, char** arguments) {
-    CLI::App program("Designs tracks for vibratory part feeders.");
+    CLI::App program("Designs tracks for vibratory part feeders.", "trapwright");
     program.footer(std::string("COMMAND --help tells its options and shows an example.\n") + kExitCodesText);
     program.set_version_flag("--version", std::string(kProgram));
     program.require_subcommand(1);

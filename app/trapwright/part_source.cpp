@@ -48,6 +48,7 @@ Attempt<LoadedPart> loadPart(const PartRequest& request, double defaultDensity) 
     if (const auto bundled = part::findBundledPart(request.part)) {
         path = part::findBundledFile(*bundled);
         loaded.file = request.part;
+        loaded.bundled = true;
         loaded.options.name = request.part;
         if (!material) material = std::string(bundled->material);
         if (!units) units = "mm";  // which STL cannot say

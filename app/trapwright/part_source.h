@@ -27,7 +27,8 @@ struct LoadedPart {
     geometry::TriangleMesh mesh;  // as imported [m]
     std::string units;            // that the file was taken to be in
     std::string file;             // bundled name, or absolute path
-    part::PartOptions options;    // what it was built with
+    bool bundled = false;
+    part::PartOptions options;  // what it was built with
     part::Part part;
     std::vector<std::string> notes;  // found and mended
 };

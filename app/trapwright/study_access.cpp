@@ -1,7 +1,6 @@
 #include "app/trapwright/study_access.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -15,18 +14,14 @@ namespace trapwright::app {
 
 namespace {
 
-bool canWriteFolder(const std::string& path) {
-    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-    return ::access(folder.c_str(), W_OK) == 0;
-}
+enum class WriteAccess { free, locked, impossible };
 
-bool canWriteFile(const std::string& path) {
-    return ::access(path.c_str(), W_OK) == 0;
-}
-
-/// Whether another process has the study open for writing, at this moment.
-bool isLocked(const std::string& path) {
-    return canWriteFolder(path) && !store::FileLock::acquire(path).ok();
+/// Whether the study could be locked for writing at this moment, to tell a busy study from a read-only
+/// folder.
+WriteAccess findWriteAccess(const std::string& path) {
+    if (store::FileLock::acquire(path).ok()) return WriteAccess::free;
+    std::error_code failure;
+    return std::filesystem::exists(path + ".lock", failure) ? WriteAccess::locked : WriteAccess::impossible;
 }
 
 }  // namespace
@@ -34,14 +29,17 @@ bool isLocked(const std::string& path) {
 Failure describeOpenFailure(const std::string& path, const base::Error& error) {
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) return {ExitCode::badInput, error.message};
-    if (!canWriteFolder(path) || !canWriteFile(path)) return {ExitCode::cannotWrite, error.message};
-    return {isLocked(path) ? ExitCode::locked : ExitCode::badInput, error.message};
+    if (findWriteAccess(path) == WriteAccess::locked) return {ExitCode::locked, error.message};
+    // What can be read is a good study; so it is the writing that failed.
+    return {store::StudyFile::openReadOnly(path).ok() ? ExitCode::cannotWrite : ExitCode::badInput,
+            error.message};
 }
 
 Failure describeCreateFailure(const std::string& path, const base::Error& error) {
     std::error_code failure;
     if (std::filesystem::exists(path, failure)) return {ExitCode::usage, error.message};
-    return {isLocked(path) ? ExitCode::locked : ExitCode::cannotWrite, error.message};
+    const bool locked = findWriteAccess(path) == WriteAccess::locked;
+    return {locked ? ExitCode::locked : ExitCode::cannotWrite, error.message};
 }
 
 Attempt<OpenStudy> openStudy(const std::string& path, Access access) {

@@ -7,7 +7,6 @@
 
 #include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
-#include "app/trapwright/study_access.h"
 #include "core/base/file.h"
 #include "core/study/evaluator.h"
 #include "core/study/presets.h"
@@ -125,6 +124,18 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
     return settings;
 }
 
+Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options) {
+    auto settings = applySettings(study.settings, options);
+    if (!settings) return settings.failure();
+    if (*settings == study.settings) return false;
+    if (const auto checked = study::checkInputs({*settings, study.part, nullptr}); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+    if (const auto changed = study.file.changeSettings(*settings); !changed)
+        return Failure{ExitCode::usage, changed.error().message};
+    study.settings = std::move(*settings);
+    return true;
+}
+
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& options, const Console& console) {
     auto settings = startingSettings(creation);
@@ -142,8 +153,10 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
     const auto part = std::make_shared<const part::Part>(loaded->part);
     if (const auto checked = study::checkInputs({*applied, part, nullptr}); !checked)
         return Failure{ExitCode::usage, checked.error().message};
-    for (const std::string& note : loaded->notes)
-        console.note(loaded->options.name + ": " + note);
+    // What had to be done to a bundled part concerns nobody.
+    if (!loaded->bundled)
+        for (const std::string& note : loaded->notes)
+            console.note(loaded->options.name + ": " + note);
     for (const std::string& recommendation : study::findRecommendations(*applied))
         console.note(recommendation);
 

@@ -8,6 +8,7 @@
 
 #include "app/trapwright/console.h"
 #include "app/trapwright/part_source.h"
+#include "app/trapwright/study_access.h"
 #include "core/store/study_file.h"
 #include "core/study/settings.h"
 
@@ -40,6 +41,10 @@ void addSettingOptions(CLI::App& command, SettingOptions& options);
 
 /// The settings with what the user set. An unknown engine is a failure; ranges are not looked at.
 Attempt<study::Settings> applySettings(study::Settings settings, const SettingOptions& options);
+
+/// Keeps what the user set in a study that is open for writing. Learned generations allow only some changes.
+/// True if anything changed.
+Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options);
 
 /// Makes the study file: preset, then `paper`, the settings file, the part, the single settings. Refuses
 /// settings that cannot be used, and a part that does not fit the track.

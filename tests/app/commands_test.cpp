@@ -1,0 +1,228 @@
+#include <QJsonArray>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cmath>
+
+#include "tests/app/program.h"
+
+using namespace trapwright::test;
+
+/// What the commands answer, where it is known from outside the program.
+class CommandsTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void initTestCase() {
+        QVERIFY(folder_.isValid());
+        const Ran ran = ask(quickStudy("study.trap", 2));
+        QVERIFY2(ran.code == 0, ran.all());
+        // A line for each generation.
+        QVERIFY2(ran.output.contains("\n         1 "), ran.all());
+    }
+
+    void help_data() {
+        QTest::addColumn<QString>("command");
+        for (const char* name : {"part", "new", "settings", "evolve", "select", "validate", "export",
+                                 "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
+            QTest::newRow(name) << name;
+        }
+    }
+
+    void help() {
+        QFETCH(QString, command);
+        const Ran ran = ask({command, "--help"});
+        QCOMPARE(ran.code, 0);
+        QVERIFY2(ran.output.contains("--json") &&
+                     ran.output.contains("Example:\n  trapwright " + command.toUtf8()),
+                 ran.all());
+        QVERIFY(ask({"--help"}).output.contains("  " + command.toUtf8() + " "));
+    }
+
+    /// A homogeneous box: volume, mass and moments of inertia in closed form.
+    void cuboid() {
+        const QJsonObject part = ask({"part", "cuboid", "--density", "1000", "--json"}).json();
+        QCOMPARE(part["size_mm"].toArray(), QJsonArray({4.0, 8.0, 12.0}));
+        QVERIFY(std::abs(part["volume_mm3"].toDouble() - 384.0) < 1e-6);
+        QVERIFY(std::abs(part["mass_g"].toDouble() - 0.384) < 1e-9);
+        const QJsonArray inertia = part["inertia_g_mm2"].toArray();
+        const double expected[] = {0.384 * (64 + 144) / 12, 0.384 * (16 + 144) / 12, 0.384 * (16 + 64) / 12};
+        for (int i = 0; i < 3; ++i)
+            QVERIFY(std::abs(inertia[i].toArray()[i].toDouble() - expected[i]) < 1e-6);
+        QCOMPARE(part["convex_pieces"].toInt(), 1);
+        QCOMPARE(part["symmetry"].toObject()["name"].toString(), "D2");
+        double probability = 0.0;
+        for (const QJsonValue pose : part["stable_poses"].toArray())
+            probability += pose["probability"].toDouble();
+        QCOMPARE(part["stable_poses"].toArray().size(), 6);
+        QVERIFY(std::abs(probability - 1.0) < 1e-9);
+    }
+
+    /// Where the file lies in its own coordinates, and its unit.
+    void unitsAndCentre() {
+        QByteArray obj;
+        for (int i = 0; i < 8; ++i) {
+            obj += "v " + QByteArray::number(10 + 4 * (i & 1)) + " " + QByteArray::number(4 * (i & 2)) + " " +
+                   QByteArray::number(3 * (i & 4)) + "\n";
+        }
+        obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+        write(folder_.filePath("box.obj"), obj);
+        const QJsonObject millimetres = ask({"part", "box.obj", "--json"}).json();
+        QCOMPARE(millimetres["units"].toString(), "mm");
+        const QJsonArray centre = millimetres["centre_mm"].toArray();
+        QVERIFY(std::abs(centre[0].toDouble() - 12.0) < 1e-6 && std::abs(centre[1].toDouble() - 4.0) < 1e-6 &&
+                std::abs(centre[2].toDouble() - 6.0) < 1e-6);
+        const QJsonObject inches = ask({"part", "box.obj", "--units", "inch", "--json"}).json();
+        QVERIFY(std::abs(inches["size_mm"].toArray()[2].toDouble() - 12.0 * 25.4) < 1e-6);
+    }
+
+    void settingsComeBack() {
+        const Ran settings = ask({"settings", "study.trap"});
+        QCOMPARE(settings.code, 0);
+        write(folder_.filePath("settings.json"), settings.output);
+        QCOMPARE(ask({"new", "copy.trap", "--settings", "settings.json"}).code, 0);
+        QCOMPARE(ask({"settings", "copy.trap"}).output, settings.output);
+        QCOMPARE(ask({"settings", "study.trap", "--json"})
+                     .json()["evolution"]
+                     .toObject()["populationSize"]
+                     .toInt(),
+                 8);
+    }
+
+    void paperMode() {
+        QCOMPARE(ask({"new", "paper.trap", "--preset", "cone", "--paper"}).code, 0);
+        const QJsonObject settings = ask({"settings", "paper.trap", "--json"}).json();
+        QCOMPARE(settings["track"].toObject()["encoding"].toString(), "free");
+        QCOMPARE(settings["evolution"].toObject()["orientationDistance"].toString(), "plain");
+        QCOMPARE(settings["part"].toObject()["file"].toString(), "cone");
+    }
+
+    void selectValidateExportReplay() {
+        const QJsonObject selection =
+            ask({"select", "study.trap", "--winners", "2", "--trials", "5", "--json"}).json();
+        const QJsonArray entries = selection["selection"].toObject()["entries"].toArray();
+        QVERIFY(!entries.isEmpty() && entries.size() <= 2);
+        QCOMPARE(entries[0].toObject()["trials"].toInt(), 5);
+        const int generation = entries[0].toObject()["generation"].toInt();
+
+        // The selected one is validated, pose by pose, as the sum tells.
+        const QJsonObject answer =
+            ask({"validate", "study.trap", "--trials", "3", "--tolerance", "30", "--json"}).json();
+        const QJsonObject validation = answer["validation"].toObject();
+        QCOMPARE(validation["generation"].toInt(), generation);
+        QCOMPARE(validation["poses"].toArray().size(), 6);
+        QCOMPARE(validation["total"].toObject()["trials"].toInt(), 18);
+        QVERIFY(std::abs(validation["tolerance_deg"].toDouble() - 30.0) < 1e-9);
+
+        const Ran exported = ask({"export", "study.trap", "track.stl", "track.3mf", "--json"});
+        QVERIFY2(exported.code == 0, exported.all());
+        const QJsonArray files = exported.json()["files"].toArray();
+        QCOMPARE(files.size(), 2);
+        for (const QJsonValue file : files) {
+            QVERIFY(file["closed_and_manifold"].toBool());
+            QVERIFY(std::abs(file["size_mm"].toArray()[1].toDouble() - 60.0) < 1e-3);
+        }
+        // 80 bytes, a count, 50 bytes for each triangle.
+        const int triangles = files[0]["triangles"].toInt();
+        QCOMPARE(QFileInfo(folder_.filePath("track.stl")).size(), 84 + 50 * triangles);
+        // The program's own part import finds a solid of that size in it.
+        const QJsonObject track = ask({"part", "track.stl", "--units", "mm", "--json"}).json();
+        QVERIFY(std::abs(track["volume_mm3"].toDouble() / files[0]["volume_mm3"].toDouble() - 1.0) < 1e-6);
+    }
+
+    void replayTellsTheTrial() {
+        const Ran ran = ask({"replay", "study.trap", "--generation", "1", "--individual", "3", "--trial", "2",
+                             "--interval", "10"});
+        QVERIFY2(ran.code == 0, ran.all());
+        QByteArrayList lines = ran.output.trimmed().split('\n');
+        QVERIFY(lines[0].startsWith("# study.trap: generation 1, individual 3, learning trial 2"));
+        QVERIFY(lines[1].startsWith("# "));
+        QVERIFY(lines[2].startsWith("time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,"));
+        // The first pose is above the lead-in at the start point, 60 mm along and half of 30 mm up; at rest
+        // in the room, so that only the drive moves it relative to the track.
+        const QByteArrayList first = lines[3].split(',');
+        QCOMPARE(first.size(), lines[2].split(',').size());
+        QCOMPARE(first[0].toDouble(), 0.0);
+        QVERIFY(std::abs(first[1].toDouble() - 60.0) < 1.0);
+        QVERIFY(first[3].toDouble() > 15.0 && first[3].toDouble() < 30.0);
+        double norm = 0.0;
+        for (int i = 4; i < 8; ++i)
+            norm += std::pow(first[i].toDouble(), 2);
+        QVERIFY(std::abs(norm - 1.0) < 1e-6);
+        QVERIFY(std::abs(lines[4].split(',')[0].toDouble() - 0.01) < 2e-4);
+        QCOMPARE(ask({"replay", "study.trap", "--generation", "1", "--individual", "3", "--trial", "2",
+                      "--interval", "10"})
+                     .output,
+                 ran.output);
+        QCOMPARE(ask({"replay", "study.trap", "--trial", "3"}).code, 2);
+        QCOMPARE(ask({"replay", "study.trap", "--generation", "2"}).code, 2);
+    }
+
+    void track() {
+        const QString file = QStringLiteral(TRAPWRIGHT_SOURCE_DIR "/resources/tracks/cuboid_track.json");
+        const QJsonObject answer = ask({"track", file, "--trials", "6", "--json"}).json();
+        QCOMPARE(answer["trials"].toInt(), 6);
+        const int ended = answer["finished"].toObject()["count"].toInt() +
+                          answer["fell_off"].toObject()["count"].toInt() +
+                          answer["stuck"].toObject()["count"].toInt();
+        QCOMPARE(ended, 6);
+        // 1.0 at 0.478 mm (50 Hz, 12 degrees), and proportional to the half-stroke.
+        QVERIFY(std::abs(answer["throw_number"].toDouble() - 0.8 / 0.478) < 2e-3);
+    }
+
+    void sweep() {
+        const Ran ran = ask({"sweep", "--from", "0.2", "--to", "0.4", "--step", "0.1", "--json"});
+        const QJsonArray rows = ran.json()["rows"].toArray();
+        QVERIFY2(rows.size() == 3, ran.all());
+        QVERIFY(std::abs(rows[2].toObject()["half_stroke_mm"].toDouble() - 0.4) < 1e-9);
+        // No faster than the vibration itself, and faster the more it vibrates.
+        double before = 0.0;
+        for (const QJsonValue row : rows) {
+            const double speed = row["speed_mm_s"].toDouble();
+            QVERIFY2(speed > before && speed < row["half_stroke_mm"].toDouble() * 314.2, ran.all());
+            before = speed;
+        }
+    }
+
+    void bench() {
+        const QJsonObject answer = ask({"bench", "--trials", "2", "--json"}).json();
+        const QJsonArray scenes = answer["scenes"].toArray();
+        QCOMPARE(scenes.size(), 3);
+        for (const QJsonValue scene : scenes) {
+            QVERIFY(scene["cpu_seconds_per_trial"].toDouble() > 0.0);
+            QVERIFY(std::abs(scene["cpu_seconds_per_trial"].toDouble() *
+                                 scene["trials_per_second_per_core"].toDouble() -
+                             1.0) < 1e-9);
+        }
+    }
+
+    void verify() {
+        const Ran ran = ask({"verify", "--case", "stable-poses", "--json"});
+        QCOMPARE(ran.code, 0);
+        QVERIFY(ran.json()["passed"].toBool());
+        QVERIFY(!ran.json()["rows"].toArray().isEmpty());
+    }
+
+    /// The main job, as short as it can be; a second time it goes on in the same folder.
+    void demo() {
+        QStringList arguments = quickStudy("", 1).mid(4);
+        arguments =
+            QStringList{"demo", "--out", "demo", "--selection-trials", "4", "--trials-per-pose", "2"} +
+            arguments;
+        const Ran ran = ask(arguments);
+        QVERIFY2(ran.code == 0, ran.all());
+        for (const char* file : {"cuboid.trap", "cuboid.stl", "cuboid.3mf"})
+            QVERIFY2(QFileInfo(folder_.filePath("demo/" + QString(file))).size() > 0, file);
+        QVERIFY2(ran.output.contains("95 % bounds"), ran.all());
+        const Ran again = ask(arguments);
+        QVERIFY2(again.code == 0, again.all());
+        QCOMPARE(ask({"dump", "demo/cuboid.trap"}).output.count('\n'), 8);
+    }
+
+ private:
+    [[nodiscard]] Ran ask(const QStringList& arguments) const { return run(folder_.path(), arguments); }
+
+    QTemporaryDir folder_;
+};
+
+QTEST_GUILESS_MAIN(CommandsTest)
+#include "commands_test.moc"

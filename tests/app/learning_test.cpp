@@ -1,0 +1,151 @@
+#include <signal.h>
+
+#include <QElapsedTimer>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "tests/app/program.h"
+
+using namespace trapwright::test;
+
+namespace {
+
+/// Reads what the process says until `count` generations are saved. False if it ended before.
+bool waitForGenerations(QProcess& process, int count) {
+    QElapsedTimer timer;
+    timer.start();
+    QByteArray said;
+    while (timer.elapsed() < kPatience) {
+        said += process.readAllStandardOutput();
+        // A generation's line begins with its right-aligned number.
+        if (said.contains("\n" + QByteArray::number(count - 1).rightJustified(10) + " ")) return true;
+        if (process.state() == QProcess::NotRunning) return false;
+        process.waitForReadyRead(20);
+    }
+    return false;
+}
+
+/// Waits for a word on stderr.
+bool waitForNote(QProcess& process, const QByteArray& word) {
+    QElapsedTimer timer;
+    timer.start();
+    QByteArray said;
+    process.setReadChannel(QProcess::StandardError);
+    while (timer.elapsed() < kPatience && process.state() != QProcess::NotRunning) {
+        said += process.readAllStandardError();
+        if (said.contains(word)) return true;
+        process.waitForReadyRead(20);
+    }
+    return said.contains(word);
+}
+
+void interrupt(const QProcess& process) {
+    ::kill(static_cast<pid_t>(process.processId()), SIGINT);
+}
+
+}  // namespace
+
+/// Learning through the program: the same bits for any number of threads and after any stop.
+class LearningTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void init() {
+        folder_ = std::make_unique<QTemporaryDir>();
+        QVERIFY(folder_->isValid());
+    }
+
+    void sameForAnyNumberOfThreads() {
+        const Ran one = learn(quickStudy("one.trap", 3) + QStringList{"--threads", "1"});
+        const Ran two = learn(quickStudy("two.trap", 3) + QStringList{"--threads", "2"});
+        const Ran other = learn(quickStudy("other.trap", 3) + QStringList{"--seed", "2"});
+        QVERIFY2(one.code == 0 && two.code == 0 && other.code == 0, one.all() + two.all() + other.all());
+        const QByteArray dump = dumpOf("one.trap");
+        QCOMPARE(dump.count('\n'), 3 * 8);
+        QCOMPARE(dumpOf("two.trap"), dump);
+        QVERIFY(dumpOf("other.trap") != dump);
+        QCOMPARE(learn({"dump", "one.trap", "--compare", "two.trap"}).code, 0);
+        QCOMPARE(learn({"dump", "one.trap", "--compare", "other.trap"}).code, 1);
+    }
+
+    void killedAndResumed() {
+        QVERIFY(learn(quickStudy("whole.trap", 5)).code == 0);
+        auto process = start(folder_->path(), quickStudy("killed.trap", 5));
+        QVERIFY(waitForGenerations(*process, 2));
+        ::kill(static_cast<pid_t>(process->processId()), SIGKILL);
+        process->waitForFinished(kPatience);
+        const int saved = static_cast<int>(dumpOf("killed.trap").count('\n')) / 8;
+        QVERIFY2(saved >= 2 && saved < 5, QByteArray::number(saved));
+
+        const Ran refused = learn({"evolve", "killed.trap"});
+        QVERIFY2(refused.code == 2 && refused.errors.contains("--resume"), refused.all());
+        const Ran resumed = learn({"evolve", "killed.trap", "--resume"});
+        QVERIFY2(resumed.code == 0, resumed.all());
+        QCOMPARE(dumpOf("killed.trap"), dumpOf("whole.trap"));
+    }
+
+    void interruptOnceStopsAfterTheGeneration() {
+        auto process = start(folder_->path(), quickStudy("stopped.trap", 100000));
+        QVERIFY(waitForGenerations(*process, 1));
+        interrupt(*process);
+        const Ran ran = finish(*process);
+        QVERIFY2(ran.code == 130, ran.all());
+        QVERIFY2(ran.errors.contains("Stopping after this generation"), ran.all());
+        const QByteArray dump = dumpOf("stopped.trap");
+        const int saved = static_cast<int>(dump.count('\n')) / 8;
+        QVERIFY(saved >= 1);
+        QCOMPARE(dump.count('\n'), saved * 8);
+        QVERIFY(learn(quickStudy("whole.trap", saved)).code == 0);
+        QCOMPARE(dumpOf("whole.trap"), dump);
+    }
+
+    /// One long run serves for all that happens beside it.
+    void othersBesideAndInterruptTwice() {
+        QStringList slow = quickStudy("slow.trap", 100000);
+        slow[slow.indexOf("--trials") + 1] = "80";
+        auto process = start(folder_->path(), slow);
+        QVERIFY(waitForGenerations(*process, 1));
+
+        const Ran writer = learn({"evolve", "slow.trap", "--resume"});
+        QVERIFY2(writer.code == 5 && writer.errors.contains("another Trapwright"), writer.all());
+        const Ran selector = learn({"select", "slow.trap"});
+        QVERIFY2(selector.code == 5, selector.all());
+        const Ran reader = learn({"dump", "slow.trap"});
+        QVERIFY2(reader.code == 0 && reader.output.count('\n') % 8 == 0 && !reader.output.isEmpty(),
+                 reader.all());
+        QCOMPARE(learn({"settings", "slow.trap"}).code, 0);
+
+        interrupt(*process);
+        QVERIFY(waitForNote(*process, "Stopping after this generation"));
+        QElapsedTimer timer;
+        timer.start();
+        interrupt(*process);
+        const Ran ran = finish(*process);
+        QVERIFY2(ran.code == 130, ran.all());
+        QVERIFY2(timer.elapsed() < 2000, QByteArray::number(timer.elapsed()));
+        // Whole generations only, and nobody is locked out afterwards.
+        const QByteArray dump = dumpOf("slow.trap");
+        QVERIFY(!dump.isEmpty() && dump.count('\n') % 8 == 0);
+        QVERIFY(!QFile::exists(folder_->filePath("slow.trap.lock")));
+    }
+
+    void resumedWithMoreGenerations() {
+        QVERIFY(learn(quickStudy("whole.trap", 3)).code == 0);
+        QVERIFY(learn(quickStudy("longer.trap", 2)).code == 0);
+        const Ran ran = learn({"evolve", "longer.trap", "--resume", "--generations", "3", "--json"});
+        QVERIFY2(ran.code == 0, ran.all());
+        QCOMPARE(ran.json()["end"].toString(), "completed");
+        QCOMPARE(dumpOf("longer.trap"), dumpOf("whole.trap"));
+        const Ran changed = learn({"evolve", "longer.trap", "--resume", "--trials", "7"});
+        QVERIFY2(changed.code == 2 && changed.errors.contains("Only evolution.generations"), changed.all());
+    }
+
+ private:
+    [[nodiscard]] Ran learn(const QStringList& arguments) const { return run(folder_->path(), arguments); }
+    [[nodiscard]] QByteArray dumpOf(const QString& study) const { return learn({"dump", study}).output; }
+
+    std::unique_ptr<QTemporaryDir> folder_;
+};
+
+QTEST_GUILESS_MAIN(LearningTest)
+#include "learning_test.moc"
