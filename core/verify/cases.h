@@ -15,6 +15,7 @@ std::vector<Row> runSliding(const EngineFactory& factory, base::RunControl contr
 std::vector<Row> runToppling(const EngineFactory& factory, base::RunControl control);
 
 std::vector<Row> runStickSlip(const EngineFactory& factory, base::RunControl control);
+std::vector<Row> runHopping(const EngineFactory& factory, base::RunControl control);
 std::vector<Row> runLiftOff(const EngineFactory& factory, base::RunControl control);
 std::vector<Row> runPlasticHop(const EngineFactory& factory, base::RunControl control);
 std::vector<Row> runStepHalved(const EngineFactory& factory, base::RunControl control);

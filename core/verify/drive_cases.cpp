@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/verify/cases.h"
+#include "core/verify/hopping.h"
 #include "core/verify/scenes.h"
 #include "core/verify/stick_slip.h"
 
@@ -89,6 +90,29 @@ std::vector<Row> runStickSlip(const EngineFactory& factory, base::RunControl con
                  fmt::format("{:.3f} mm/s within 2 %", expected * 1e3),
                  fmt::format("{:.3f} mm/s ({:+.2f} %)", got * 1e3, (got / expected - 1.0) * 100),
                  std::abs(got / expected - 1.0) < 0.02});
+        }
+    }
+    return rows;
+}
+
+// Half-strokes at which the motion becomes periodic; a chaotic one has no speed to agree on.
+std::vector<Row> runHopping(const EngineFactory& factory, base::RunControl control) {
+    const auto engine = factory({});
+    std::vector<Row> rows;
+    constexpr int kPeriods = 50;
+    for (const double halfStroke : {0.62e-3, 0.7e-3, 0.8e-3}) {
+        for (const double restitution : {0.0, 0.2, 0.4}) {
+            trial::Drive drive;
+            drive.halfStroke = halfStroke;
+            trial::TrialBatch scene = makeLying(drive, (2 * kPeriods + 1) * drive.period());
+            scene.contact = {0.5, 0.5, restitution};
+            const double got = measureSpeed(*engine, scene, kPeriods, 2 * kPeriods, control);
+            const double expected = calcHoppingSpeed(drive, 0.5, restitution, scene.gravity, kPeriods);
+            rows.push_back(
+                {fmt::format("hopping, half-stroke {:g} mm, e = {:g}", halfStroke * 1e3, restitution),
+                 fmt::format("{:.2f} mm/s within 3 %", expected * 1e3),
+                 fmt::format("{:.2f} mm/s ({:+.2f} %)", got * 1e3, (got / expected - 1.0) * 100),
+                 std::abs(got / expected - 1.0) < 0.03});
         }
     }
     return rows;

@@ -7,12 +7,22 @@
 namespace trapwright::verify {
 
 std::vector<Case> allCases() {
-    return {
-        {"tumbling", runTumbling},      {"bounce", runBounce},          {"slope", runSlope},
-        {"sliding", runSliding},        {"toppling", runToppling},      {"stick-slip", runStickSlip},
-        {"lift-off", runLiftOff},       {"plastic-hop", runPlasticHop}, {"ridge-balance", runRidgeBalance},
-        {"ridge-drop", runRidgeDrop},   {"ridge-slide", runRidgeSlide}, {"thin-wall", runThinWall},
-        {"still-track", runStillTrack}, {"step-halved", runStepHalved}, {"stable-poses", runStablePoses}};
+    return {{"tumbling", runTumbling},
+            {"bounce", runBounce},
+            {"slope", runSlope},
+            {"sliding", runSliding},
+            {"toppling", runToppling},
+            {"stick-slip", runStickSlip},
+            {"hopping", runHopping},
+            {"lift-off", runLiftOff},
+            {"plastic-hop", runPlasticHop},
+            {"ridge-balance", runRidgeBalance},
+            {"ridge-drop", runRidgeDrop},
+            {"ridge-slide", runRidgeSlide},
+            {"thin-wall", runThinWall},
+            {"still-track", runStillTrack},
+            {"step-halved", runStepHalved},
+            {"stable-poses", runStablePoses}};
 }
 
 bool runCases(const EngineFactory& factory, const std::string& filter, base::RunControl control,
