@@ -229,7 +229,7 @@ base::Result<StoredPart> StudyFile::loadPart() const {
 }
 
 base::Status StudyFile::changeSettings(const study::Settings& settings) {
-    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    if (auto writable = state_->checkWritable(); !writable) return writable;
     const auto present = loadSettings();
     if (!present) return present.error();
     return guarded(path(), "The settings could not be saved", [&]() -> base::Status {

@@ -76,7 +76,7 @@ std::string nameOf(int generation, int individual) {
 }  // namespace
 
 base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
-    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    if (auto writable = state_->checkWritable(); !writable) return writable;
     const std::string doing = "Generation " + std::to_string(record.index) + " could not be saved";
     return guarded(path(), doing, [&]() -> base::Status {
         SQLite::Database& database = *state_->database;

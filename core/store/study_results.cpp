@@ -33,7 +33,7 @@ study::ValidationRow readRow(const SQLite::Statement& query) {
 }  // namespace
 
 base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
-    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    if (auto writable = state_->checkWritable(); !writable) return writable;
     return guarded(path(), "The selection could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
@@ -82,7 +82,7 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
 }
 
 base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
-    if (const auto writable = state_->checkWritable(); !writable) return writable;
+    if (auto writable = state_->checkWritable(); !writable) return writable;
     return guarded(path(), "The validation could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);

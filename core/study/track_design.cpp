@@ -58,8 +58,8 @@ evolution::SmoothPoints makeSmoothing(const TrackSettings& settings) {
 
 base::Status checkGenes(const TrackSettings& settings, const evolution::Chromosome& chromosome) {
     const evolution::ChromosomeLayout layout = chromosomeLayout(settings);
-    const auto pointBits = static_cast<std::size_t>(2 * layout.points * evolution::kPointBits);
-    const auto lengthBits = static_cast<std::size_t>(layout.lengths * evolution::kLengthBits);
+    const auto pointBits = static_cast<std::size_t>(layout.points) * 2 * evolution::kPointBits;
+    const auto lengthBits = static_cast<std::size_t>(layout.lengths) * evolution::kLengthBits;
     constexpr auto kStrategyLength = std::size_t{3} * evolution::kStrategyBits;
     if (chromosome.points.size() == pointBits && chromosome.lengths.size() == lengthBits &&
         chromosome.strategy.size() == kStrategyLength) {

@@ -57,6 +57,7 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner&
                            std::make_shared<const track::Track>(std::move(built).value()),
                            settings.evolution.seed};
     std::vector<trial::TrialBatch> batches;
+    batches.reserve(static_cast<std::size_t>(poses));
     for (int pose = 0; pose < poses; ++pose) {
         batches.push_back(
             makeValidationBatch(scene, individual.generation, individual.individual, pose, trials));

@@ -1,6 +1,6 @@
 #include <QtTest>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/base/random.h"
@@ -93,13 +93,12 @@ class SettingsJsonTest : public QObject {
         base::Random random({.seed = 5});
         for (int i = 0; i < 20000; ++i) {
             const std::uint64_t bits = (std::uint64_t{random.bits32()} << 32U) | random.bits32();
-            double value = 0.0;
-            std::memcpy(&value, &bits, sizeof value);
+            const auto value = std::bit_cast<double>(bits);
             if (!std::isfinite(value) || std::abs(value) > 1e300) continue;
             for (const FileUnit unit : {FileUnit::none, FileUnit::millimetre}) {
                 const auto back = study::siValue(study::fileText(value, unit), unit);
                 QVERIFY(back.has_value());
-                QCOMPARE(std::memcmp(&*back, &value, sizeof value), 0);
+                QCOMPARE(std::bit_cast<std::uint64_t>(*back), bits);
             }
         }
     }

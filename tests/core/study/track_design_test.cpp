@@ -104,14 +104,13 @@ class TrackDesignTest : public QObject {
         const std::vector<double> before = evolution::decodeGray(gene, evolution::kPointBits);
         const std::vector<double> after =
             evolution::decodeGray(smooth(gene, 1.0, random), evolution::kPointBits);
-        const auto at = [](const std::vector<double>& values, int section, int point, int k) {
-            return values[static_cast<std::size_t>((section * 4 + point) * 2 + k)];
-        };
-        for (int s = 0; s < 3; ++s) {
-            for (int j = 0; j < 4; ++j) {
-                for (int k = 0; k < 2; ++k) {
-                    const double u = s / 2.0;
-                    const double v = j / 3.0;
+        const auto at = [](const std::vector<double>& values, std::size_t section, std::size_t point,
+                           std::size_t k) { return values[(section * 4 + point) * 2 + k]; };
+        for (std::size_t s = 0; s < 3; ++s) {
+            for (std::size_t j = 0; j < 4; ++j) {
+                for (std::size_t k = 0; k < 2; ++k) {
+                    const double u = static_cast<double>(s) / 2.0;
+                    const double v = static_cast<double>(j) / 3.0;
                     const double patch = (1 - u) * (1 - v) * at(before, 0, 0, k) +
                                          (1 - u) * v * at(before, 0, 3, k) +
                                          u * (1 - v) * at(before, 2, 0, k) + u * v * at(before, 2, 3, k);

@@ -60,6 +60,7 @@ class ValidationTest : public QObject {
         inputs.settings.validation.selectionWinners = 3;
         inputs.settings.validation.selectionTrials = 50;
         std::vector<study::Winner> winners;
+        winners.reserve(5);
         for (int g = 0; g < 5; ++g)
             winners.push_back(winnerOf(inputs, g, 100 + static_cast<std::uint64_t>(g), -g));
 
