@@ -138,8 +138,9 @@ double Detector::testTriangle(const Query& query, const Candidate& candidate) co
         bool inside = true;
         for (int c = 0; c < 3 && inside; ++c)
             inside = triangle.edgeNormal[c].dot(point) <= triangle.edgeOffset[c];
-        // A deep vertex counts only where the part lies above the plane: otherwise it came from elsewhere.
-        for (int e = 0; e < vertex.edgeCount && inside && gap < -kTrusted; ++e)
+        // The part must lie above the plane: otherwise the vertex passes by (along the border of the face
+        // that the part lies on) or touches the other flank of a thin wall.
+        for (int e = 0; e < vertex.edgeCount && inside; ++e)
             inside = normal.dot(piece.vertexEdges[vertex.firstEdge + e]) >= -kConeSlack;
         if (!inside) continue;
         query.contacts->push_back(
@@ -196,8 +197,9 @@ double Detector::testVertex(const Query& query, Candidate& candidate) const {
     if (gap >= query.margin || gap <= -kDeepest) return std::max(gap, -gap - kDeepest);
 
     const Vec3 normal = query.toTrack * -piece.faces[candidate.separatingFace].normal;
+    // The track must lie below the face: a part that slides level over a border is not stopped by it.
     bool inside = true;
-    for (int e = 0; e < vertex.edgeCount && inside && gap < -kTrusted; ++e)
+    for (int e = 0; e < vertex.edgeCount && inside; ++e)
         inside = normal.dot(track_->vertexEdges[vertex.firstEdge + e]) <= kConeSlack;
     if (inside)
         query.contacts->push_back(

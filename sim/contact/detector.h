@@ -55,8 +55,6 @@ class Detector {
 
 /// Overlaps deeper than this are not contacts: the part is elsewhere. [m]
 inline constexpr double kDeepest = 0.5e-3;
-/// Down to this overlap a vertex is taken as it is; deeper ones must lie in each other's normal cones. [m]
-inline constexpr double kTrusted = 50e-6;
 /// Slack of the normal cones: sine of the angle by which a face may lean on an edge and still be held at both
 /// ends.
 inline constexpr double kConeSlack = 0.05;
