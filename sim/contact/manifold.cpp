@@ -63,6 +63,14 @@ std::vector<int> thinOut(const std::vector<StepContact>& contacts, int most) {
         std::sort(chosen.begin(), chosen.end());
         kept.insert(kept.end(), chosen.begin(), chosen.end());
     }
+
+    // So many planes that three contacts of each are too many: the lowest of all count.
+    if (static_cast<int>(kept.size()) > most) {
+        std::stable_sort(kept.begin(), kept.end(),
+                         [&](int a, int b) { return contacts[a].gap < contacts[b].gap; });
+        kept.resize(most);
+        std::sort(kept.begin(), kept.end());
+    }
     return kept;
 }
 
