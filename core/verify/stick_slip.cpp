@@ -50,15 +50,18 @@ double calcStickSlipSpeed(const trial::Drive& drive, double friction, double gra
     const Plane plane(drive, friction, gravity);
     const double period = drive.period();
     const double scan = period / 2000.0;
-    constexpr int kPeriods = 60;
+    // With little friction it takes long until one period is like the last.
+    constexpr int kMostPeriods = 5000;
+    constexpr double kSameSpeed = 1e-9;  // [m/s]
 
     double t = 0.0;
     double v = 0.0;  // of the point, in the room
     double x = 0.0;
     int direction = v > plane.speed(0.0) ? 1 : -1;  // of the point relative to the plane; 0: sticks
-    double markX = 0.0;
-    for (int p = 0; p < kPeriods; ++p) {
-        if (p == kPeriods - 1) markX = x;
+    double mean = 0.0;
+    for (int p = 0; p < kMostPeriods; ++p) {
+        const double markX = x;
+        const double lastMean = mean;
         const double end = (p + 1) * period;
         while (t < end - 1e-12) {
             double next = std::min(t + scan, end);
@@ -94,8 +97,10 @@ double calcStickSlipSpeed(const trial::Drive& drive, double friction, double gra
                 direction = sticks ? 0 : (plane.acceleration(t) > 0.0 ? -1 : 1);
             }
         }
+        mean = (x - markX) / period;
+        if (p > 0 && std::abs(mean - lastMean) < kSameSpeed) break;
     }
-    return (x - markX) / period;
+    return mean;
 }
 
 }  // namespace trapwright::verify
