@@ -1,0 +1,236 @@
+#include "sim/contact/detector.h"
+
+#include <QtTest>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.h"
+#include "detector_scenes.h"
+#include "nearest_features.h"
+
+using namespace trapwright;
+using base::kMillimetre;
+using base::Quaternion;
+using base::Vec3;
+using contact::ContactPoint;
+using testing::DetectorScene;
+
+namespace {
+
+constexpr double kMargin = 10e-6;
+
+/// The cuboid with its 8 x 12 mm face down, 12 mm along x: half-height 2 mm.
+Quaternion lyingAlong() {
+    base::Mat3 r;
+    r.col(0) = Vec3::UnitZ();
+    r.col(1) = Vec3::UnitY();
+    r.col(2) = -Vec3::UnitX();
+    return Quaternion(r);
+}
+
+/// Level but for x = 0.1, where it rises to `top` over flanks of `run`.
+std::shared_ptr<const track::Track> makeRidge(double run, double top) {
+    return verify::makeSurface({0.0, 0.1 - run, 0.1, 0.1 + run, 0.3}, {-0.03, -0.01, 0.01, 0.03},
+                               [=](double x, double) { return x == 0.1 ? top : 15.0 * kMillimetre; });
+}
+
+bool isNear(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
+    return (a - b).norm() < tolerance;
+}
+
+}  // namespace
+
+class DetectorTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void aCuboidRestsOnItsFourCorners() {
+        const DetectorScene scene(verify::makeFlat(), verify::makePaperCuboid());
+        for (const double gap : {3e-6, 0.0, -7e-6, -100e-6}) {
+            const base::Pose pose{lyingAlong(), Vec3(0.1013, 0.0021, 17.0 * kMillimetre + gap)};
+            const auto contacts = scene.findAfresh(pose, kMargin);
+            QCOMPARE(contacts.size(), 4U);
+            for (const double x : {-6e-3, 6e-3}) {
+                for (const double y : {-4e-3, 4e-3}) {
+                    const Vec3 corner = pose.position + Vec3(x, y, -2e-3);
+                    QCOMPARE(std::count_if(contacts.begin(), contacts.end(),
+                                           [&](const ContactPoint& c) { return isNear(c.point, corner); }),
+                             1);
+                }
+            }
+            for (const ContactPoint& contact : contacts) {
+                QVERIFY(isNear(contact.normal, Vec3::UnitZ()));
+                QVERIFY(std::abs(contact.gap - gap) < 1e-12);
+            }
+        }
+    }
+
+    void whatIsFartherThanTheMarginIsNoContact() {
+        const DetectorScene scene(verify::makeFlat(), verify::makePaperCuboid());
+        const auto found = [&](double gap) {
+            return scene.findAfresh({lyingAlong(), Vec3(0.1013, 0.0021, 17.0 * kMillimetre + gap)}, kMargin)
+                .size();
+        };
+        QCOMPARE(found(0.99 * kMargin), 4U);
+        QCOMPARE(found(1.01 * kMargin), 0U);
+        // Deeper than the deepest overlap the part is elsewhere.
+        QCOMPARE(found(-1.01 * contact::kDeepest), 0U);
+    }
+
+    void aCornerTouchesAPlane() {
+        const DetectorScene scene(verify::makeFlat(), verify::makePaperCuboid());
+        const Vec3 corner(2e-3, 4e-3, 6e-3);
+        const Quaternion onCorner = Quaternion::FromTwoVectors(corner, -Vec3::UnitZ());
+        const base::Pose pose{onCorner, Vec3(0.1013, 0.0021, 15.0 * kMillimetre + corner.norm() + 2e-6)};
+        const auto contacts = scene.findAfresh(pose, kMargin);
+        QCOMPARE(contacts.size(), 1U);
+        QVERIFY(isNear(contacts[0].point, pose.apply(corner)));
+        QVERIFY(isNear(contacts[0].normal, Vec3::UnitZ()));
+        QVERIFY(std::abs(contacts[0].gap - 2e-6) < 1e-12);
+    }
+
+    // A face lying across a ridge is held at its two borders, whether level or leaning a little.
+    void aFaceAcrossARidgeIsHeldAtItsBorders_data() {
+        QTest::addColumn<double>("gap");
+        QTest::addColumn<double>("lean");
+        QTest::newRow("just above") << 1e-6 << 0.0;
+        QTest::newRow("touching") << -1e-9 << 0.0;
+        QTest::newRow("20 um deep") << -20e-6 << 0.0;
+        QTest::newRow("leaning 1 deg") << 1e-6 << 1.0;
+        QTest::newRow("leaning 2 deg, deep") << -20e-6 << -2.0;
+    }
+    void aFaceAcrossARidgeIsHeldAtItsBorders() {
+        QFETCH(double, gap);
+        QFETCH(double, lean);
+        const DetectorScene scene(makeRidge(10.0 * kMillimetre, 20.0 * kMillimetre),
+                                  verify::makePaperCuboid());
+        const Quaternion turn(Eigen::AngleAxisd(lean * base::kDegree, Vec3::UnitY()));
+        const Vec3 up = turn * Vec3::UnitZ();
+        const base::Pose pose{turn * lyingAlong(),
+                              Vec3(0.1, 0.001, 20.0 * kMillimetre) + (2.0 * kMillimetre + gap) * up};
+        const auto contacts = scene.findAfresh(pose, kMargin);
+        QCOMPARE(contacts.size(), 2U);
+        for (const ContactPoint& contact : contacts) {
+            QVERIFY(isNear(contact.normal, up));
+            QVERIFY(std::abs(contact.gap - gap) < 1e-12);
+            QVERIFY(std::abs(contact.point.x() - 0.1) < 1e-6 + std::abs(gap));
+        }
+        const double y[2] = {contacts[0].point.y(), contacts[1].point.y()};
+        QVERIFY(std::abs(std::min(y[0], y[1]) + 3e-3) < 1e-9);
+        QVERIFY(std::abs(std::max(y[0], y[1]) - 5e-3) < 1e-9);
+    }
+
+    void aTrackVertexTouchesAFace() {
+        // A peak of 5 mm on a plain.
+        const auto peak =
+            verify::makeSurface({0.0, 0.09, 0.1, 0.11, 0.3}, {-0.03, -0.01, 0.0, 0.01, 0.03},
+                                [](double x, double y) { return x == 0.1 && y == 0.0 ? 20e-3 : 15e-3; });
+        const DetectorScene scene(peak, verify::makePaperCuboid());
+        for (const double gap : {2e-6, -10e-6}) {
+            const auto contacts =
+                scene.findAfresh({lyingAlong(), Vec3(0.101, 0.001, 22.0 * kMillimetre + gap)}, kMargin);
+            QCOMPARE(contacts.size(), 1U);
+            QVERIFY(isNear(contacts[0].point, Vec3(0.1, 0.0, 20e-3)));
+            QVERIFY(isNear(contacts[0].normal, Vec3::UnitZ()));
+            QVERIFY(std::abs(contacts[0].gap - gap) < 1e-12);
+        }
+    }
+
+    // Parts at a blade 0.1 mm thick at its foot and 15 mm high, at all heights, on either side: pushed to
+    // their own side by every contact.
+    void aThinWallPushesToBothSides() {
+        const DetectorScene scene(makeRidge(0.05 * kMillimetre, 30.0 * kMillimetre),
+                                  verify::makePaperCuboid());
+        const double lean = std::atan2(0.05, 15.0);
+        base::Random random({1, 0, 0, 0, base::Purpose::test});
+        for (int i = 0; i < 400; ++i) {
+            const double side = i % 2 == 0 ? -1.0 : 1.0;
+            const Vec3 outward = Vec3(side * std::cos(lean), 0.0, std::sin(lean));
+            const Quaternion rotation = random.rotation();
+            // The part clear of the ground, its nearest point 1 um away from the wall's flank.
+            base::Pose pose{rotation, Vec3(0.1, 0.0, random.uniform(0.0235, 0.03))};
+            double nearest = 1e300;
+            for (const Vec3& vertex : scene.part->hull.vertices)
+                nearest = std::min(nearest, outward.dot(pose.apply(vertex) - Vec3(0.1, 0.0, 0.03)));
+            pose.position += (1e-6 - nearest) * outward;
+            double lowest = 1.0;
+            Vec3 touching = Vec3::Zero();
+            for (const Vec3& vertex : scene.part->hull.vertices) {
+                const Vec3 corner = pose.apply(vertex);
+                if (outward.dot(corner - Vec3(0.1, 0.0, 0.03)) < 2e-6) touching = corner;
+                lowest = std::min(lowest, corner.z());
+            }
+            if (touching.z() > 29.9e-3) continue;  // over the crest
+            QVERIFY(lowest > 15.5e-3);
+            const auto contacts = scene.findAfresh(pose, kMargin);
+            QVERIFY(!contacts.empty());
+            for (const ContactPoint& contact : contacts)
+                QVERIFY2(contact.normal.dot(outward) > 0.5, qPrintable(QString("at height %1 mm, gap %2 um")
+                                                                           .arg(contact.point.z() * 1e3)
+                                                                           .arg(contact.gap * 1e6)));
+        }
+    }
+
+    // A part that slides level over the border of a face or past a vertex in a ridge is not stopped by it:
+    // whatever touches pushes upward, wherever the part is and whether it comes or goes.
+    void aLevelFaceSlidesOverBorders_data() {
+        QTest::addColumn<double>("gap");
+        QTest::newRow("just above") << 1e-9;
+        QTest::newRow("just below") << -1e-9;
+        QTest::newRow("20 um deep") << -20e-6;
+    }
+    void aLevelFaceSlidesOverBorders() {
+        QFETCH(double, gap);
+        // A table between two slopes, with vertices in its borders.
+        const auto table = verify::makeSurface(
+            {0.0, 0.05, 0.08, 0.12, 0.15, 0.3}, {-0.03, -0.02, -0.012, 0.0, 0.012, 0.02, 0.03},
+            [](double x, double) { return x < 0.07 || x > 0.13 ? 10e-3 : 15e-3; });
+        const DetectorScene scene(table, verify::makePaperCuboid());
+        base::Random random({3, 0, 0, 0, base::Purpose::test});
+        for (int i = 0; i < 2000; ++i) {
+            const Quaternion heading(
+                Eigen::AngleAxisd(i % 4 == 0 ? 0.0 : random.uniform(0.0, 2.0 * base::kPi), Vec3::UnitZ()));
+            const base::Pose pose{heading * lyingAlong(), Vec3(random.uniform(0.079, 0.121),
+                                                               random.uniform(-0.028, 0.028), 17e-3 + gap)};
+            for (const ContactPoint& contact : scene.findAfresh(pose, 100e-6)) {
+                QVERIFY2(contact.normal.z() > 0.98, qPrintable(QString("pose %1 %2, kind %3, gap %4 um")
+                                                                   .arg(pose.position.x())
+                                                                   .arg(pose.position.y())
+                                                                   .arg(contact.feature >> 62U)
+                                                                   .arg(contact.gap * 1e6)));
+            }
+        }
+    }
+
+    // Where part and track are a few micrometres apart the nearest contact is as far away as plain geometry
+    // over all features says.
+    void theNearestContactIsTheDistance() {
+        const DetectorScene scene(verify::makeRough(), verify::makePaperCuboid());
+        base::Random random({2, 0, 0, 0, base::Purpose::test});
+        int compared = 0;
+        int same = 0;
+        for (int i = 0; i < 150; ++i) {
+            base::Pose pose = testing::drawPose(scene, random, 1e-3);
+            const double wanted = random.uniform(1e-6, 50e-6);
+            double distance = 0.0;
+            for (int k = 0; k < 200; ++k) {
+                distance = testing::calcDistance(scene.part->hull, pose, scene.track->solid);
+                if (distance - wanted < 1e-7) break;
+                pose.position.z() -= distance - wanted;
+            }
+            if (distance - wanted >= 1e-7) continue;
+            const auto contacts = scene.findAfresh(pose, 100e-6);
+            double nearest = 1e300;
+            for (const ContactPoint& contact : contacts)
+                nearest = std::min(nearest, contact.gap);
+            ++compared;
+            same += std::abs(nearest - distance) < 1e-9 ? 1 : 0;
+        }
+        QVERIFY(compared > 100);
+        // Edges that are nearly flat or nearly parallel to the part's do not act; elsewhere it is exact.
+        QVERIFY2(same > compared * 95 / 100, qPrintable(QString("%1 of %2").arg(same).arg(compared)));
+    }
+};
+
+QTEST_APPLESS_MAIN(DetectorTest)
+#include "detector_test.moc"

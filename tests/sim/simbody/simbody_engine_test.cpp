@@ -1,0 +1,194 @@
+#include "sim/simbody/simbody_engine.h"
+
+#include <QtTest>
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <thread>
+
+#include "engine_scenes.h"
+
+using namespace trapwright;
+using base::Vec3;
+using simbody::SimbodyEngine;
+
+namespace {
+
+using Outcomes = std::vector<std::vector<trial::Outcome>>;
+
+Outcomes simulate(const std::vector<trial::TrialBatch>& batches, unsigned threads) {
+    base::RunControl control;
+    const auto outcomes = SimbodyEngine({threads, 0.0}).run(batches, control);
+    if (!outcomes) return {};
+    std::int64_t trials = 0;
+    for (const trial::TrialBatch& batch : batches)
+        trials += static_cast<std::int64_t>(batch.trials.size());
+    // Every finished trial is counted once.
+    return control.done() == trials ? *outcomes : Outcomes{};
+}
+
+trial::TrialBatch makeEndless(int trials) {
+    trial::TrialBatch batch = testing::makeRoughBatch(verify::makePaperCuboid(), 5, trials, 1e6);
+    batch.drive.halfStroke = 0.0;
+    return batch;
+}
+
+}  // namespace
+
+class SimbodyEngineTest : public QObject {
+    Q_OBJECT
+
+    trial::TrialBatch batch_ = testing::makeRoughBatch(verify::makePaperCuboid(), 1, 40, 0.25);
+    std::vector<trial::Outcome> outcomes_;
+
+ private slots:
+    void initTestCase() {
+        const Outcomes outcomes = simulate({batch_}, 1);
+        QCOMPARE(outcomes.size(), 1U);
+        QCOMPARE(outcomes[0].size(), batch_.trials.size());
+        outcomes_ = outcomes[0];
+        // Trials differ: comparing them below means something.
+        for (std::size_t i = 1; i < outcomes_.size(); ++i)
+            QVERIFY(!(outcomes_[i] == outcomes_[0]));
+    }
+
+    void threadsDoNotMatter() {
+        for (const unsigned threads : {2U, 3U, 7U})
+            QVERIFY(simulate({batch_}, threads) == Outcomes{outcomes_});
+    }
+
+    void theOrderOfTrialsDoesNotMatter() {
+        trial::TrialBatch reversed = batch_;
+        std::reverse(reversed.trials.begin(), reversed.trials.end());
+        Outcomes outcomes = simulate({reversed}, 2);
+        std::reverse(outcomes.at(0).begin(), outcomes.at(0).end());
+        QVERIFY(outcomes[0] == outcomes_);
+    }
+
+    void theSizeOfBatchesDoesNotMatter_data() {
+        QTest::addColumn<int>("size");
+        QTest::newRow("one by one") << 1;
+        QTest::newRow("three") << 3;
+        QTest::newRow("seventeen") << 17;
+    }
+    void theSizeOfBatchesDoesNotMatter() {
+        QFETCH(int, size);
+        std::vector<trial::TrialBatch> batches;
+        for (std::size_t i = 0; i < batch_.trials.size(); i += static_cast<std::size_t>(size)) {
+            trial::TrialBatch& some = batches.emplace_back(batch_);
+            const auto last = std::min(batch_.trials.size(), i + static_cast<std::size_t>(size));
+            some.trials.assign(batch_.trials.begin() + static_cast<std::ptrdiff_t>(i),
+                               batch_.trials.begin() + static_cast<std::ptrdiff_t>(last));
+        }
+        std::vector<trial::Outcome> joined;
+        for (const auto& outcomes : simulate(batches, 2))
+            joined.insert(joined.end(), outcomes.begin(), outcomes.end());
+        QVERIFY(joined == outcomes_);
+    }
+
+    // Batches of several parts and tracks in one call give what each gives alone.
+    void batchesDoNotSeeEachOther() {
+        const auto brick = verify::makeCuboid(Vec3(3, 6, 7) * base::kMillimetre, 8500.0);
+        trial::TrialBatch flat = testing::makeLyingOn({}, 0.3, 0.2);
+        trial::TrialBatch few = batch_;
+        few.trials.resize(5);
+        const std::vector<trial::TrialBatch> batches = {few, testing::makeRoughBatch(brick, 2, 6, 0.2), flat,
+                                                        testing::makeRoughBatch(brick, 3, 2, 0.1)};
+        const Outcomes together = simulate(batches, 2);
+        QCOMPARE(together.size(), batches.size());
+        for (std::size_t b = 0; b < batches.size(); ++b)
+            QVERIFY(simulate({batches[b]}, 1) == Outcomes{together[b]});
+    }
+
+    void nothingToDoIsDone() {
+        QCOMPARE(simulate({}, 2).size(), 0U);
+        trial::TrialBatch none = batch_;
+        none.trials.clear();
+        const Outcomes outcomes = simulate({none, batch_}, 1);
+        QCOMPARE(outcomes.size(), 2U);
+        QVERIFY(outcomes[0].empty());
+        QVERIFY(outcomes[1] == outcomes_);
+    }
+
+    void replayIsTheTrialBitForBit() {
+        for (const std::size_t index : {std::size_t{0}, std::size_t{17}, batch_.trials.size() - 1}) {
+            const auto replay = SimbodyEngine().replay(batch_, index, 0.01, {});
+            QVERIFY(replay.ok());
+            QVERIFY(replay->outcome == outcomes_[index]);
+            // A sample every 10 ms, the first at the start and the last at the end.
+            const auto& samples = replay->samples;
+            QCOMPARE(samples.front().time, 0.0);
+            QVERIFY(samples.front().track == outcomes_[index].initial);
+            QVERIFY(std::abs(samples.back().time - outcomes_[index].time) < 1e-12);
+            for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+                QVERIFY(std::abs(samples[i].time - 0.01 * static_cast<double>(i)) < 1.001e-4);
+        }
+    }
+
+    void aFinerStepIsUsed() {
+        const auto fine = SimbodyEngine({1, 1e-4}).run(std::vector{batch_}, {});
+        QVERIFY(fine.ok());
+        QVERIFY((*fine)[0] != outcomes_);
+    }
+
+    // Design: within 0.2 s; the rest is for a loaded machine.
+    void cancelTakesEffectSoon() {
+        for (const unsigned threads : {1U, 2U}) {
+            const std::vector batches = {makeEndless(48)};
+            base::RunControl control;
+            const SimbodyEngine engine({threads, 0.0});
+            auto running = std::async(std::launch::async, [&] { return engine.run(batches, control); });
+            std::this_thread::sleep_for(std::chrono::milliseconds(150));
+            const auto asked = std::chrono::steady_clock::now();
+            control.cancel();
+            const auto result = running.get();
+            const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - asked;
+            QVERIFY(!result.ok());
+            QVERIFY(result.error().message.find("cancelled") != std::string::npos);
+            qInfo("cancelled after %.3f s with %u threads", waited.count(), threads);
+            QVERIFY(waited.count() < 1.0);
+        }
+    }
+
+    void aReplayCanBeCancelled() {
+        const trial::TrialBatch batch = makeEndless(1);
+        base::RunControl control;
+        auto running = std::async(std::launch::async,
+                                  [&] { return SimbodyEngine().replay(batch, 0, 1.0, control).ok(); });
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        control.cancel();
+        QVERIFY(running.wait_for(std::chrono::seconds(1)) == std::future_status::ready);
+        QVERIFY(!running.get());
+    }
+
+    void whatCannotBeSimulatedIsRefused() {
+        const SimbodyEngine engine;
+        const auto message = [&](const trial::TrialBatch& batch) {
+            const auto result = engine.run(std::vector{batch_, batch}, {});
+            return result.ok() ? std::string() : result.error().message;
+        };
+        trial::TrialBatch noPieces = batch_;
+        auto hollow = std::make_shared<part::Part>(*batch_.part);
+        hollow->name = "ghost";
+        hollow->pieces.clear();
+        noPieces.part = hollow;
+        QVERIFY(message(noPieces).find("'ghost' has no convex pieces") != std::string::npos);
+
+        trial::TrialBatch noMass = batch_;
+        auto light = std::make_shared<part::Part>(*batch_.part);
+        light->massProperties.mass = 0.0;
+        noMass.part = light;
+        QVERIFY(message(noMass).find("has no mass") != std::string::npos);
+
+        trial::TrialBatch noTrack = batch_;
+        noTrack.track = nullptr;
+        QVERIFY(message(noTrack).find("no track") != std::string::npos);
+
+        const auto beyond = engine.replay(batch_, 40, 0.01, {});
+        QVERIFY(!beyond.ok());
+        QVERIFY(beyond.error().message.find("There is no trial 40: the batch has 40") != std::string::npos);
+    }
+};
+
+QTEST_APPLESS_MAIN(SimbodyEngineTest)
+#include "simbody_engine_test.moc"
