@@ -36,11 +36,13 @@ class Situation {
         const std::int64_t trials = control_.done() - plan_->doneBefore;
         const double share =
             plan_->trials() > 0 ? static_cast<double>(trials) / static_cast<double>(plan_->trials()) : 1.0;
-        return fmt::format(
-            "Generation {} of {} {} individuals {} of {}, trials {} of {}, {:.0f}/s{}", plan_->generation + 1,
-            generations_, formatBar(share), progress.individualsDone, plan_->individuals, trials,
-            plan_->trials(), progress.trialsPerSecond,
-            progress.secondsLeft > 0.0 ? ", " + formatDuration(progress.secondsLeft) + " left" : "");
+        // What matters least is last, where a narrow terminal cuts.
+        const std::string left =
+            progress.secondsLeft > 0.0 ? formatDuration(progress.secondsLeft) + " left, " : "";
+        return fmt::format("Generation {}/{} {} {}{:.0f}/s, {}/{} individuals, {}/{} trials",
+                           plan_->generation + 1, generations_, formatBar(share), left,
+                           progress.trialsPerSecond, progress.individualsDone, plan_->individuals, trials,
+                           plan_->trials());
     }
 
  private:

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kLook = std::chrono::milliseconds(50);  // how soon Ctrl-C is heard
 constexpr auto kTerminalInterval = std::chrono::milliseconds(250);
 constexpr auto kLogInterval = std::chrono::seconds(20);
-constexpr int kBarWidth = 20;
+constexpr int kBarWidth = 10;
 
 /// Longer lines would wrap, and only their last row could be drawn over.
 std::size_t terminalWidth() {
@@ -98,11 +98,10 @@ WorkWatch watchTrials(const std::string& what, std::int64_t total, base::RunCont
         const std::int64_t done = control.done() - before;
         const double rate = static_cast<double>(done) / seconds;
         const std::string left =
-            done > 0 ? formatDuration(static_cast<double>(total - done) / rate) + " left" : "";
-        return fmt::format(
-            "{} {} {} of {} trials, {:.1f}/s {}", what,
-            formatBar(static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(total, 1))),
-            done, total, rate, left);
+            done > 0 ? formatDuration(static_cast<double>(total - done) / rate) + " left, " : "";
+        const double share =
+            static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(total, 1));
+        return fmt::format("{} {} {}{:.0f}/s, {}/{} trials", what, formatBar(share), left, rate, done, total);
     };
     watch.interrupted = [control](int) mutable { control.cancel(); };
     return watch;

@@ -51,7 +51,7 @@ class WorkDisplay {
 /// The watch on `total` trials: a bar, n of N, trials per second and time left; Ctrl-C cancels at once.
 WorkWatch watchTrials(const std::string& what, std::int64_t total, base::RunControl control);
 
-/// "[######..............]" for 0.3.
+/// "[###.......]" for 0.3.
 std::string formatBar(double share);
 /// "0:35", "1:02:35".
 std::string formatDuration(double seconds);

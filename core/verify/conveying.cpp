@@ -45,7 +45,7 @@ base::Result<double> measureSpeed(const trial::Engine& engine, const trial::Tria
 }  // namespace
 
 base::Result<ConveyingSpeed> measureConveyingSpeed(const trial::Engine& engine, const ConveyingScene& scene,
-                                                   base::RunControl control) {
+                                                   const base::RunControl& control) {
     if (scene.part->stablePoses.empty())
         return base::Error{"The part " + scene.part->name + " has no stable pose to be conveyed in."};
     ConveyingSpeed speed;

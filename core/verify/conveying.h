@@ -28,6 +28,6 @@ struct ConveyingScene {
 /// half-stroke starts with it. Errors: a part without stable poses, engine, cancelled. Advances `control` by
 /// one per heading.
 base::Result<ConveyingSpeed> measureConveyingSpeed(const trial::Engine& engine, const ConveyingScene& scene,
-                                                   base::RunControl control);
+                                                   const base::RunControl& control);
 
 }  // namespace trapwright::verify
