@@ -4,15 +4,24 @@
 #include <nlohmann/json.hpp>
 
 #include "app/trapwright/command.h"
+#include "app/trapwright/engines.h"
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/part_source.h"
+#include "app/trapwright/work_display.h"
+#include "core/base/parallel.h"
 #include "core/geometry/mass_properties.h"
+#include "core/study/pose_drops.h"
 #include "core/study/settings.h"
 #include "core/trial/fitness.h"
 
 namespace trapwright::app {
 
 namespace {
+
+struct Options {
+    PartRequest part;
+    int drops = 0;
+};
 
 constexpr double kPerMm3 = 1e9;
 constexpr double kPerGram = 1e3;
@@ -103,29 +112,71 @@ nlohmann::ordered_json partToJson(const LoadedPart& loaded) {
             {"stable_poses", poses}};
 }
 
-Attempt<ExitCode> run(const PartRequest& request, const Console& console) {
-    auto loaded = loadPart(request, study::PartSettings{}.density);
+/// Drops the part with the Simbody engine, telling how far it is.
+Attempt<study::DropResult> dropPart(const part::Part& part, int drops, const Console& console) {
+    const unsigned threads = base::availableThreads();
+    auto engine = makeEngine("simbody", {1, 0.0});
+    if (!engine) return engine.failure();
+    study::DropSettings settings;
+    settings.drops = drops;
+    base::RunControl control;
+    WorkWatch watch;
+    watch.progress = [&] { return fmt::format("Dropping, {} of {} parts", control.done(), drops); };
+    watch.interrupted = [control](int) mutable { control.cancel(); };
+    const WorkDisplay display(console, watch);
+    auto result =
+        study::simulateDrops(**engine, std::make_shared<const part::Part>(part), settings, threads, control);
+    if (control.cancelled()) return Failure{ExitCode::interrupted, "Interrupted; no drops are reported."};
+    if (!result) return Failure{ExitCode::fault, result.error().message};
+    return *std::move(result);
+}
+
+std::string describeDrops(const part::Part& part, const study::DropResult& result, int drops) {
+    std::string text = fmt::format(
+        "\nDropped {} times from 30 mm onto a level plane:\n"
+        "Stable pose      Came to rest   Quasi-static\n",
+        drops);
+    for (std::size_t i = 0; i < result.counts.size(); ++i)
+        text += fmt::format("{:>11} {:>15.1f} % {:>12.1f} %\n", i + 1, 100.0 * result.counts[i] / drops,
+                            100.0 * part.stablePoses[i].probability);
+    return text + fmt::format("  none of them {:>12.1f} %\n", 100.0 * result.unsettled / drops);
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    auto loaded = loadPart(options.part, study::PartSettings{}.density);
     if (!loaded) return loaded.failure();
+    nlohmann::ordered_json json = partToJson(*loaded);
     console.print(describePart(*loaded));
-    console.emit(partToJson(*loaded));
+    if (options.drops > 0) {
+        auto dropped = dropPart(loaded->part, options.drops, console);
+        if (!dropped) return dropped.failure();
+        console.print(describeDrops(loaded->part, *dropped, options.drops));
+        json["drops"] = {
+            {"drops", options.drops}, {"came_to_rest", dropped->counts}, {"in_no_pose", dropped->unsettled}};
+    }
+    console.emit(json);
     return ExitCode::ok;
 }
 
 }  // namespace
 
 void addPartCommand(CLI::App& program, Invocation& invocation) {
-    const auto request = std::make_shared<PartRequest>();
+    const auto options = std::make_shared<Options>();
     CLI::App& command =
         addCommand(program, invocation, "part",
                    "Imports a part and tells what was found and mended, its mass, symmetry and stable poses.",
-                   "trapwright part clip.stl --units mm --material POM\n  trapwright part cuboid",
-                   [request](const Console& console) { return run(*request, console); });
+                   "trapwright part clip.stl --units mm --material POM\n  trapwright part cuboid --drop 1000",
+                   [options](const Console& console) { return run(*options, console); });
     command
-        .add_option("FILE", request->part,
+        .add_option("FILE", options->part.part,
                     "STL, OBJ, PLY, OFF, 3MF, glTF, STEP or IGES file, or a bundled part: cuboid, cone, "
                     "bracket, pin, cup")
         ->required();
-    addPartOptions(command, *request);
+    addPartOptions(command, options->part);
+    command
+        .add_option("--drop", options->drops,
+                    "Also drop the part this often, simulated, and count the poses in which it comes to rest")
+        ->check(CLI::Range(1, 1000000));
 }
 
 }  // namespace trapwright::app

@@ -69,7 +69,10 @@ void addVerifyCommand(CLI::App& program, Invocation& invocation) {
                    "any case fails.",
                    "trapwright verify --engine simbody --case ridge",
                    [options](const Console& console) { return run(*options, console); });
-    command.add_option("--engine", options->engine, "The engine (default: simbody)");
+    command.add_option(
+        "--engine", options->engine,
+        "simbody (default), or simbody-certifying: the continuous contact law under an error-controlled "
+        "integrator, some hundred times slower");
     command.add_option("--case", options->filter, "Only the cases with this in their name");
 }
 

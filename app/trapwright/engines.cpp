@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "sim/simbody/certifying_engine.h"
 #include "sim/simbody/simbody_engine.h"
 
 namespace trapwright::app {
@@ -21,7 +22,8 @@ struct NamedEngine {
     std::unique_ptr<trial::Engine> (*make)(const trial::EngineOptions&);
 };
 
-constexpr std::array<NamedEngine, 1> kEngines = {{{"simbody", make<simbody::SimbodyEngine>}}};
+constexpr std::array<NamedEngine, 2> kEngines = {
+    {{"simbody", make<simbody::SimbodyEngine>}, {"simbody-certifying", make<simbody::CertifyingEngine>}}};
 
 }  // namespace
 
