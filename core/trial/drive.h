@@ -4,12 +4,12 @@
 
 namespace trapwright::trial {
 
-/// The vibration of a feeder: a sinusoid along a line inclined by `angle` to the conveying direction (on a bowl
-/// the helical oscillation that has this line at the bowl radius).
+/// The vibration of a feeder: a sinusoid along a line inclined by `angle` to the conveying direction (on a
+/// bowl the helical oscillation that has this line at the bowl radius).
 struct Drive {
-    double frequency = 50.0;                           // mechanical [Hz]
-    double halfStroke = 0.8e-3;                        // amplitude along the vibration line [m]
-    double angle = 12.0 * base::kDegree;               // vibration angle [rad]
+    double frequency = 50.0;              // mechanical [Hz]
+    double halfStroke = 0.8e-3;           // amplitude along the vibration line [m]
+    double angle = 12.0 * base::kDegree;  // vibration angle [rad]
 
     [[nodiscard]] double angularFrequency() const { return 2.0 * base::kPi * frequency; }  // [rad/s]
     [[nodiscard]] double period() const { return 1.0 / frequency; }                        // [s]

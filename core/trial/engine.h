@@ -13,15 +13,15 @@ namespace trapwright::trial {
 
 /// What every engine can be told. 0 leaves the choice to the engine.
 struct EngineOptions {
-    unsigned threads = 0;      // 0: all processors
-    double step = 0.0;         // of simulated time [s]; 0: the engine's own
+    unsigned threads = 0;  // 0: all processors
+    double step = 0.0;     // of simulated time [s]; 0: the engine's own
 };
 
 /// A rigid-body simulator that judges tracks. Takes whole batches, so that it may use threads, wide
-/// instructions or other machines as it likes. The outcome of a trial depends on its batch's parameters and its own
-/// TrialSpec alone: not on the threads, nor on the other trials. Safe to call from several threads.
+/// instructions or other machines as it likes. The outcome of a trial depends on its batch's parameters and
+/// its own TrialSpec alone: not on the threads, nor on the other trials. Safe to call from several threads.
 class Engine {
-   public:
+ public:
     Engine() = default;
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
@@ -32,13 +32,15 @@ class Engine {
     /// The step of simulated time when none is asked for. [s]
     [[nodiscard]] virtual double defaultStep() const = 0;
 
-    /// Simulates every trial: result[b][i] is the outcome of batches[b].trials[i]. Advances `control` by one per finished trial.
-    /// An error if cancelled (within 0.2 s) or if a batch cannot be simulated.
-    [[nodiscard]] virtual base::Result<std::vector<std::vector<Outcome>>> run(std::span<const TrialBatch> batches,
-                                                                             base::RunControl control) const = 0;
+    /// Simulates every trial: result[b][i] is the outcome of batches[b].trials[i]. Advances `control` by one
+    /// per finished trial. An error if cancelled (within 0.2 s) or if a batch cannot be simulated.
+    [[nodiscard]] virtual base::Result<std::vector<std::vector<Outcome>>> run(
+        std::span<const TrialBatch> batches, base::RunControl control) const = 0;
 
-    /// Re-simulates trial `index` of the batch, bit for bit as run() does, and records it every `interval` seconds.
-    [[nodiscard]] virtual base::Result<Trajectory> replay(const TrialBatch& batch, std::size_t index, double interval,
+    /// Re-simulates trial `index` of the batch, bit for bit as run() does, and records it every `interval`
+    /// seconds.
+    [[nodiscard]] virtual base::Result<Trajectory> replay(const TrialBatch& batch, std::size_t index,
+                                                          double interval,
                                                           base::RunControl control) const = 0;
 };
 

@@ -16,18 +16,18 @@ std::string_view endingName(Ending ending);
 /// tangent frame at the part's x (decision 7).
 struct Outcome {
     Ending ending = Ending::stuck;
-    base::Pose initial;     // at the start
-    base::Pose farthest;    // when it had come farthest along the track (paper, section 3.4)
-    double time = 0.0;      // simulated [s]
+    base::Pose initial;   // at the start
+    base::Pose farthest;  // when it had come farthest along the track (paper, section 3.4)
+    double time = 0.0;    // simulated [s]
 
     friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
 /// One moment of a replay. Pose in the room, track displacement and all.
 struct TrajectorySample {
-    double time = 0.0;              // [s]
-    base::Pose room;                // part frame to room
-    base::Pose track;               // as in Outcome, relative to the vibrating track
+    double time = 0.0;                      // [s]
+    base::Pose room;                        // part frame to room
+    base::Pose track;                       // as in Outcome, relative to the vibrating track
     base::Vec3 drive = base::Vec3::Zero();  // displacement of the track at the bowl radius in (x, y, z) [m]
     base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]

@@ -7,16 +7,17 @@
 
 namespace trapwright::trial {
 
-/// How start poses are drawn. Learning: any orientation (paper, section 3.4). Validation: near one stable pose
-/// with any heading (decision 11).
+/// How start poses are drawn. Learning: any orientation (paper, section 3.4). Validation: near one stable
+/// pose with any heading (decision 11).
 struct StartPolicy {
-    std::optional<base::Quaternion> nearPose;   // part frame to world, z up; none: uniform on SO(3)
-    double tilt = 2.0 * base::kDegree;          // standard deviation of the disturbance of nearPose [rad]
-    double lateral = 2e-3;                      // largest sideways offset from the middle of the track [m]
+    std::optional<base::Quaternion> nearPose;  // part frame to world, z up; none: uniform on SO(3)
+    double tilt = 2.0 * base::kDegree;         // standard deviation of the disturbance of nearPose [rad]
+    double lateral = 2e-3;                     // largest sideways offset from the middle of the track [m]
 };
 
 /// Draws the start of one trial: the part at rest, its lowest point 10 micrometres above the lead-in at
 /// track.start, as close above the surface as it can.
-TrialStart drawStart(const track::Track& track, const part::Part& part, const StartPolicy& policy, base::Random& random);
+TrialStart drawStart(const track::Track& track, const part::Part& part, const StartPolicy& policy,
+                     base::Random& random);
 
 }  // namespace trapwright::trial
