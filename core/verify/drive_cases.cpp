@@ -27,7 +27,7 @@ trial::TrialBatch makeLying(const trial::Drive& drive, double duration) {
 
 /// Mean speed along x between two whole numbers of periods. [m/s]
 double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene, int fromPeriod, int toPeriod,
-                    base::RunControl control) {
+                    const base::RunControl& control) {
     const double period = scene.drive.period();
     const trial::Trajectory trajectory = replayScene(engine, scene, period, control);
     const auto& samples = trajectory.samples;
@@ -37,7 +37,7 @@ double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene,
 }
 
 /// Whether the lying cuboid ever loses contact within ten periods.
-bool leavesTrack(const trial::Engine& engine, double halfStroke, base::RunControl control) {
+bool leavesTrack(const trial::Engine& engine, double halfStroke, const base::RunControl& control) {
     trial::Drive drive;
     drive.halfStroke = halfStroke;
     trial::TrialBatch scene = makeLying(drive, 0.2);
@@ -50,7 +50,7 @@ bool leavesTrack(const trial::Engine& engine, double halfStroke, base::RunContro
 
 /// Length of the first flight under vertical vibration without restitution, from the instant at which the
 /// track's acceleration passes -g (known in closed form) to the landing, found between two samples. [s]
-double measureFlight(const trial::Engine& engine, double throwNumber, base::RunControl control) {
+double measureFlight(const trial::Engine& engine, double throwNumber, const base::RunControl& control) {
     trial::Drive drive;
     drive.angle = 90.0 * base::kDegree;
     drive.halfStroke =
@@ -74,7 +74,7 @@ double measureFlight(const trial::Engine& engine, double throwNumber, base::RunC
 
 }  // namespace
 
-std::vector<Row> runStickSlip(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runStickSlip(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     std::vector<Row> rows;
     for (const double halfStroke : {0.25e-3, 0.35e-3, 0.45e-3}) {
@@ -96,7 +96,7 @@ std::vector<Row> runStickSlip(const EngineFactory& factory, base::RunControl con
 }
 
 // Half-strokes at which the motion becomes periodic; a chaotic one has no speed to agree on.
-std::vector<Row> runHopping(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runHopping(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     std::vector<Row> rows;
     constexpr int kPeriods = 50;
@@ -118,7 +118,7 @@ std::vector<Row> runHopping(const EngineFactory& factory, base::RunControl contr
     return rows;
 }
 
-std::vector<Row> runLiftOff(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runLiftOff(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     const bool early = leavesTrack(*engine, 0.47e-3, control);
     const bool late = leavesTrack(*engine, 0.49e-3, control);
@@ -127,7 +127,7 @@ std::vector<Row> runLiftOff(const EngineFactory& factory, base::RunControl contr
              !early && late}};
 }
 
-std::vector<Row> runPlasticHop(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runPlasticHop(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     const double expected = std::sqrt(1.0 + base::kPi * base::kPi);
     double low = 0.95 * expected;
@@ -143,7 +143,7 @@ std::vector<Row> runPlasticHop(const EngineFactory& factory, base::RunControl co
              std::abs(got / expected - 1.0) < 0.02}};
 }
 
-std::vector<Row> runStepHalved(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runStepHalved(const EngineFactory& factory, const base::RunControl& control) {
     std::vector<Row> rows;
     const double step = factory({})->defaultStep();
     for (const double halfStroke : {0.4e-3, 0.62e-3, 0.7e-3, 0.8e-3, 0.9e-3}) {

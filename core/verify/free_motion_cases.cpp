@@ -21,7 +21,7 @@ double tumblingTolerance(const std::string& engine) {
 /// Rebound over impact speed of a part dropped so that it hits a plane at `speed`: from the heights of its
 /// centre.
 double measureRebound(const trial::Engine& engine, const base::Quaternion& rotation, double speed,
-                      double restitution, base::RunControl control) {
+                      double restitution, const base::RunControl& control) {
     const auto part = makePaperCuboid();
     const auto track = makeFlat();
     double lowest = 0.0;
@@ -43,7 +43,7 @@ double measureRebound(const trial::Engine& engine, const base::Quaternion& rotat
 
 }  // namespace
 
-std::vector<Row> runTumbling(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runTumbling(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     trial::TrialBatch scene =
         makeStillScene(makeFlat(), makePaperCuboid(),
@@ -72,7 +72,7 @@ std::vector<Row> runTumbling(const EngineFactory& factory, base::RunControl cont
              fmt::format("{:.1e}", momentumError), whole && momentumError < tolerance}};
 }
 
-std::vector<Row> runBounce(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runBounce(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     std::vector<Row> rows;
     const base::Quaternion onCorner = base::Quaternion::FromTwoVectors(Vec3(2, 4, 6), Vec3::UnitZ());

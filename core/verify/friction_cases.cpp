@@ -42,7 +42,7 @@ const trial::TrajectorySample& sampleAt(const trial::Trajectory& trajectory, dou
 
 }  // namespace
 
-std::vector<Row> runSlope(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runSlope(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     double creep = 0.0;
     double worst = 0.0;
@@ -74,7 +74,7 @@ std::vector<Row> runSlope(const EngineFactory& factory, base::RunControl control
              fmt::format("off by {:+.3f} %", worst * 100), std::abs(worst) < 0.01}};
 }
 
-std::vector<Row> runSliding(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runSliding(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     double least = 1e300;
     double most = 0.0;
@@ -96,7 +96,7 @@ std::vector<Row> runSliding(const EngineFactory& factory, base::RunControl contr
              most - least < 0.005 * expected && std::abs(most / expected - 1.0) < 0.01}};
 }
 
-std::vector<Row> runToppling(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runToppling(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     // 8 mm wide, 12 mm high: topples about its lower edge from atan(8 / 12) on.
     const double limit = std::atan2(8.0, 12.0);

@@ -39,8 +39,8 @@ double findDeepest(const trial::Trajectory& trajectory, const part::Part& part) 
     double deepest = 0.0;
     for (const trial::TrajectorySample& sample : trajectory.samples) {
         const base::Mat3 back = sample.room.rotation.toRotationMatrix().transpose();
-        for (double y = -0.03; y <= 0.03; y += 0.0005) {
-            const Vec3 p = back * (Vec3(kRidgeX, y, kRidgeTop) - sample.room.position);
+        for (int i = -60; i <= 60; ++i) {
+            const Vec3 p = back * (Vec3(kRidgeX, 0.5 * kMillimetre * i, kRidgeTop) - sample.room.position);
             double outside = -1e300;
             for (const auto& face : part.hull.faces)
                 outside = std::max(outside, face.normal.dot(p) - face.offset);
@@ -69,7 +69,7 @@ constexpr double kEnergyNoise = 2e-3;
 
 }  // namespace
 
-std::vector<Row> runRidgeBalance(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runRidgeBalance(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     // Off the crest by a tenth of a millimetre the part must tip that way, on both sides alike; on it, stay.
     const auto tilt = [&](double offset) {
@@ -89,7 +89,7 @@ std::vector<Row> runRidgeBalance(const EngineFactory& factory, base::RunControl 
                  std::abs(forward + backward) < 0.1 * forward}};
 }
 
-std::vector<Row> runRidgeDrop(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runRidgeDrop(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     double deepest = 0.0;
     double gain = -1.0;
@@ -113,7 +113,7 @@ std::vector<Row> runRidgeDrop(const EngineFactory& factory, base::RunControl con
              fmt::format("by {:.1e} at most", gain), gain < kEnergyNoise}};
 }
 
-std::vector<Row> runRidgeSlide(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runRidgeSlide(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     double deepest = 0.0;
     double gain = -1.0;
@@ -138,7 +138,7 @@ std::vector<Row> runRidgeSlide(const EngineFactory& factory, base::RunControl co
              gain < kEnergyNoise}};
 }
 
-std::vector<Row> runThinWall(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runThinWall(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     // A blade 0.1 mm thick at its foot and 15 mm high; parts flung against it at 1 m/s.
     const auto track =
@@ -164,7 +164,7 @@ std::vector<Row> runThinWall(const EngineFactory& factory, base::RunControl cont
              fmt::format("{} passed", through), through == 0}};
 }
 
-std::vector<Row> runStillTrack(const EngineFactory& factory, base::RunControl control) {
+std::vector<Row> runStillTrack(const EngineFactory& factory, const base::RunControl& control) {
     const auto engine = factory({});
     double drift = 0.0;
     base::Random random({3, 0, 0, 0, base::Purpose::test});

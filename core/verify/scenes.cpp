@@ -17,6 +17,7 @@ namespace {
 
 std::vector<double> spread(double from, double to, int count) {
     std::vector<double> values;
+    values.reserve(count);
     for (int i = 0; i < count; ++i)
         values.push_back(from + (to - from) * i / (count - 1));
     return values;
@@ -29,6 +30,7 @@ std::shared_ptr<const part::Part> makeCuboid(const Vec3& size, double density) {
     part->name = "cuboid";
     part->density = density;
     std::vector<Vec3> corners;
+    corners.reserve(8);
     for (int i = 0; i < 8; ++i)
         corners.emplace_back(
             Vec3((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1).cwiseProduct(0.5 * size));
@@ -118,7 +120,7 @@ trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track,
 }
 
 trial::Trajectory replayScene(const trial::Engine& engine, const trial::TrialBatch& scene, double interval,
-                              base::RunControl control) {
+                              const base::RunControl& control) {
     auto trajectory = engine.replay(scene, 0, interval, control);
     if (!trajectory) throw std::runtime_error(trajectory.error().message);
     return std::move(trajectory).value();

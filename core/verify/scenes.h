@@ -40,7 +40,7 @@ trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track,
 /// Replays the only trial of a scene, sampled every `interval` seconds. Throws std::runtime_error if the
 /// engine fails.
 trial::Trajectory replayScene(const trial::Engine& engine, const trial::TrialBatch& scene, double interval,
-                              base::RunControl control);
+                              const base::RunControl& control);
 
 /// Kinetic and potential energy of a sample, over the height 0. [J]
 double calcEnergy(const trial::TrialBatch& scene, const trial::TrajectorySample& sample);

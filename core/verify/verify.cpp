@@ -25,7 +25,7 @@ std::vector<Case> allCases() {
             {"stable-poses", runStablePoses}};
 }
 
-bool runCases(const EngineFactory& factory, const std::string& filter, base::RunControl control,
+bool runCases(const EngineFactory& factory, const std::string& filter, const base::RunControl& control,
               const std::function<void(const Row&)>& report) {
     bool passed = true;
     for (const Case& test : allCases()) {

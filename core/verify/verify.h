@@ -24,7 +24,7 @@ using EngineFactory = std::function<std::unique_ptr<trial::Engine>(const trial::
 /// A case gives one row or a few that belong together.
 struct Case {
     std::string name;
-    std::function<std::vector<Row>(const EngineFactory&, base::RunControl)> run;
+    std::function<std::vector<Row>(const EngineFactory&, const base::RunControl&)> run;
 };
 
 /// Every case that any engine must pass, in the order of design.md section 6.
@@ -32,7 +32,7 @@ std::vector<Case> allCases();
 
 /// Runs the cases whose names contain `filter` (all if empty), handing out each case's rows as they come.
 /// True if all passed. A cancelled run counts as not passed.
-bool runCases(const EngineFactory& factory, const std::string& filter, base::RunControl control,
+bool runCases(const EngineFactory& factory, const std::string& filter, const base::RunControl& control,
               const std::function<void(const Row&)>& report);
 
 }  // namespace trapwright::verify
