@@ -54,7 +54,7 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
 
 CertifyingEngine::CertifyingEngine(const trial::EngineOptions& options)
     : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
-      step_(options.step > 0.0 ? options.step : defaultStep()) {}
+      step_(options.step > 0.0 ? options.step : kDefaultStep) {}
 
 base::Result<std::vector<std::vector<trial::Outcome>>> CertifyingEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {

@@ -142,13 +142,14 @@ SimTK::MobilizedBody makeTrack(SimTK::SimbodyMatterSubsystem& matter, const Cert
             (scene.shape.conveying == track::Conveying::clockwise ? -along : along) / scene.shape.bowlRadius;
         SimTK::MobilizedBody::Screw screw(matter.Ground(), SimTK::Transform(), body, SimTK::Transform(),
                                           up / turn);
-        SimTK::Motion::Sinusoid(screw, SimTK::Motion::Position, turn, rate, scene.phase);
+        const SimTK::Motion::Sinusoid motion(screw, SimTK::Motion::Position, turn, rate, scene.phase);
         return screw;
     }
     // A slider moves along its x axis: lay that along the vibration line.
     const SimTK::Transform frame(SimTK::Rotation(-scene.drive.angle, SimTK::YAxis));
     SimTK::MobilizedBody::Slider slider(matter.Ground(), frame, body, frame);
-    SimTK::Motion::Sinusoid(slider, SimTK::Motion::Position, scene.drive.halfStroke, rate, scene.phase);
+    const SimTK::Motion::Sinusoid motion(slider, SimTK::Motion::Position, scene.drive.halfStroke, rate,
+                                         scene.phase);
     return slider;
 }
 
