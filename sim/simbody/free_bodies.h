@@ -34,7 +34,7 @@ class FreeBodies {
     [[nodiscard]] contact::BodyMotion before(int slot) const;  // motion of the step before
     [[nodiscard]] contact::BodyMotion free(int slot) const;    // before + unconstrained acceleration * dt
     [[nodiscard]] contact::BodyMotion now(int slot, double dt) const;  // at the pose's time, third order
-    /// Says what the contacts made of it.
+    /// Says what the contacts made of it; in every step, with free() where nothing touches.
     void resolve(int slot, const contact::StepResult& result);
     /// Moves all bodies to the step's end.
     void endStep(double dt);
