@@ -1,13 +1,15 @@
 #pragma once
 
-#include <SQLiteCpp/Database.h>
-
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "core/base/result.h"
+
+namespace SQLite {
+class Database;
+}  // namespace SQLite
 
 namespace trapwright::store {
 

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <SQLiteCpp/Database.h>
-
 #include <span>
 
 #include "core/base/result.h"
+
+namespace SQLite {
+class Database;
+}  // namespace SQLite
 
 namespace trapwright::store {
 

@@ -1,7 +1,10 @@
 #include "core/store/study_file.h"
 
 #include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
 #include <SQLiteCpp/Transaction.h>
+#include <SQLiteCpp/VariadicBind.h>
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -1,14 +1,17 @@
 #pragma once
 
-#include <SQLiteCpp/Database.h>
-#include <SQLiteCpp/Statement.h>
-#include <SQLiteCpp/VariadicBind.h>
-
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "core/store/connection.h"
 #include "core/store/file_lock.h"
 #include "core/store/study_file.h"
+
+namespace SQLite {
+class Database;
+class Statement;
+}  // namespace SQLite
 
 namespace trapwright::store {
 

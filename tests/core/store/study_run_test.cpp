@@ -1,9 +1,9 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "../study/fake_engine.h"
 #include "core/store/compare.h"
 #include "core/study/runner.h"
+#include "tests/core/study/fake_engine.h"
 
 using namespace trapwright;
 using store::StudyFile;
