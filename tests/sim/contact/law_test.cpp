@@ -212,8 +212,8 @@ class LawTest : public QObject {
         for (const double bound : {0.2, 1.0}) {
             for (const double before : {0.05, 0.5, 1.5}) {
                 double last = calcSlip(before, -5.0, bound, Vec2::UnitX());
-                for (double a = -5.0 + kStep; a < 3.0; a += kStep) {
-                    const double slip = calcSlip(before, a, bound, Vec2::UnitX());
+                for (int i = 1; i < 80000; ++i) {
+                    const double slip = calcSlip(before, -5.0 + i * kStep, bound, Vec2::UnitX());
                     QVERIFY(slip - last > -1e-12);
                     QVERIFY(slip - last < 1.001 * kStep);
                     last = slip;
@@ -266,7 +266,8 @@ class LawTest : public QObject {
         QCOMPARE(friction(10.0 * contact::kSlipScale), 0.4);
         QCOMPARE(friction(1.0), 0.4);
         double last = 0.6;
-        for (double slip = contact::kSlipScale; slip < 2e-3; slip += 1e-6) {
+        for (int i = 0; i < 1900; ++i) {
+            const double slip = contact::kSlipScale + i * 1e-6;
             QVERIFY(friction(slip) <= last + 1e-12 && friction(slip) >= 0.4 - 1e-12);
             last = friction(slip);
         }

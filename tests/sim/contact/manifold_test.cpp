@@ -30,6 +30,7 @@ std::vector<contact::StepContact> makeRing(int count, double radius) {
 /// Largest angle between neighbouring contacts seen from the middle: below half a turn the part stands.
 double findWidestOpening(const std::vector<contact::StepContact>& contacts, const std::vector<int>& kept) {
     std::vector<double> angles;
+    angles.reserve(kept.size());
     for (const int i : kept)
         angles.push_back(std::atan2(contacts[i].arm.y(), contacts[i].arm.x()));
     std::sort(angles.begin(), angles.end());
