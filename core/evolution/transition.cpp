@@ -29,7 +29,7 @@ StrategyValues decodeStrategy(const Bits& gene) {
 
 StrategyValues limitStrategy(StrategyValues values, const TransitionParameters& parameters) {
     values.mutation = std::max(values.mutation, parameters.mutationFloor);
-    values.smoothing = std::min(values.smoothing, parameters.smoothingLimit);
+    values.smoothing *= parameters.smoothingLimit;
     return values;
 }
 

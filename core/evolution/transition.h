@@ -12,7 +12,7 @@ namespace trapwright::evolution {
 /// decision 5).
 struct TransitionParameters {
     double staticMutation = 0.002;  // p_sm
-    double smoothingLimit = 0.3;    // p_s counts as at most this; 1 in the paper
+    double smoothingLimit = 0.3;    // what p_s = 1 stands for, all others in proportion; 1 in the paper
     double mutationFloor = 0.0005;  // p_dm counts as at least this; 0 in the paper
 };
 
@@ -25,7 +25,8 @@ double combineGeometricMean(std::span<const double> values);
 /// What gene 3 says, before any bound.
 StrategyValues decodeStrategy(const Bits& gene);
 
-/// What takes effect: p_dm not below its floor, p_s not above its limit.
+/// What takes effect: p_dm not below its floor, p_s scaled to [0, limit]. Cut off at the limit instead, all
+/// genes above it would act alike, selection could not tell them apart, and p_s would stay at the limit.
 StrategyValues limitStrategy(StrategyValues values, const TransitionParameters& parameters);
 
 /// The transition function (paper, section 5, Algorithm 2): one child of two parents. Strategy values first,

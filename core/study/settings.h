@@ -41,7 +41,7 @@ struct EvolutionSettings {
     int trialsPerEvaluation = 100;  // N
     int tournamentSize = 6;         // s
     double staticMutation = 0.002;  // p_sm
-    double smoothingLimit = 0.3;    // upper limit of p_s; 1 in the paper
+    double smoothingLimit = 0.3;    // what p_s = 1 stands for; 1 in the paper
     double mutationFloor = 0.0005;  // floor of p_dm; 0 in the paper
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0

@@ -62,9 +62,9 @@ class TransitionTest : public QObject {
     void boundsTakeEffect() {
         const TransitionParameters parameters{0.002, 0.3, 0.0005};
         const auto values = evolution::limitStrategy({0.9, 1e-5, 0.8}, parameters);
-        QCOMPARE(values, (evolution::StrategyValues{0.9, 0.0005, 0.3}));
+        QCOMPARE(values, (evolution::StrategyValues{0.9, 0.0005, 0.8 * 0.3}));
         const auto inside = evolution::limitStrategy({0.9, 0.1, 0.2}, parameters);
-        QCOMPARE(inside, (evolution::StrategyValues{0.9, 0.1, 0.2}));
+        QCOMPARE(inside, (evolution::StrategyValues{0.9, 0.1, 0.2 * 0.3}));
         // The paper's own choices bound nothing.
         QCOMPARE(evolution::limitStrategy({1.0, 0.0, 1.0}, {0.002, 1.0, 0.0}),
                  (evolution::StrategyValues{1.0, 0.0, 1.0}));
