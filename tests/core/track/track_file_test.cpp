@@ -11,7 +11,7 @@ using namespace trapwright;
 namespace {
 
 const std::filesystem::path kScene =
-    std::filesystem::path(TRAPWRIGHT_SOURCE_DIR) / "tests/scenes/cuboid_track.json";
+    std::filesystem::path(TRAPWRIGHT_SOURCE_DIR) / "resources/tracks/cuboid_track.json";
 
 }  // namespace
 
