@@ -109,6 +109,8 @@ while read -r file item; do
         unbuilt+=("$file")
         continue
     fi
+    # A folder's own rules add to those of the whole tree.
+    [[ ! -f ${file%/*}/.clang-tidy ]] || cat "${file%/*}/.clang-tidy" >> "$item"
     key=$(sha256sum < "$item")
     stamp=$cache/${key%% *}
     if [[ -f $stamp ]]; then

@@ -116,6 +116,7 @@ CutReport examineCut(const std::vector<SurfacePolygon>& surface, const Plane& pl
 
 std::vector<int> collectPlanes(const std::vector<SurfacePolygon>& surface) {
     std::vector<int> planes;
+    planes.reserve(surface.size());
     for (const SurfacePolygon& polygon : surface)
         planes.push_back(polygon.plane);
     std::sort(planes.begin(), planes.end());

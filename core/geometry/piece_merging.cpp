@@ -58,6 +58,7 @@ std::optional<Merge> tryMerge(const std::vector<Piece>& pieces, std::size_t firs
 
 std::vector<ConvexPolytope> mergePieces(std::vector<ConvexPolytope> pieces, double tolerance) {
     std::vector<Piece> current;
+    current.reserve(pieces.size());
     for (ConvexPolytope& shape : pieces)
         current.push_back(makePiece(std::move(shape)));
     std::vector<Merge> merges;
