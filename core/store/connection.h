@@ -6,10 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
-
-namespace SQLite {
-class Database;
-}  // namespace SQLite
+#include "core/store/sqlite_forward.h"
 
 namespace trapwright::store {
 

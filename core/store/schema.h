@@ -3,10 +3,7 @@
 #include <span>
 
 #include "core/base/result.h"
-
-namespace SQLite {
-class Database;
-}  // namespace SQLite
+#include "core/store/sqlite_forward.h"
 
 namespace trapwright::store {
 

@@ -6,12 +6,8 @@
 
 #include "core/store/connection.h"
 #include "core/store/file_lock.h"
+#include "core/store/sqlite_forward.h"
 #include "core/store/study_file.h"
-
-namespace SQLite {
-class Database;
-class Statement;
-}  // namespace SQLite
 
 namespace trapwright::store {
 
