@@ -13,7 +13,7 @@ packages=(
     # what OpenCASCADE's and lib3mf's packages link to, but leave out of their dependencies
     libtbb-dev libzip-dev
     # simulation
-    libsimbody-dev
+    libhwy-dev libsimbody-dev
     # studies and the command line
     libcli11-dev libfmt-dev libspdlog-dev libsqlite3-dev libsqlitecpp-dev nlohmann-json3-dev
     # tests

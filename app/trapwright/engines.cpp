@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "sim/native/native_engine.h"
 #include "sim/simbody/certifying_engine.h"
 #include "sim/simbody/simbody_engine.h"
 
@@ -22,8 +23,9 @@ struct NamedEngine {
     std::unique_ptr<trial::Engine> (*make)(const trial::EngineOptions&);
 };
 
-constexpr std::array<NamedEngine, 2> kEngines = {
-    {{"simbody", make<simbody::SimbodyEngine>}, {"simbody-certifying", make<simbody::CertifyingEngine>}}};
+constexpr std::array<NamedEngine, 3> kEngines = {{{"simbody", make<simbody::SimbodyEngine>},
+                                                  {"native", make<native::NativeEngine>},
+                                                  {"simbody-certifying", make<simbody::CertifyingEngine>}}};
 
 }  // namespace
 

@@ -20,7 +20,7 @@ BodyPiece preparePiece(const geometry::ConvexPolytope& polytope) {
         // Seen from outside the left face lies to the left of from -> to.
         const Vec3 intoLeft = polytope.faces[edge.left].normal.cross(direction);
         const Vec3 intoRight = direction.cross(polytope.faces[edge.right].normal);
-        piece.edges.push_back({from, to, direction, {intoLeft, intoRight}});
+        piece.edges.push_back({from, to, direction, (to - from).norm(), {intoLeft, intoRight}});
     }
     piece.centre = Vec3::Zero();
     for (const Vec3& vertex : polytope.vertices)

@@ -12,8 +12,14 @@ namespace {
 
 /// How far a part may travel before the list of near-by features is made anew. [m]
 constexpr double kSkin = 4e-3;
-/// Edges nearer to parallel than this have no contact of their own: their ends do. (square of the sine)
-constexpr double kParallel = 0.026 * 0.026;
+
+scalar::Triple toTriple(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+scalar::Plane toPlane(const BodyFace& face) {
+    return {toTriple(face.normal), -face.offset};
+}
 
 std::uint64_t nameFeature(unsigned kind, int piece, int bodyFeature, int trackFeature) {
     return (std::uint64_t{kind} << 62U) | (static_cast<std::uint64_t>(piece) << 48U) |
@@ -28,9 +34,8 @@ double distanceToSegment(const Vec3& point, const Vec3& from, const Vec3& direct
 /// Largest value of min(face distance of a, face distance of b) over the faces: a lower bound of the distance
 /// of segment a-b to the piece. Stops at the first that reaches `enough`; `face` is tried first and told.
 double findSeparation(const BodyPiece& piece, const Vec3& a, const Vec3& b, double enough, int& face) {
-    const auto distance = [&](int f) {
-        const BodyFace& plane = piece.faces[f];
-        return std::min(plane.normal.dot(a), plane.normal.dot(b)) - plane.offset;
+    const auto distance = [&, from = toTriple(a), to = toTriple(b)](int f) {
+        return scalar::calcSeparation(toPlane(piece.faces[f]), from, to);
     };
     double best = distance(face);
     if (best >= enough) return best;
@@ -120,33 +125,37 @@ double Detector::testTriangle(const Query& query, const Candidate& candidate) co
 
     // The piece's ball against the plane and against the triangle's sides.
     const Vec3 centre = query.pointToTrack(piece.centre);
-    const double above = triangle.normal.dot(centre - triangle.corner);
-    double clear = std::max(above, -above - kDeepest) - piece.radius;
+    const double height = triangle.normal.dot(centre - triangle.corner);
+    double clear = std::max(height, -height - kDeepest) - piece.radius;
     for (int c = 0; c < 3; ++c)
         clear = std::max(clear, triangle.edgeNormal[c].dot(centre) - triangle.edgeOffset[c] - piece.radius);
     if (clear >= query.margin) return clear;
 
-    const Vec3 normal = query.vectorToPart(triangle.normal);
-    const double height = triangle.normal.dot(query.position - triangle.corner);
-    double lowest = 1e300;
+    const auto toPart = [&](const Vec3& planeNormal, double offset) {
+        return scalar::Plane{toTriple(query.vectorToPart(planeNormal)),
+                             planeNormal.dot(query.position) - offset};
+    };
+    const scalar::Plane plane = toPart(triangle.normal, triangle.normal.dot(triangle.corner));
+    const scalar::Plane sides[3] = {toPart(triangle.edgeNormal[0], triangle.edgeOffset[0]),
+                                    toPart(triangle.edgeNormal[1], triangle.edgeOffset[1]),
+                                    toPart(triangle.edgeNormal[2], triangle.edgeOffset[2])};
+    double nearest = 1e300;
     for (int v = 0; v < static_cast<int>(piece.vertices.size()); ++v) {
         const BodyVertex& vertex = piece.vertices[v];
-        const double gap = normal.dot(vertex.position) + height;
-        lowest = std::min(lowest, gap);
-        if (gap >= query.margin || gap <= -kDeepest) continue;
-        const Vec3 point = query.pointToTrack(vertex.position);
-        bool inside = true;
-        for (int c = 0; c < 3 && inside; ++c)
-            inside = triangle.edgeNormal[c].dot(point) <= triangle.edgeOffset[c];
+        const scalar::VertexTest test =
+            scalar::testVertex(toTriple(vertex.position), plane, sides, query.margin);
+        nearest = std::min(nearest, test.clear);
         // The part must lie above the plane: otherwise the vertex passes by (along the border of the face
         // that the part lies on) or touches the other flank of a thin wall.
-        for (int e = 0; e < vertex.edgeCount && inside; ++e)
-            inside = normal.dot(piece.vertexEdges[vertex.firstEdge + e]) >= -kConeSlack;
-        if (!inside) continue;
-        query.contacts->push_back(
-            {point, triangle.normal, gap, nameFeature(0, candidate.piece, v, candidate.feature)});
+        bool above = test.over;
+        for (int e = 0; e < vertex.edgeCount && above; ++e)
+            above =
+                dot(plane.normal, toTriple(piece.vertexEdges[vertex.firstEdge + e])) >= -scalar::kConeSlack;
+        if (!above) continue;
+        query.contacts->push_back({query.pointToTrack(vertex.position), triangle.normal, test.gap,
+                                   nameFeature(0, candidate.piece, v, candidate.feature)});
     }
-    return std::max(lowest, clear);
+    return std::max(nearest, clear);
 }
 
 double Detector::testEdge(const Query& query, Candidate& candidate) const {
@@ -162,29 +171,23 @@ double Detector::testEdge(const Query& query, Candidate& candidate) const {
         findSeparation(piece, from, from + length * direction, query.margin, candidate.separatingFace);
     if (apart >= query.margin) return apart;
 
-    const Vec3 outward = query.vectorToPart(edge.outward);
-    const Vec3 into[2] = {query.vectorToPart(edge.into[0]), query.vectorToPart(edge.into[1])};
+    const scalar::Triple outward = toTriple(query.vectorToPart(edge.outward));
+    const scalar::Edge track{
+        toTriple(from),
+        toTriple(direction),
+        length,
+        {toTriple(query.vectorToPart(edge.into[0])), toTriple(query.vectorToPart(edge.into[1]))}};
     for (int e = 0; e < static_cast<int>(piece.edges.size()); ++e) {
-        const BodyEdge& other = piece.edges[e];
-        const Vec3 cross = direction.cross(other.direction);
-        const double sine2 = cross.squaredNorm();
-        if (sine2 < kParallel) continue;
-        const Vec3 between = other.from - from;
-        const double scale = (cross.dot(outward) < 0.0 ? -1.0 : 1.0) / std::sqrt(sine2);
-        const double gap = scale * cross.dot(between);
-        if (gap >= query.margin || gap <= -kDeepest) continue;
-        // The nearest points must lie within both edges ...
-        const double along = between.cross(other.direction).dot(cross) / sine2;
-        const double alongOther = between.cross(direction).dot(cross) / sine2;
-        const double otherLength = (other.to - other.from).dot(other.direction);
-        if (along < 0.0 || along > length || alongOther < 0.0 || alongOther > otherLength) continue;
-        // ... and the normal in both edges' cones: the track below it, the part above.
-        const Vec3 normal = scale * cross;
-        if (normal.dot(into[0]) > kConeSlack || normal.dot(into[1]) > kConeSlack) continue;
-        if (normal.dot(other.into[0]) < -kConeSlack || normal.dot(other.into[1]) < -kConeSlack) continue;
-        const Vec3 point = query.pointToTrack(other.from + alongOther * other.direction);
-        query.contacts->push_back(
-            {point, query.toTrack * normal, gap, nameFeature(1, candidate.piece, e, candidate.feature)});
+        const BodyEdge& own = piece.edges[e];
+        const scalar::EdgeTest test = scalar::testEdges({toTriple(own.from),
+                                                         toTriple(own.direction),
+                                                         own.length,
+                                                         {toTriple(own.into[0]), toTriple(own.into[1])}},
+                                                        track, outward, query.margin);
+        if (!test.touching) continue;
+        query.contacts->push_back({query.pointToTrack(own.from + test.alongPart * own.direction),
+                                   query.toTrack * Vec3(test.normal.x, test.normal.y, test.normal.z),
+                                   test.gap, nameFeature(1, candidate.piece, e, candidate.feature)});
     }
     return std::max(apart, ball);
 }
@@ -200,7 +203,7 @@ double Detector::testVertex(const Query& query, Candidate& candidate) const {
     // The track must lie below the face: a part that slides level over a border is not stopped by it.
     bool inside = true;
     for (int e = 0; e < vertex.edgeCount && inside; ++e)
-        inside = normal.dot(track_->vertexEdges[vertex.firstEdge + e]) <= kConeSlack;
+        inside = normal.dot(track_->vertexEdges[vertex.firstEdge + e]) <= scalar::kConeSlack;
     if (inside)
         query.contacts->push_back(
             {vertex.position, normal, gap,

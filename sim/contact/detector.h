@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "sim/contact/contact_body.h"
 #include "sim/contact/contact_track.h"
+#include "sim/contact/formulas/scalar.h"
 
 namespace trapwright::contact {
 
@@ -54,9 +55,6 @@ class Detector {
 };
 
 /// Overlaps deeper than this are not contacts: the part is elsewhere. [m]
-inline constexpr double kDeepest = 0.5e-3;
-/// Slack of the normal cones: sine of the angle by which a face may lean on an edge and still be held at both
-/// ends.
-inline constexpr double kConeSlack = 0.05;
+using scalar::kDeepest;
 
 }  // namespace trapwright::contact

@@ -26,22 +26,28 @@ DriveMotion::DriveMotion(const trial::Drive& drive, const track::FeederShape& sh
         turnScale_ = (shape.conveying == track::Conveying::clockwise ? -1.0 : 1.0) / shape.bowlRadius;
 }
 
+DriveMotion::Amplitudes DriveMotion::amplitudes() const {
+    if (turnScale_ == 0.0) return {along_, up_, 0.0};
+    return {0.0, up_, turnScale_ * along_};
+}
+
+TrackPlacement DriveMotion::calcPlacement(const Amplitudes& amplitudes, double sine) {
+    TrackPlacement placement;
+    placement.shift = {amplitudes.along * sine, 0.0, amplitudes.up * sine};
+    if (amplitudes.turn != 0.0) {
+        placement.cosine = std::cos(amplitudes.turn * sine);
+        placement.sine = std::sin(amplitudes.turn * sine);
+    }
+    return placement;
+}
+
 base::Vec3 DriveMotion::displacement(double time) const {
     const double s = std::sin(angularFrequency_ * time + phase_);
     return {along_ * s, 0.0, up_ * s};
 }
 
 TrackPlacement DriveMotion::placement(double time) const {
-    const double s = std::sin(angularFrequency_ * time + phase_);
-    TrackPlacement placement;
-    placement.shift.z() = up_ * s;
-    if (turnScale_ == 0.0) {
-        placement.shift.x() = along_ * s;
-    } else {
-        placement.cosine = std::cos(turnScale_ * along_ * s);
-        placement.sine = std::sin(turnScale_ * along_ * s);
-    }
-    return placement;
+    return calcPlacement(amplitudes(), std::sin(angularFrequency_ * time + phase_));
 }
 
 }  // namespace trapwright::contact

@@ -34,6 +34,13 @@ class DriveMotion {
     DriveMotion(const trial::Drive& drive, const track::FeederShape& shape, double phase);
 
     [[nodiscard]] TrackPlacement placement(double time) const;
+    /// What the sine is multiplied by: a translation [m], and a rotation about the room's z axis [rad].
+    struct Amplitudes {
+        double along, up, turn;
+    };
+    [[nodiscard]] Amplitudes amplitudes() const;
+    /// Where the track is when the sine has this value.
+    static TrackPlacement calcPlacement(const Amplitudes& amplitudes, double sine);
     /// Displacement at the bowl radius: along conveying, 0, up. [m]
     [[nodiscard]] base::Vec3 displacement(double time) const;
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "sim/contact/formulas/scalar.h"
 #include "sim/contact/law.h"
 
 namespace trapwright::contact {
@@ -57,49 +58,17 @@ class ImpulseSolver {
     static constexpr int kMaxContacts = 12;
 
  private:
-    /// One contact with its Jacobian rows and effective masses.
-    struct Row {
-        std::uint64_t feature;
-        base::Vec3 axis[3];  // normal and two tangents
-        base::Vec3 turn[3];  // arm x axis
-        base::Vec3 spin[3];  // inverse inertia * turn
-        double track[3];     // velocity of the track along the axes, mean over the step
-        double gap;
-        double inverseNormalMass;
-        double tangentStep;  // 1 / largest eigenvalue of the tangential inverse mass
-        double target;       // least normal velocity after the step
-        double impactTime;   // share of the step before an impact; > 1: none
-        double friction;
-        double normal = 0.0;  // impulse [N s]
-        base::Vec2 tangential = base::Vec2::Zero();
-        double speed[3];                             // before any impulse, to tell the work done
-        base::Vec2 slipBefore;                       // tangential velocity in the step before
-        base::Vec2 slipTarget = base::Vec2::Zero();  // tangential velocity of what sticks
-        bool sliding = false;
-
-        [[nodiscard]] double velocityAlong(const BodyMotion& motion, int k) const {
-            return axis[k].dot(motion.velocity) + turn[k].dot(motion.angularVelocity) - track[k];
-        }
-        void push(BodyMotion& motion, double inverseMass, int k, double impulse) const {
-            motion.velocity += inverseMass * impulse * axis[k];
-            motion.angularVelocity += impulse * spin[k];
-        }
-    };
     struct Remembered {
         std::uint64_t feature;
         double normal;
-        base::Vec2 tangential;  // along the row's two tangents
+        scalar::Pair tangential;  // along the row's two tangents
         bool sliding;
     };
 
-    void prepareRows(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
-                     const std::vector<StepContact>& contacts, const SurfaceLaw& law, double dt);
-    BodyMotion iterate(const BodyInertia& inertia, BodyMotion motion);
-    BodyMotion advancePose(const BodyInertia& inertia, const BodyMotion& free, const BodyMotion& after,
-                           double dt);
-    void remember();
+    [[nodiscard]] scalar::Touch describe(const StepContact& contact) const;
 
-    std::vector<Row> rows_;
+    std::vector<scalar::Row> rows_;
+    std::vector<std::uint64_t> features_;  // of the rows
     std::vector<Remembered> remembered_;
 };
 

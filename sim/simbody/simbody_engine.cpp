@@ -1,12 +1,11 @@
 #include "sim/simbody/simbody_engine.h"
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
-#include <mutex>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "sim/contact/trial_queue.h"
 #include "sim/simbody/free_bodies.h"
 #include "sim/simbody/trial_lane.h"
 
@@ -17,45 +16,7 @@ namespace {
 /// How many steps are made between two looks at the run control.
 constexpr int kStepsPerLook = 50;
 
-/// The trials of all batches with one and the same part, handed out one by one.
-class TrialQueue {
- public:
-    TrialQueue(std::span<const trial::TrialBatch> batches, std::vector<std::size_t> members)
-        : batches_(batches), members_(std::move(members)), scenes_(members_.size()) {
-        for (const std::size_t m : members_)
-            total_ += batches_[m].trials.size();
-    }
-
-    struct Job {
-        std::shared_ptr<const Scene> scene;
-        std::size_t batch;
-        std::size_t trial;
-    };
-
-    [[nodiscard]] std::size_t total() const { return total_; }
-
-    std::optional<Job> next() {
-        const std::lock_guard lock(mutex_);
-        while (member_ < members_.size() && trial_ == batches_[members_[member_]].trials.size()) {
-            scenes_[member_].reset();  // lanes that still run keep it alive
-            ++member_;
-            trial_ = 0;
-        }
-        if (member_ == members_.size()) return std::nullopt;
-        const std::size_t batch = members_[member_];
-        if (!scenes_[member_]) scenes_[member_] = std::make_shared<const Scene>(batches_[batch]);
-        return Job{scenes_[member_], batch, trial_++};
-    }
-
- private:
-    std::span<const trial::TrialBatch> batches_;
-    std::vector<std::size_t> members_;
-    std::vector<std::shared_ptr<const Scene>> scenes_;
-    std::mutex mutex_;
-    std::size_t member_ = 0;
-    std::size_t trial_ = 0;
-    std::size_t total_ = 0;
-};
+using TrialQueue = contact::TrialQueue<Scene>;
 
 /// One thread's work: its own system, its lanes.
 class Worker {
@@ -153,23 +114,14 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
     }
 
     // One system holds like bodies: take the batches part by part.
-    std::vector<bool> taken(batches.size(), false);
-    for (std::size_t first = 0; first < batches.size(); ++first) {
-        if (taken[first]) continue;
-        std::vector<std::size_t> members;
-        for (std::size_t b = first; b < batches.size(); ++b) {
-            if (taken[b] || batches[b].part != batches[first].part ||
-                batches[b].gravity != batches[first].gravity)
-                continue;
-            taken[b] = true;
-            members.push_back(b);
-        }
+    for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
+        const trial::TrialBatch& like = batches[members.front()];
         TrialQueue queue(batches, std::move(members));
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int bodies = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kBodiesPerSystem));
         try {
             base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
-                Worker(batches[first], queue, bodies, step_, outcomes).run(control);
+                Worker(like, queue, bodies, step_, outcomes).run(control);
             });
         } catch (const std::exception& e) {
             return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};

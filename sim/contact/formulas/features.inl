@@ -1,0 +1,82 @@
+// Which features of part and track touch. All in one frame, the part's. `Real` runs over features of the part, the track's are
+// the same in all lanes. See README.md of this folder: included inside a namespace that defines Real.
+
+/// Overlaps deeper than this are not contacts: the part is elsewhere. [m]
+constexpr double kDeepest = 0.5e-3;
+/// Slack of the normal cones: sine of the angle by which a face may lean on an edge and still be held at both ends.
+constexpr double kConeSlack = 0.05;
+/// Edges nearer to parallel than this have no contact of their own: their ends do. (square of the sine)
+constexpr double kParallel = 0.026 * 0.026;
+
+/// normal . p + offset is how far p is beyond a plane.
+struct Plane {
+    Triple normal;
+    Real offset;
+};
+
+inline Real distanceBeyond(const Plane& plane, const Triple& p) {
+    return mulAdd(plane.normal.z, p.z, mulAdd(plane.normal.y, p.y, mulAdd(plane.normal.x, p.x, plane.offset)));
+}
+
+/// A part's vertex and a track triangle.
+struct VertexTest {
+    Real gap;    // above the triangle's plane
+    Real clear;  // the part may travel this far before they can touch
+    Mask over;   // within the triangle's sides and near enough
+};
+
+/// sides: the planes of the triangle's sides, normals out of the triangle.
+inline VertexTest testVertex(const Triple& vertex, const Plane& plane, const Plane (&sides)[3], Real margin) {
+    VertexTest test;
+    test.gap = distanceBeyond(plane, vertex);
+    const Real beside =
+        max(max(distanceBeyond(sides[0], vertex), distanceBeyond(sides[1], vertex)), distanceBeyond(sides[2], vertex));
+    test.clear = max(max(test.gap, -test.gap - Real(kDeepest)), beside);
+    test.over = test.gap < margin && test.gap > Real(-kDeepest) && beside <= Real(0.0);
+    return test;
+}
+
+/// An edge with the directions from it into its two faces, unit, in their planes.
+struct Edge {
+    Triple from, direction;
+    Real length;
+    Triple into[2];
+};
+
+/// A part's edge and a strictly convex one of the track.
+struct EdgeTest {
+    Real gap;
+    Triple normal;   // unit, track -> part
+    Real alongPart;  // from the part's edge's begin to the point
+    Mask touching;
+};
+
+/// outward: the mean normal of the track's edge.
+inline EdgeTest testEdges(const Edge& part, const Edge& track, const Triple& outward, Real margin) {
+    EdgeTest test;
+    const Triple axis = cross(track.direction, part.direction);
+    const Real sine2 = dot(axis, axis);
+    const Mask parallel = sine2 < Real(kParallel);
+    const Real inverse = Real(1.0) / max(sine2, Real(kParallel));
+    const Real size = sqrt(inverse);
+    const Real scale = select(dot(axis, outward) < Real(0.0), -size, size);
+    const Triple between = part.from - track.from;
+    test.normal = scale * axis;
+    test.gap = dot(test.normal, between);
+    // The nearest points must lie within both edges ...
+    const Real alongTrack = dot(cross(between, part.direction), axis) * inverse;
+    test.alongPart = dot(cross(between, track.direction), axis) * inverse;
+    const Mask within = alongTrack >= Real(0.0) && alongTrack <= track.length && test.alongPart >= Real(0.0) &&
+                        test.alongPart <= part.length;
+    // ... and the normal in both edges' cones: the track below it, the part above.
+    const Real trackCone = max(dot(test.normal, track.into[0]), dot(test.normal, track.into[1]));
+    const Real partCone = min(dot(test.normal, part.into[0]), dot(test.normal, part.into[1]));
+    test.touching = !parallel && test.gap < margin && test.gap > Real(-kDeepest) && within &&
+                    trackCone <= Real(kConeSlack) && partCone >= Real(-kConeSlack);
+    return test;
+}
+
+/// How far a segment is beyond a face of the part. The largest over all faces is a lower bound of its distance.
+inline Real calcSeparation(const Plane& face, const Triple& a, const Triple& b) {
+    return min(dot(face.normal, a), dot(face.normal, b)) + face.offset;
+}

@@ -1,0 +1,215 @@
+// The discrete contact law over one time step of one part: impulses at its contacts by projected Gauss-Seidel with
+// warm starting. See README.md of this folder: included inside a namespace that defines Real.
+//
+// Scaled quantities, in which the part has mass 1 and inertia 1: impulses are per mass [m/s], `spin` is S^-1 times the
+// angular velocity, where S S^T is the inverse inertia times the mass, and `turn` is S^T times the torque's arm. [m/s], [1]
+
+constexpr int kMaxIterations = 50;
+/// Iterations end when no contact's velocity changes by more. [m/s]
+constexpr double kVelocityTolerance = 1e-6;
+/// Share of an overlap that is taken back in one step, without giving the part speed.
+constexpr double kRecovery = 0.2;
+/// Overlaps that are left alone. [m]
+constexpr double kOverlapTolerance = 1e-9;
+/// Slower than this a new contact sticks if it can. [m/s]
+constexpr double kStickSpeed = 1e-3;
+/// The impact time of what does not collide in this step: no share of a step.
+constexpr double kNoImpact = 2.0;
+
+/// Velocity of the centre of mass and scaled angular velocity, or the impulses that change them.
+struct Motion {
+    Triple velocity, spin;
+};
+
+inline Motion select(Mask mask, const Motion& yes, const Motion& no) {
+    return {select(mask, yes.velocity, no.velocity), select(mask, yes.spin, no.spin)};
+}
+
+/// A contact at the begin of a step. Zeros with a positive gap are a contact that does nothing.
+struct Touch {
+    Triple arm;                  // from the centre of mass to the point [m]
+    Triple normal;               // unit, track -> part
+    Real gap;                    // [m]
+    Triple trackVelocity;        // of the track at the point, mean over this step [m/s]
+    Triple trackVelocityBefore;  // the same over the step before [m/s]
+    // What the last step left, if the same features touched then.
+    Mask known;
+    Real normalImpulse;
+    Pair tangentialImpulse;
+    Mask slid;
+};
+
+/// A contact's constraint: Jacobian rows and what is to be solved for.
+struct Row {
+    Triple axis[3];  // normal and two tangents
+    Triple turn[3];  // scaled arm x axis
+    Real track[3];   // velocity of the track along the axes, mean over the step
+    Real gap;
+    Real normalInverse, normalMass;    // change of normal velocity by a unit normal impulse, and 1 / that
+    Real tangentInverse, tangentMass;  // largest eigenvalue of the tangential inverse mass, and 1 / that
+    Real target;                       // least normal velocity after the step
+    Real impactTime;                   // share of the step before an impact; kNoImpact: none
+    Real friction;                     // coefficient
+    Real normal;                       // impulse
+    Pair tangential;
+    Real speed[3];    // before any impulse, to tell the work done
+    Pair slipBefore;  // tangential velocity in the step before
+    Pair slipTarget;  // tangential velocity of what sticks
+    Mask sliding;
+};
+
+inline Real velocityAlong(const Row& row, const Motion& motion, int k) {
+    const Real moving = mulAdd(row.axis[k].x, motion.velocity.x,
+                               mulAdd(row.axis[k].y, motion.velocity.y,
+                                      mulAdd(row.axis[k].z, motion.velocity.z, -row.track[k])));
+    return mulAdd(row.turn[k].x, motion.spin.x,
+                  mulAdd(row.turn[k].y, motion.spin.y, mulAdd(row.turn[k].z, motion.spin.z, moving)));
+}
+
+inline void push(const Row& row, Motion& motion, int k, Real impulse) {
+    motion.velocity = mulAdd(impulse, row.axis[k], motion.velocity);
+    motion.spin = mulAdd(impulse, row.turn[k], motion.spin);
+}
+
+/// `scale`: S^T in the axes of the contacts. before: motion in the step before. free: before plus what gravity and
+/// gyroscopic torque add in this step. dt [s].
+inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const Motion& before, const Motion& free,
+                       const Law& law, Real dt) {
+    row.gap = touch.gap;
+    row.axis[0] = touch.normal;
+    // Any tangents will do, as long as the same normal always gives the same ones.
+    const Mask steep = abs(touch.normal.x) < Real(0.7);
+    const Triple aside = {select(steep, Real(1.0), Real(0.0)), select(steep, Real(0.0), Real(1.0)), Real(0.0)};
+    const Triple tangent = aside - dot(touch.normal, aside) * touch.normal;
+    row.axis[1] = (Real(1.0) / sqrt(dot(tangent, tangent))) * tangent;
+    row.axis[2] = cross(touch.normal, row.axis[1]);
+    Real speedBefore[3];
+    for (int k = 0; k < 3; ++k) {
+        row.turn[k] = scale * cross(touch.arm, row.axis[k]);
+        row.track[k] = dot(row.axis[k], touch.trackVelocity);
+        row.speed[k] = velocityAlong(row, free, k);
+        speedBefore[k] = dot(row.axis[k], before.velocity - touch.trackVelocityBefore) + dot(row.turn[k], before.spin);
+    }
+    row.normalInverse = Real(1.0) + dot(row.turn[0], row.turn[0]);
+    row.normalMass = Real(1.0) / row.normalInverse;
+    const Real inverse1 = Real(1.0) + dot(row.turn[1], row.turn[1]);
+    const Real inverse2 = Real(1.0) + dot(row.turn[2], row.turn[2]);
+    const Real coupling = dot(row.turn[1], row.turn[2]);
+    const Real half = Real(0.5) * (inverse1 - inverse2);
+    row.tangentInverse = Real(0.5) * (inverse1 + inverse2) + sqrt(half * half + coupling * coupling);
+    row.tangentMass = Real(1.0) / row.tangentInverse;
+
+    // Not deeper than touching at the step's end; an impact inside the step rebounds.
+    const Real open = max(touch.gap, Real(0.0));
+    const Real approach = -speedBefore[0];
+    const Pair slipBefore = {speedBefore[1], speedBefore[2]};
+    const Pair slip = {row.speed[1], row.speed[2]};
+    const Mask reaches = approach > Real(kRestSpeed) && touch.gap + dt * row.speed[0] < Real(0.0);
+    const Real share = min(open / max(-dt * row.speed[0], Real(kNoSpeed) * dt), Real(1.0));
+    // Velocities belong to the middles of steps; the impact lies between two of them.
+    const Real speed = approach + (Real(0.5) + share) * (-row.speed[0] - approach);
+    // From the impact to the middle of this step the part goes on being pulled.
+    const Real rebound =
+        speed * calcRestitution(speed, law.restitution) + (Real(0.5) - share) * (row.speed[0] + approach);
+    const Mask impact = reaches && rebound > Real(0.0);
+    row.target = select(impact, rebound, -open / dt);
+    row.impactTime = select(impact, share, Real(kNoImpact));
+    // An impact is over in no time: what sticks has the track's velocity of that moment, and no slip has time to turn
+    // round.
+    const Pair none = {Real(0.0), Real(0.0)};
+    row.slipTarget = select(impact, (Real(0.5) - share) * (slip - slipBefore), none);
+    row.slipBefore = select(impact, slip - row.slipTarget, slipBefore);
+
+    row.normal = select(touch.known, touch.normalImpulse, Real(0.0));
+    row.tangential = select(touch.known, touch.tangentialImpulse, none);
+    row.sliding = (touch.known && touch.slid) || (!touch.known && dot(slip, slip) > Real(kStickSpeed * kStickSpeed));
+    row.friction = select(row.sliding, law.kineticFriction, law.staticFriction);
+}
+
+/// Changes the rows' impulses until all targets are met; returns the motion that they lead to from `free`. Lanes of
+/// `frozen` keep their impulses.
+inline Motion iterate(Row* rows, int count, const Motion& free, Mask frozen) {
+    Motion motion = free;
+    for (int i = 0; i < count; ++i) {
+        push(rows[i], motion, 0, rows[i].normal);
+        push(rows[i], motion, 1, rows[i].tangential.x);
+        push(rows[i], motion, 2, rows[i].tangential.y);
+    }
+    Mask done = frozen;
+    for (int iteration = 0; iteration < kMaxIterations && !all(done); ++iteration) {
+        Real change = Real(0.0);
+        for (int i = 0; i < count; ++i) {
+            Row& row = rows[iteration % 2 == 0 ? i : count - 1 - i];
+            const Real normal =
+                max(Real(0.0), row.normal + (row.target - velocityAlong(row, motion, 0)) * row.normalMass);
+            const Real step = select(done, Real(0.0), normal - row.normal);
+            row.normal = row.normal + step;
+            push(row, motion, 0, step);
+            change = max(change, abs(step) * row.normalInverse);
+
+            const Pair slip = Pair{velocityAlong(row, motion, 1), velocityAlong(row, motion, 2)} - row.slipTarget;
+            const Friction friction = calcFriction(slip - row.tangentInverse * row.tangential, row.slipBefore,
+                                                   row.friction * row.normal * row.tangentInverse);
+            const Pair tangentialStep =
+                select(done, Pair{Real(0.0), Real(0.0)}, row.tangentMass * friction.change - row.tangential);
+            row.sliding = (done && row.sliding) || (!done && friction.sliding);
+            row.tangential = row.tangential + tangentialStep;
+            push(row, motion, 1, tangentialStep.x);
+            push(row, motion, 2, tangentialStep.y);
+            change = max(change, sqrt(dot(tangentialStep, tangentialStep)) * row.tangentInverse);
+        }
+        done = done || change < Real(kVelocityTolerance);
+    }
+    return motion;
+}
+
+/// Solves for the impulses of all rows.
+inline Motion solve(Row* rows, int count, const Motion& free) {
+    Motion motion = iterate(rows, count, free, Real(0.0) > Real(1.0));
+
+    // Newton's restitution at several places at once may create energy: such an impact is taken as plastic.
+    Mask impact = Real(0.0) > Real(1.0);
+    Real work = Real(0.0);
+    for (int i = 0; i < count; ++i) {
+        const Row& row = rows[i];
+        impact = impact || row.target > Real(0.0);
+        const Real impulse[3] = {row.normal, row.tangential.x, row.tangential.y};
+        for (int k = 0; k < 3; ++k)
+            work = work + Real(0.5) * impulse[k] * (row.speed[k] + velocityAlong(row, motion, k));
+    }
+    const Mask again = impact && work > Real(0.0);
+    if (any(again)) {
+        for (int i = 0; i < count; ++i) {
+            Row& row = rows[i];
+            row.target = select(again, min(row.target, Real(0.0)), row.target);
+            row.normal = select(again, Real(0.0), row.normal);
+            row.tangential = select(again, Pair{Real(0.0), Real(0.0)}, row.tangential);
+        }
+        motion = select(again, iterate(rows, count, free, !again), motion);
+    }
+    return motion;
+}
+
+/// What moves the pose over the step: the free motion up to the earliest impact, the solved one from there on, and
+/// whatever keeps the pose that this leads to from overlapping more than before, without giving the part speed.
+inline Motion advancePose(const Row* rows, int count, const Motion& free, const Motion& after, Real dt) {
+    Real impactTime = Real(kNoImpact);
+    for (int i = 0; i < count; ++i)
+        impactTime = select(rows[i].target > Real(0.0), min(impactTime, rows[i].impactTime), impactTime);
+    const Real early = select(impactTime <= Real(1.0), impactTime, Real(0.0));
+    Motion advance = {early * free.velocity + (Real(1.0) - early) * after.velocity,
+                      early * free.spin + (Real(1.0) - early) * after.spin};
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+        Mask overlapping = Real(0.0) > Real(1.0);
+        for (int i = 0; i < count; ++i) {
+            const Row& row = rows[i];
+            const Real allowed = min(row.gap, Real(0.0)) * Real(1.0 - kRecovery);
+            const Real overlap = allowed - (row.gap + dt * velocityAlong(row, advance, 0));
+            const Mask deep = overlap > Real(kOverlapTolerance);
+            push(row, advance, 0, select(deep, overlap / dt * row.normalMass, Real(0.0)));
+            overlapping = overlapping || deep;
+        }
+        if (!any(overlapping)) break;
+    }
+    return advance;
+}

@@ -1,0 +1,164 @@
+#include "sim/native/herd.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "sim/contact/drive_motion.h"
+#include "sim/contact/manifold.h"
+
+namespace trapwright::native {
+
+using base::Mat3;
+using base::Vec3;
+
+namespace {
+
+void store(const Mat3& from, float (&to)[3][3]) {
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k)
+            to[i][k] = static_cast<float>(from(i, k));
+    }
+}
+
+std::uint32_t toTurns(double turns) {
+    return static_cast<std::uint32_t>(std::llround((turns - std::floor(turns)) * 4294967296.0));
+}
+
+}  // namespace
+
+HerdModel::HerdModel(const part::Part& part, const PackedBody& packedBody, double gravityValue,
+                     double stepTime, bool bowl)
+    : body(&packedBody),
+      step(stepTime),
+      dt(static_cast<float>(stepTime)),
+      gravity(static_cast<float>(gravityValue)),
+      anyBowl(bowl) {
+    const Mat3 perMass = part.massProperties.inertia / part.massProperties.mass;
+    const Mat3 inverse = perMass.inverse();
+    const Mat3 factor = inverse.llt().matrixL();
+    store(perMass, inertia);
+    store(inverse, inverseInertia);
+    store(factor, scale);
+    store(factor.inverse(), unscale);
+}
+
+Herd::Herd(const HerdModel& model, int capacity)
+    : phase(padToVectors(capacity)),
+      cycle(padToVectors(capacity)),
+      track(capacity),
+      candidates(capacity),
+      memory(capacity),
+      model_(&model),
+      stride_(padToVectors(capacity)),
+      floats_(static_cast<std::size_t>(stride_) * kFieldCount),
+      positions_(static_cast<std::size_t>(stride_) * 3) {
+    for (const int rows : kSolveRows) {
+        SolveBatch& batch = solveBatches.emplace_back();
+        batch.rows = rows;
+        batch.touches.resize(static_cast<std::size_t>(rows) * kTouchFields * kWidestVector);
+    }
+    // Lanes that were never used are stepped along with the others of their vector: give them a rotation.
+    for (int lane = 0; lane < stride_; ++lane)
+        field(kRotationW)[lane] = 1.0F;
+}
+
+void Herd::add(const PackedTrack& packedTrack, const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    const int lane = count_++;
+    for (int f = 0; f < kFieldCount; ++f)
+        field(f)[lane] = 0.0F;
+    const auto set = [&](int f, double value) { field(f)[lane] = static_cast<float>(value); };
+    const auto setThree = [&](int f, const Vec3& value) {
+        for (int k = 0; k < 3; ++k)
+            set(f + k, value[k]);
+    };
+
+    // At rest in the room, where the track is at the drive's phase.
+    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.start.phase);
+    const base::Pose pose = drive.placement(0.0).toRoom(spec.start.pose);
+    for (int k = 0; k < 3; ++k)
+        position(k)[lane] = pose.position[k];
+    set(kPositionX, pose.position.x());
+    set(kPositionY, pose.position.y());
+    set(kRotationW, pose.rotation.w());
+    setThree(kRotationX, pose.rotation.vec());
+
+    // Velocities belong to the middles of steps: go back by half of one.
+    const double dt = model_->step;
+    const Mat3 rotation = pose.rotation.toRotationMatrix();
+    const Mat3 inertia = rotation * batch.part->massProperties.inertia * rotation.transpose();
+    const Vec3& w = spec.start.angularVelocity;
+    const Vec3 turn = -inertia.inverse() * w.cross(inertia * w);
+    setThree(kTurnX, turn);
+    setThree(kTurnBeforeX, turn);
+    setThree(kSpinX, w - 0.5 * dt * turn);
+    setThree(kVelocityX, spec.start.velocity + Vec3(0.0, 0.0, 0.5 * dt * batch.gravity));
+
+    const double turns = batch.drive.frequency * dt;
+    const double start = spec.start.phase / (2.0 * base::kPi);
+    const auto sine = [&](int step) { return std::sin(2.0 * base::kPi * (start + step * turns)); };
+    set(kDriveBefore, sine(-1));
+    set(kDriveNow, sine(0));
+    set(kDriveNext, sine(1));
+    phase[lane] = toTurns(start + 2.0 * turns);
+    cycle[lane] = toTurns(turns);
+    const contact::DriveMotion::Amplitudes amplitudes = drive.amplitudes();
+    set(kDriveAlong, amplitudes.along);
+    set(kDriveUp, amplitudes.up);
+    set(kDriveTurn, amplitudes.turn);
+
+    set(kStaticFriction, batch.contact.staticFriction * spec.frictionScale);
+    set(kKineticFriction, batch.contact.kineticFriction * spec.frictionScale);
+    set(kRestitution, batch.contact.restitution * spec.restitutionScale);
+
+    set(kNextLook, -1.0);
+    set(kCollectAt, -1.0);
+    track[lane] = &packedTrack;
+    candidates[lane].count = 0;
+    memory[lane].count = 0;
+    memory[lane].carrying = 0;
+}
+
+void Herd::remove(int lane) {
+    const int last = --count_;
+    if (lane == last) return;
+    for (int f = 0; f < kFieldCount; ++f)
+        field(f)[lane] = field(f)[last];
+    for (int k = 0; k < 3; ++k)
+        position(k)[lane] = position(k)[last];
+    phase[lane] = phase[last];
+    cycle[lane] = cycle[last];
+    track[lane] = track[last];
+    std::swap(candidates[lane], candidates[last]);
+    memory[lane] = memory[last];
+}
+
+base::Pose Herd::poseInRoom(int lane) const {
+    base::Pose pose;
+    pose.rotation = base::Quaternion(field(kRotationW)[lane], field(kRotationX)[lane],
+                                     field(kRotationY)[lane], field(kRotationZ)[lane]);
+    pose.position = {position(0)[lane], position(1)[lane], position(2)[lane]};
+    return pose;
+}
+
+base::Pose Herd::poseInTrack(int lane) const {
+    const double drive = field(kDriveNow)[lane];
+    base::Pose pose = contact::DriveMotion::calcPlacement(
+                          {field(kDriveAlong)[lane], field(kDriveUp)[lane], field(kDriveTurn)[lane]}, drive)
+                          .toTrack(poseInRoom(lane));
+    pose.rotation.normalize();
+    return pose;
+}
+
+void thinOutFound(std::vector<FoundContact>& found) {
+    std::vector<contact::StepContact> contacts;
+    contacts.reserve(found.size());
+    for (const FoundContact& f : found)
+        contacts.push_back({Vec3(f.arm[0], f.arm[1], f.arm[2]), Vec3(f.normal[0], f.normal[1], f.normal[2]),
+                            f.gap, Vec3::Zero(), Vec3::Zero(), f.feature});
+    std::vector<FoundContact> kept;
+    for (const int i : contact::thinOut(contacts, Memory::kMost))
+        kept.push_back(found[static_cast<std::size_t>(i)]);
+    found = std::move(kept);
+}
+
+}  // namespace trapwright::native

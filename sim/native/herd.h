@@ -1,0 +1,210 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/part/part.h"
+#include "core/trial/batch.h"
+#include "sim/contact/impulse_solver.h"
+#include "sim/native/aligned.h"
+#include "sim/native/packed_body.h"
+#include "sim/native/packed_track.h"
+
+namespace trapwright::native {
+
+/// What is the same for all trials of a herd. Inertias per mass, in part axes.
+struct HerdModel {
+    HerdModel(const part::Part& part, const PackedBody& packedBody, double gravityValue, double stepTime,
+              bool bowl);
+
+    const PackedBody* body;
+    double step;                 // of time [s]
+    float dt;                    // the same
+    float gravity;               // [m/s^2]
+    bool anyBowl;                // else all tracks only translate
+    float inertia[3][3];         // [m^2]
+    float inverseInertia[3][3];  // [1/m^2]
+    float scale[3][3];           // lower triangular S with S S^T = inverseInertia [1/m]
+    float unscale[3][3];         // its inverse [m]
+};
+
+/// One float of every lane. Room axes unless said otherwise.
+enum Field : int {
+    kRotationW,
+    kRotationX,
+    kRotationY,
+    kRotationZ,
+    kVelocityX,
+    kVelocityY,
+    kVelocityZ,  // mean of the last step [m/s]
+    kSpinX,
+    kSpinY,
+    kSpinZ,  // angular velocity, mean of the last step [rad/s]
+    kTurnX,
+    kTurnY,
+    kTurnZ,  // angular acceleration at the step's begin [rad/s^2]
+    kTurnBeforeX,
+    kTurnBeforeY,
+    kTurnBeforeZ,
+    kAfterX,
+    kAfterY,
+    kAfterZ,  // velocity: free, then with the step's impulses
+    kAfterSpinX,
+    kAfterSpinY,
+    kAfterSpinZ,  // angular velocity: the same
+    kAdvanceX,
+    kAdvanceY,
+    kAdvanceZ,  // what moves the pose
+    kAdvanceSpinX,
+    kAdvanceSpinY,
+    kAdvanceSpinZ,
+    kAxes,  // nine: rotation matrix part -> room, row by row
+    kAxesEnd = kAxes + 9,
+    kPositionX = kAxesEnd,
+    kPositionY,  // copies of the doubles
+    // The drive. Displacement along the vibration line over amplitude at the step before, now, at the next.
+    kDriveBefore,
+    kDriveNow,
+    kDriveNext,
+    kDriveAlong,
+    kDriveUp,
+    kDriveTurn,  // amplitudes [m], [m], [rad]
+    kShiftX,
+    kShiftZ,
+    kSine,
+    kCosineLess,  // placement of the track now; CosineLess: cosine - 1
+    // Velocity of the track at (x, y): (rateX + cosineLessRate x - sineRate y, sineRate x + cosineLessRate y,
+    // rateZ)
+    kRateX,
+    kRateZ,
+    kSineRate,
+    kCosineLessRate,  // mean over the coming step
+    kRateBeforeX,
+    kRateBeforeZ,
+    kSineRateBefore,
+    kCosineLessRateBefore,
+    kTrackStepX,
+    kTrackStepY,
+    kTrackStepZ,  // way of the track at the part's centre in the coming step [m]
+    // Detection [m]
+    kTravel,
+    kMargin,
+    kNextLook,
+    kCollectAt,
+    kLastReach,
+    // The material pair
+    kStaticFriction,
+    kKineticFriction,
+    kRestitution,
+    kFieldCount
+};
+
+/// The features of one track that are near one part.
+struct Candidates {
+    AlignedVector<float>
+        clearUntil;  // travel + margin below this: no contact possible. Padded with a huge value.
+    std::vector<std::uint32_t> names;  // kind, piece, feature of the track
+    int count = 0;
+};
+
+/// Impulses that the last step left at the contacts of one part.
+struct Memory {
+    static constexpr int kMost = contact::ImpulseSolver::kMaxContacts;
+    int count = 0;
+    int carrying = 0;  // with an impulse
+    std::uint64_t feature[kMost];
+    float normal[kMost];
+    float along[kMost], across[kMost];
+    bool slid[kMost];
+};
+
+/// A contact of one part in its track's axes.
+struct FoundContact {
+    float arm[3];     // from the centre of mass [m]
+    float normal[3];  // unit, track -> part
+    float gap;        // [m]
+    std::uint64_t feature;
+};
+
+/// What a row of contacts is made of, one float per slot of a SolveBatch.
+enum TouchField : int {
+    kArmX,
+    kArmY,
+    kArmZ,
+    kNormalX,
+    kNormalY,
+    kNormalZ,
+    kGap,
+    kNormalImpulse,
+    kAlongImpulse,
+    kAcrossImpulse,
+    kState,  // 0: new, 1: known and stuck, 2: known and slid
+    kTouchFields
+};
+
+/// Lanes with about equally many contacts, waiting to be solved together.
+struct SolveBatch {
+    int rows = 0;  // at most as many contacts
+    int filled = 0;
+    std::array<std::int32_t, kWidestVector> lanes{};
+    AlignedVector<float> touches;  // [row][TouchField][slot]
+
+    [[nodiscard]] float* touch(int row, int field) {
+        return touches.data() + static_cast<std::ptrdiff_t>(row * kTouchFields + field) * kWidestVector;
+    }
+};
+
+/// Trials that run side by side, one in each lane: a structure of arrays. Lanes know nothing of each other.
+class Herd {
+ public:
+    Herd(const HerdModel& model, int capacity);
+
+    /// Begins a trial in the next free lane.
+    void add(const PackedTrack& track, const trial::TrialBatch& batch, const trial::TrialSpec& spec);
+    /// Ends the trial of a lane; the last lane moves there.
+    void remove(int lane);
+
+    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] const HerdModel& model() const { return *model_; }
+    [[nodiscard]] float* field(int f) { return floats_.data() + static_cast<std::ptrdiff_t>(f) * stride_; }
+    [[nodiscard]] const float* field(int f) const {
+        return floats_.data() + static_cast<std::ptrdiff_t>(f) * stride_;
+    }
+    /// Position of the centre of mass, axis 0-2. [m]
+    [[nodiscard]] double* position(int axis) {
+        return positions_.data() + static_cast<std::ptrdiff_t>(axis) * stride_;
+    }
+    [[nodiscard]] const double* position(int axis) const {
+        return positions_.data() + static_cast<std::ptrdiff_t>(axis) * stride_;
+    }
+
+    [[nodiscard]] base::Pose poseInRoom(int lane) const;
+    [[nodiscard]] base::Pose poseInTrack(int lane) const;
+
+    // The kernel's own.
+    AlignedVector<std::uint32_t> phase,
+        cycle;  // of the drive at the step after the next, per step: [turn / 2^32]
+    std::vector<const PackedTrack*> track;
+    std::vector<Candidates> candidates;
+    std::vector<Memory> memory;
+    std::vector<SolveBatch> solveBatches;
+    std::vector<FoundContact> found;
+    std::vector<std::int32_t> looking;  // lanes that may have contacts in this step
+
+ private:
+    const HerdModel* model_;
+    int stride_;
+    int count_ = 0;
+    AlignedVector<float> floats_;
+    AlignedVector<double> positions_;
+};
+
+/// Leaves at most Memory::kMost contacts that stand for all (contact::thinOut).
+void thinOutFound(std::vector<FoundContact>& found);
+
+/// How many contacts each SolveBatch is for.
+inline constexpr std::array<int, 7> kSolveRows = {1, 2, 3, 4, 6, 8, contact::ImpulseSolver::kMaxContacts};
+
+}  // namespace trapwright::native

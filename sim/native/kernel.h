@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "sim/native/herd.h"
+
+/// The kernel of the native engine, compiled once per instruction set; the best that the machine has is taken
+/// when the program runs.
+namespace trapwright::native {
+
+/// First half of a time step of every lane: gravity, gyroscopic torque, and where the track goes.
+void beginStep(Herd& herd);
+/// Second half: contacts, impulses, new poses.
+void finishStep(Herd& herd);
+
+/// The instruction set in use: "AVX3", "AVX2", "SSE4", "EMU128".
+std::string instructionSet();
+/// All that this machine has and the kernel was compiled for, the best first.
+std::vector<std::string> instructionSets();
+/// For tests: takes this one from now on, in all threads; "" takes the best again. False if the machine has
+/// none of that name.
+bool useInstructionSet(const std::string& name);
+
+}  // namespace trapwright::native

@@ -1,0 +1,207 @@
+#include "sim/native/native_engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/trial/progress.h"
+#include "sim/contact/drive_motion.h"
+#include "sim/contact/trial_queue.h"
+#include "sim/native/kernel.h"
+
+namespace trapwright::native {
+
+namespace {
+
+/// How many trials one thread runs side by side: enough that lanes with like numbers of contacts find each
+/// other, few enough that all stays in the cache.
+constexpr int kLanes = 128;
+/// How many steps are made between two looks at the run control.
+constexpr int kStepsPerLook = 50;
+/// The ending is looked for this often. [s]
+constexpr double kCheckInterval = 2e-3;
+
+/// What all trials of one batch share.
+struct Scene {
+    explicit Scene(const trial::TrialBatch& b) : batch(&b), track(contact::prepareTrack(b.track->solid)) {}
+
+    const trial::TrialBatch* batch;
+    PackedTrack track;
+};
+
+using TrialQueue = contact::TrialQueue<Scene>;
+
+/// The trial in one lane of a herd.
+struct Run {
+    Run(std::shared_ptr<const Scene> s, std::size_t b, std::size_t t)
+        : scene(std::move(s)),
+          batch(b),
+          trial(t),
+          progress(*scene->batch->track, scene->batch->termination) {}
+
+    std::shared_ptr<const Scene> scene;
+    std::size_t batch;
+    std::size_t trial;
+    trial::Progress progress;
+    long steps = 0;
+    int untilCheck = 0;
+};
+
+/// Trials in the lanes of a herd, with what the herd does not know of them.
+class RunningTrials {
+ public:
+    RunningTrials(const HerdModel& model, int lanes)
+        : herd_(model, lanes),
+          stepsPerCheck_(static_cast<int>(std::max(1L, std::lround(kCheckInterval / model.step)))) {}
+
+    void add(std::shared_ptr<const Scene> scene, std::size_t batch, std::size_t trial) {
+        herd_.add(scene->track, *scene->batch, scene->batch->trials[trial]);
+        runs_.emplace_back(std::move(scene), batch, trial);
+    }
+    void remove(int lane) {
+        herd_.remove(lane);
+        if (static_cast<std::size_t>(lane) + 1 < runs_.size()) runs_[lane] = std::move(runs_.back());
+        runs_.pop_back();
+    }
+
+    /// Whether the trial of this lane is over; to be asked once before each step.
+    bool hasEnded(int lane) {
+        Run& run = runs_[lane];
+        if (run.untilCheck-- > 0) return false;
+        run.untilCheck = stepsPerCheck_ - 1;
+        return run.progress.update(time(lane), herd_.poseInTrack(lane)).has_value();
+    }
+    /// One step of all lanes.
+    void step() {
+        beginStep(herd_);
+        finish();
+    }
+    /// The second half of a step whose first half is made.
+    void finish() {
+        finishStep(herd_);
+        for (Run& run : runs_)
+            ++run.steps;
+    }
+
+    [[nodiscard]] int count() const { return herd_.count(); }
+    [[nodiscard]] Herd& herd() { return herd_; }
+    [[nodiscard]] const Run& run(int lane) const { return runs_[lane]; }
+    [[nodiscard]] double time(int lane) const {
+        return static_cast<double>(runs_[lane].steps) * herd_.model().step;
+    }
+
+ private:
+    Herd herd_;
+    std::vector<Run> runs_;
+    int stepsPerCheck_;
+};
+
+/// One thread's work.
+void runTrials(const HerdModel& model, TrialQueue& queue, int lanes,
+               std::vector<std::vector<trial::Outcome>>& outcomes, base::RunControl& control) {
+    RunningTrials trials(model, lanes);
+    bool more = true;
+    for (long step = 0;; ++step) {
+        if (step % kStepsPerLook == 0 && control.cancelled()) return;
+        for (int lane = 0; lane < trials.count();) {
+            if (!trials.hasEnded(lane)) {
+                ++lane;
+                continue;
+            }
+            const Run& run = trials.run(lane);
+            outcomes[run.batch][run.trial] = run.progress.outcome();
+            control.advance(1);
+            trials.remove(lane);
+        }
+        while (more && trials.count() < lanes) {
+            auto job = queue.next();
+            more = job.has_value();
+            if (!more) break;
+            trials.add(std::move(job->scene), job->batch, job->trial);
+            trials.hasEnded(trials.count() - 1);
+        }
+        if (trials.count() == 0) return;
+        trials.step();
+    }
+}
+
+bool anyBowl(std::span<const trial::TrialBatch> batches, const std::vector<std::size_t>& members) {
+    return std::any_of(members.begin(), members.end(), [&](std::size_t m) {
+        return batches[m].track->shape.type == track::FeederType::bowl;
+    });
+}
+
+base::Vec3 three(const Herd& herd, int field, int lane) {
+    return {herd.field(field)[lane], herd.field(field + 1)[lane], herd.field(field + 2)[lane]};
+}
+
+/// The moment at the begin of the coming step, whose first half is made.
+trial::TrajectorySample sampleOf(RunningTrials& trials, const contact::DriveMotion& drive) {
+    const Herd& herd = trials.herd();
+    const double dt = herd.model().step;
+    trial::TrajectorySample sample;
+    sample.time = trials.time(0);
+    sample.room = herd.poseInRoom(0);
+    sample.room.rotation.normalize();
+    sample.track = trials.run(0).progress.toTrackCoordinates(herd.poseInTrack(0));
+    sample.drive = drive.displacement(sample.time);
+    sample.velocity = 0.5 * (three(herd, kVelocityX, 0) + three(herd, kAfterX, 0));
+    sample.angularVelocity =
+        three(herd, kSpinX, 0) + dt * (0.375 * three(herd, kTurnX, 0) + 0.125 * three(herd, kTurnBeforeX, 0));
+    sample.contacts = herd.memory[0].carrying;
+    return sample;
+}
+
+}  // namespace
+
+NativeEngine::NativeEngine(const trial::EngineOptions& options)
+    : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
+      step_(options.step > 0.0 ? options.step : kDefaultStep) {}
+
+base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
+    std::span<const trial::TrialBatch> batches, base::RunControl control) const {
+    std::vector<std::vector<trial::Outcome>> outcomes;
+    for (const trial::TrialBatch& batch : batches) {
+        if (const auto problem = findProblem(batch)) return *problem;
+        outcomes.emplace_back(batch.trials.size());
+    }
+    for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
+        const trial::TrialBatch& like = batches[members.front()];
+        const PackedBody body(contact::prepareBody(like.part->pieces));
+        const HerdModel model(*like.part, body, like.gravity, step_, anyBowl(batches, members));
+        TrialQueue queue(batches, std::move(members));
+        const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
+        const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
+        base::parallelFor(threads_, threads_,
+                          [&](std::size_t, unsigned) { runTrials(model, queue, lanes, outcomes, control); });
+        if (control.cancelled()) return base::Error{"The simulation was cancelled."};
+    }
+    return outcomes;
+}
+
+base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& batch, std::size_t index,
+                                                     double interval, base::RunControl control) const {
+    if (const auto problem = findProblem(batch, index)) return *problem;
+    const PackedBody body(contact::prepareBody(batch.part->pieces));
+    const HerdModel model(*batch.part, body, batch.gravity, step_, anyBowl({&batch, 1}, {0}));
+    const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].start.phase);
+    RunningTrials trials(model, 1);
+    trials.add(std::make_shared<const Scene>(batch), 0, index);
+    trial::Trajectory trajectory;
+    while (true) {
+        if (control.cancelled()) return base::Error{"The replay was cancelled."};
+        const bool ended = trials.hasEnded(0);
+        beginStep(trials.herd());
+        const trial::TrajectorySample sample = sampleOf(trials, drive);
+        if (ended || sample.time + 0.5 * step_ >= static_cast<double>(trajectory.samples.size()) * interval)
+            trajectory.samples.push_back(sample);
+        if (ended) break;
+        trials.finish();
+    }
+    trajectory.outcome = trials.run(0).progress.outcome();
+    control.advance(1);
+    return trajectory;
+}
+
+}  // namespace trapwright::native

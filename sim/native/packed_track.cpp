@@ -1,0 +1,87 @@
+#include "sim/native/packed_track.h"
+
+namespace trapwright::native {
+
+using base::Vec3;
+
+namespace {
+
+void copy(const Vec3& from, float* to) {
+    for (int k = 0; k < 3; ++k)
+        to[k] = static_cast<float>(from[k]);
+}
+
+void copy(const Vec3& from, double* to) {
+    for (int k = 0; k < 3; ++k)
+        to[k] = from[k];
+}
+
+PackedTriangle pack(const contact::TrackTriangle& triangle) {
+    PackedTriangle packed{};
+    copy(triangle.corner, packed.corner);
+    const auto setPlane = [&](int k, const Vec3& normal, double offset) {
+        packed.nx[k] = static_cast<float>(normal.x());
+        packed.ny[k] = static_cast<float>(normal.y());
+        packed.nz[k] = static_cast<float>(normal.z());
+        packed.offset[k] = static_cast<float>(offset);
+    };
+    setPlane(0, triangle.normal, 0.0);
+    for (int c = 0; c < 3; ++c)
+        setPlane(1 + c, triangle.edgeNormal[c],
+                 triangle.edgeNormal[c].dot(triangle.corner) - triangle.edgeOffset[c]);
+    return packed;
+}
+
+PackedEdge pack(const contact::TrackEdge& edge) {
+    PackedEdge packed{};
+    copy(edge.from, packed.from);
+    packed.length = static_cast<float>(2.0 * edge.radius);
+    copy(edge.direction, packed.direction);
+    copy(edge.outward, packed.outward);
+    copy(edge.into[0], packed.into[0]);
+    copy(edge.into[1], packed.into[1]);
+    return packed;
+}
+
+}  // namespace
+
+void BallArrays::add(const Vec3& centre, double ballRadius) {
+    x.push_back(static_cast<float>(centre.x()));
+    y.push_back(static_cast<float>(centre.y()));
+    z.push_back(static_cast<float>(centre.z()));
+    radius.push_back(static_cast<float>(ballRadius));
+    ++count;
+}
+
+void BallArrays::pad() {
+    constexpr float kFar = 1e6F;
+    const auto size = static_cast<std::size_t>(padToVectors(count));
+    for (AlignedVector<float>* array : {&x, &y, &z})
+        array->resize(size, kFar);
+    radius.resize(size, 0.0F);
+}
+
+PackedTrack::PackedTrack(const contact::ContactTrack& track) {
+    for (const contact::TrackTriangle& triangle : track.triangles) {
+        triangles.push_back(pack(triangle));
+        triangleBalls.add(triangle.centre, triangle.radius);
+    }
+    for (const contact::TrackEdge& edge : track.edges) {
+        edges.push_back(pack(edge));
+        edgeBalls.add(edge.centre, edge.radius);
+    }
+    for (const contact::TrackVertex& vertex : track.vertices) {
+        PackedVertex packed{{}, vertex.firstEdge, vertex.edgeCount};
+        copy(vertex.position, packed.position);
+        vertices.push_back(packed);
+        vertexBalls.add(vertex.position, 0.0);
+    }
+    for (const Vec3& direction : track.vertexEdges) {
+        for (int k = 0; k < 3; ++k)
+            vertexEdges.push_back(static_cast<float>(direction[k]));
+    }
+    for (BallArrays* balls : {&triangleBalls, &edgeBalls, &vertexBalls})
+        balls->pad();
+}
+
+}  // namespace trapwright::native

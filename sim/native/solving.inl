@@ -1,0 +1,227 @@
+// Impulses: lanes with about equally many contacts are solved together, one lane of the vector each. Included once per
+// instruction set, inside HWY_NAMESPACE. The law itself is sim/contact/formulas/step.inl.
+
+using Index = hn::Vec<hn::RebindToSigned<Tag>>;
+
+inline Real gather(const Herd& herd, int field, Index lanes) {
+    return Real(hn::GatherIndex(Tag(), herd.field(field), lanes));
+}
+inline Triple gatherThree(const Herd& herd, int field, Index lanes) {
+    return {gather(herd, field, lanes), gather(herd, field + 1, lanes), gather(herd, field + 2, lanes)};
+}
+
+/// What turns scaled quantities (formulas/step.inl) into those of the room's axes, for each lane of a vector.
+struct Scaling {
+    Matrix axes;             // part -> room
+    const HerdModel* model;
+
+    /// S^T in room axes.
+    [[nodiscard]] Matrix turns() const {
+        Matrix result;
+        for (int k = 0; k < 3; ++k) {
+            // Column k of the rotation times S, which is lower triangular.
+            Triple column = {Real(0.0), Real(0.0), Real(0.0)};
+            for (int i = k; i < 3; ++i) {
+                const Triple axis = axisOf(i);
+                column = mulAdd(Real(model->scale[i][k]), axis, column);
+            }
+            result.row[k] = column;
+        }
+        return result;
+    }
+    [[nodiscard]] Triple scale(const Triple& spin) const {
+        return multiply(model->unscale, multiplyTransposed(axes, spin));
+    }
+    [[nodiscard]] Triple unscale(const Triple& spin) const { return axes * multiply(model->scale, spin); }
+
+ private:
+    [[nodiscard]] Triple axisOf(int i) const {
+        if (i == 0) return {axes.row[0].x, axes.row[1].x, axes.row[2].x};
+        if (i == 1) return {axes.row[0].y, axes.row[1].y, axes.row[2].y};
+        return {axes.row[0].z, axes.row[1].z, axes.row[2].z};
+    }
+};
+
+/// How each lane's track moves.
+struct TrackMotion {
+    Real sine, cosineLess;                                // placement
+    Real rateX, rateZ, sineRate, cosineLessRate;          // over this step
+    Real beforeX, beforeZ, sineBefore, cosineLessBefore;  // over the step before
+    Real x, y;                                            // of the part
+
+    [[nodiscard]] Triple turn(const Triple& v) const {
+        return {v.x + cosineLess * v.x - sine * v.y, v.y + sine * v.x + cosineLess * v.y, v.z};
+    }
+    [[nodiscard]] Triple velocity(const Triple& arm) const {
+        const Real px = x + arm.x;
+        const Real py = y + arm.y;
+        return {rateX + cosineLessRate * px - sineRate * py, sineRate * px + cosineLessRate * py, rateZ};
+    }
+    [[nodiscard]] Triple velocityBefore(const Triple& arm) const {
+        const Real px = x + arm.x;
+        const Real py = y + arm.y;
+        return {beforeX + cosineLessBefore * px - sineBefore * py, sineBefore * px + cosineLessBefore * py, beforeZ};
+    }
+};
+
+inline TrackMotion gatherTrackMotion(const Herd& herd, Index lanes) {
+    TrackMotion motion;
+    motion.rateX = gather(herd, kRateX, lanes);
+    motion.rateZ = gather(herd, kRateZ, lanes);
+    motion.beforeX = gather(herd, kRateBeforeX, lanes);
+    motion.beforeZ = gather(herd, kRateBeforeZ, lanes);
+    if (herd.model().anyBowl) {
+        motion.sine = gather(herd, kSine, lanes);
+        motion.cosineLess = gather(herd, kCosineLess, lanes);
+        motion.sineRate = gather(herd, kSineRate, lanes);
+        motion.cosineLessRate = gather(herd, kCosineLessRate, lanes);
+        motion.sineBefore = gather(herd, kSineRateBefore, lanes);
+        motion.cosineLessBefore = gather(herd, kCosineLessRateBefore, lanes);
+        motion.x = gather(herd, kPositionX, lanes);
+        motion.y = gather(herd, kPositionY, lanes);
+    }
+    return motion;
+}
+
+inline Real loadTouch(SolveBatch& batch, int row, int field) {
+    return load(batch.touch(row, field));
+}
+inline Triple loadTouchThree(SolveBatch& batch, int row, int field) {
+    return {loadTouch(batch, row, field), loadTouch(batch, row, field + 1), loadTouch(batch, row, field + 2)};
+}
+
+inline Touch loadContact(const Herd& herd, SolveBatch& batch, int row, const TrackMotion& track) {
+    Touch touch;
+    touch.arm = loadTouchThree(batch, row, kArmX);
+    touch.normal = loadTouchThree(batch, row, kNormalX);
+    touch.gap = loadTouch(batch, row, kGap);
+    if (herd.model().anyBowl) {
+        touch.arm = track.turn(touch.arm);
+        touch.normal = track.turn(touch.normal);
+        touch.trackVelocity = track.velocity(touch.arm);
+        touch.trackVelocityBefore = track.velocityBefore(touch.arm);
+    } else {
+        touch.trackVelocity = {track.rateX, Real(0.0), track.rateZ};
+        touch.trackVelocityBefore = {track.beforeX, Real(0.0), track.beforeZ};
+    }
+    const Real state = loadTouch(batch, row, kState);
+    touch.known = state > Real(0.5);
+    touch.slid = state > Real(1.5);
+    touch.normalImpulse = loadTouch(batch, row, kNormalImpulse);
+    touch.tangentialImpulse = {loadTouch(batch, row, kAlongImpulse), loadTouch(batch, row, kAcrossImpulse)};
+    return touch;
+}
+
+inline void scatterThree(Herd& herd, const SolveBatch& batch, int field, const Triple& value) {
+    alignas(64) float values[3][kWidestVector];
+    store(value.x, values[0]);
+    store(value.y, values[1]);
+    store(value.z, values[2]);
+    for (int k = 0; k < 3; ++k) {
+        float* to = herd.field(field + k);
+        for (int slot = 0; slot < batch.filled; ++slot)
+            to[batch.lanes[slot]] = values[k][slot];
+    }
+}
+
+inline void remember(Herd& herd, const SolveBatch& batch, const Row* rows) {
+    for (int slot = 0; slot < batch.filled; ++slot)
+        herd.memory[batch.lanes[slot]].carrying = 0;
+    for (int r = 0; r < batch.rows; ++r) {
+        const Row& row = rows[r];
+        alignas(64) float normal[kWidestVector];
+        alignas(64) float along[kWidestVector];
+        alignas(64) float across[kWidestVector];
+        // The impulse of an impact says nothing about the next step's.
+        const Mask impact = row.target > Real(0.0);
+        store(select(impact, Real(0.0), row.normal), normal);
+        store(select(impact, Real(0.0), row.tangential.x), along);
+        store(select(impact, Real(0.0), row.tangential.y), across);
+        const std::uint32_t sliding = bitsOf(row.sliding);
+        const std::uint32_t carrying = bitsOf(row.normal > Real(0.0));
+        for (int slot = 0; slot < batch.filled; ++slot) {
+            Memory& memory = herd.memory[batch.lanes[slot]];
+            if (r >= memory.count) continue;
+            memory.normal[r] = normal[slot];
+            memory.along[r] = along[slot];
+            memory.across[r] = across[slot];
+            memory.slid[r] = ((sliding >> static_cast<unsigned>(slot)) & 1U) != 0;
+            memory.carrying += static_cast<int>((carrying >> static_cast<unsigned>(slot)) & 1U);
+        }
+    }
+}
+
+/// Solves all lanes of a batch and empties it.
+inline void solveBatch(Herd& herd, SolveBatch& batch) {
+    // Slots that are left over do what the first one does, without its contacts.
+    for (int slot = batch.filled; slot < static_cast<int>(hn::Lanes(Tag())); ++slot) {
+        batch.lanes[slot] = batch.lanes[0];
+        for (int row = 0; row < batch.rows; ++row) {
+            for (int f = 0; f < kTouchFields; ++f)
+                batch.touch(row, f)[slot] = f == kGap ? 1.0F : 0.0F;
+        }
+    }
+    const Index lanes = hn::LoadU(hn::RebindToSigned<Tag>(), batch.lanes.data());
+    const Scaling scaling{{{gatherThree(herd, kAxes, lanes), gatherThree(herd, kAxes + 3, lanes),
+                            gatherThree(herd, kAxes + 6, lanes)}},
+                          &herd.model()};
+    const Motion before = {gatherThree(herd, kVelocityX, lanes), scaling.scale(gatherThree(herd, kSpinX, lanes))};
+    const Motion free = {gatherThree(herd, kAfterX, lanes), scaling.scale(gatherThree(herd, kAfterSpinX, lanes))};
+    const Law law = {gather(herd, kStaticFriction, lanes), gather(herd, kKineticFriction, lanes),
+                     gather(herd, kRestitution, lanes)};
+    const TrackMotion track = gatherTrackMotion(herd, lanes);
+    const Matrix turns = scaling.turns();
+    const Real dt = herd.model().dt;
+    Row rows[Memory::kMost];
+    for (int row = 0; row < batch.rows; ++row)
+        prepareRow(rows[row], loadContact(herd, batch, row, track), turns, before, free, law, dt);
+    const Motion after = solve(rows, batch.rows, free);
+    const Motion advance = advancePose(rows, batch.rows, free, after, dt);
+
+    scatterThree(herd, batch, kAfterX, after.velocity);
+    scatterThree(herd, batch, kAfterSpinX, scaling.unscale(after.spin));
+    scatterThree(herd, batch, kAdvanceX, advance.velocity);
+    scatterThree(herd, batch, kAdvanceSpinX, scaling.unscale(advance.spin));
+    remember(herd, batch, rows);
+    batch.filled = 0;
+}
+
+/// Puts the contacts of one lane, herd.found, into the batch that they fit into.
+inline void enqueue(Herd& herd, int lane) {
+    const int count = static_cast<int>(herd.found.size());
+    std::size_t size = 0;
+    while (kSolveRows[size] < count)
+        ++size;
+    SolveBatch& batch = herd.solveBatches[size];
+    const int slot = batch.filled++;
+    batch.lanes[slot] = lane;
+
+    Memory& memory = herd.memory[lane];
+    const Memory old = memory;
+    memory.count = count;
+    for (int row = 0; row < batch.rows; ++row) {
+        float* touch = batch.touch(row, 0) + slot;
+        const auto set = [touch](int field, float value) { touch[field * kWidestVector] = value; };
+        if (row >= count) {
+            for (int f = 0; f < kTouchFields; ++f)
+                set(f, f == kGap ? 1.0F : 0.0F);
+            continue;
+        }
+        const FoundContact& contact = herd.found[static_cast<std::size_t>(row)];
+        for (int k = 0; k < 3; ++k) {
+            set(kArmX + k, contact.arm[k]);
+            set(kNormalX + k, contact.normal[k]);
+        }
+        set(kGap, contact.gap);
+        int known = 0;
+        while (known < old.count && old.feature[known] != contact.feature)
+            ++known;
+        const bool found = known < old.count;
+        set(kNormalImpulse, found ? old.normal[known] : 0.0F);
+        set(kAlongImpulse, found ? old.along[known] : 0.0F);
+        set(kAcrossImpulse, found ? old.across[known] : 0.0F);
+        set(kState, found ? (old.slid[known] ? 2.0F : 1.0F) : 0.0F);
+        memory.feature[row] = contact.feature;
+    }
+    if (batch.filled == static_cast<int>(hn::Lanes(Tag()))) solveBatch(herd, batch);
+}
