@@ -49,7 +49,8 @@ Herd::Herd(const HerdModel& model, int capacity)
       candidates(capacity),
       memory(capacity),
       model_(&model),
-      stride_(padToVectors(capacity)),
+      // Not a power of two: fields of one lane would fall into the same few lines of the cache.
+      stride_(padToVectors(capacity) + kWidestVector),
       floats_(static_cast<std::size_t>(stride_) * kFieldCount),
       positions_(static_cast<std::size_t>(stride_) * 3) {
     for (const int rows : kSolveRows) {

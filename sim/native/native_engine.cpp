@@ -16,7 +16,7 @@ namespace {
 
 /// How many trials one thread runs side by side: enough that lanes with like numbers of contacts find each
 /// other, few enough that all stays in the cache.
-constexpr int kLanes = 128;
+constexpr int kLanes = 256;
 /// How many steps are made between two looks at the run control.
 constexpr int kStepsPerLook = 50;
 /// The ending is looked for this often. [s]

@@ -34,15 +34,9 @@ inline Pair calcMeanDirection(Real from, Real to, Real across) {
     return {along, aside * slope * mean};
 }
 
-/// What friction does to the slip at a contact over one step.
-struct Friction {
-    Pair change;  // of the slip velocity [m/s]
-    Mask sliding;
-};
-
-/// What friction changes where the track carries the slip on by `carried`, more than the bound: friction
+/// What friction changes, over the bound, where the track carries the slip on by `carried`, more than the bound: friction
 /// against the slip at each moment of the step.
-inline Pair calcFrictionOnTheWay(const Pair& slipBefore, const Pair& carried, Real bound) {
+inline Pair calcDirectionOnTheWay(const Pair& slipBefore, const Pair& carried, Real bound) {
     const Real way = max(sqrt(dot(carried, carried)), Real(kNoSpeed));
     const Pair axis = (Real(1.0) / way) * carried;
     const Real start = dot(slipBefore, axis);
@@ -51,7 +45,7 @@ inline Pair calcFrictionOnTheWay(const Pair& slipBefore, const Pair& carried, Re
 
     // Far from turning the direction half-way will do.
     const Pair middle = slipBefore + Real(0.5) * carried;
-    const Pair straight = (-bound / max(sqrt(dot(middle, middle)), Real(kNoSpeed))) * middle;
+    const Pair straight = (Real(-1.0) / max(sqrt(dot(middle, middle)), Real(kNoSpeed))) * middle;
     const Mask near = !(start > Real(2.0) * way || start < Real(-3.0) * way || across > Real(4.0) * way);
     if (!any(near)) return straight;
 
@@ -76,23 +70,39 @@ inline Pair calcFrictionOnTheWay(const Pair& slipBefore, const Pair& carried, Re
         const Pair turned = {share * first.x - rest * second.x, -share * first.y - rest * second.y};
         against = select(turns, select(late, stays, turned), against);
     }
-    const Real inward = min(-bound * against.y, across);
-    const Pair change =
-        (bound * against.x) * axis - (inward / max(across, Real(kNoSpeed))) * lateral;
-    return select(near, change, straight);
+    // At most to a stop across.
+    const Real inward = min(-against.y, across / max(bound, Real(kNoSpeed)));
+    return select(near, against.x * axis - (inward / max(across, Real(kNoSpeed))) * lateral, straight);
 }
 
-/// Coulomb's cone over one step. `slip`: the slip velocity at the step's end without this contact's friction;
-/// `slipBefore`: at its begin; `bound`: the change that the full friction impulse makes. A contact that can
-/// hold sticks exactly; one that slides has the full impulse against its slip. Where the track carries the
-/// slip on by more than that, friction turns with the slip within the step: at 50 Hz and 0.2 ms the direction
-/// at the step's end alone would convey up to 30 % too fast.
-inline Friction calcFriction(const Pair& slip, const Pair& slipBefore, Real bound) {
+/// How friction acts at a contact in one step.
+struct FrictionShape {
+    Mask onTheWay;   // turns with the slip within the step
+    Pair direction;  // then: change of the slip velocity over the bound
+};
+
+/// `slip`: the slip velocity at the step's end without this contact's friction; `slipBefore`: at its begin; `bound`: the
+/// change that the full friction impulse makes. Where the track carries the slip on by more than that, friction turns
+/// with the slip within the step: at 50 Hz and 0.2 ms the direction at the step's end alone would convey up to 30 % too
+/// fast.
+inline FrictionShape calcFrictionShape(const Pair& slip, const Pair& slipBefore, Real bound) {
     const Pair carried = slip - slipBefore;
-    const Mask onTheWay = dot(carried, carried) > bound * bound;
+    FrictionShape shape = {dot(carried, carried) > bound * bound, {Real(0.0), Real(0.0)}};
+    if (any(shape.onTheWay)) shape.direction = calcDirectionOnTheWay(slipBefore, carried, bound);
+    return shape;
+}
+
+/// What friction does to the slip at a contact over one step.
+struct Friction {
+    Pair change;  // of the slip velocity [m/s]
+    Mask sliding;
+};
+
+/// Coulomb's cone over one step: a contact that can hold sticks exactly; one that slides has the full impulse against its
+/// slip.
+inline Friction calcFriction(const FrictionShape& shape, const Pair& slip, Real bound) {
     const Real size = sqrt(dot(slip, slip));
-    const Mask sliding = onTheWay || size > bound;
-    Pair change = select(sliding, -bound / max(size, Real(kNoSpeed)), Real(-1.0)) * slip;
-    if (any(onTheWay)) change = select(onTheWay, calcFrictionOnTheWay(slipBefore, carried, bound), change);
-    return {change, sliding};
+    const Mask sliding = shape.onTheWay || size > bound;
+    const Pair change = select(sliding, -bound / max(size, Real(kNoSpeed)), Real(-1.0)) * slip;
+    return {select(shape.onTheWay, bound * shape.direction, change), sliding};
 }

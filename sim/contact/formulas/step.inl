@@ -4,9 +4,11 @@
 // Scaled quantities, in which the part has mass 1 and inertia 1: impulses are per mass [m/s], `spin` is S^-1 times the
 // angular velocity, where S S^T is the inverse inertia times the mass, and `turn` is S^T times the torque's arm. [m/s], [1]
 
-constexpr int kMaxIterations = 50;
+constexpr int kMaxIterations = 30;
+/// How many of them look at how friction turns within the step.
+constexpr int kShapingIterations = 3;
 /// Iterations end when no contact's velocity changes by more. [m/s]
-constexpr double kVelocityTolerance = 1e-6;
+constexpr double kVelocityTolerance = 2e-6;
 /// Share of an overlap that is taken back in one step, without giving the part speed.
 constexpr double kRecovery = 0.2;
 /// Overlaps that are left alone. [m]
@@ -55,6 +57,7 @@ struct Row {
     Real speed[3];    // before any impulse, to tell the work done
     Pair slipBefore;  // tangential velocity in the step before
     Pair slipTarget;  // tangential velocity of what sticks
+    FrictionShape shape;
     Mask sliding;
 };
 
@@ -126,10 +129,10 @@ inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const 
     row.friction = select(row.sliding, law.kineticFriction, law.staticFriction);
 }
 
-/// Changes the rows' impulses until all targets are met; returns the motion that they lead to from `free`. Lanes of
+/// Changes the rows' impulses until all targets are met; returns the motion that they lead to from `freeMotion`. Lanes of
 /// `frozen` keep their impulses.
-inline Motion iterate(Row* rows, int count, const Motion& free, Mask frozen) {
-    Motion motion = free;
+inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask frozen) {
+    Motion motion = freeMotion;
     for (int i = 0; i < count; ++i) {
         push(rows[i], motion, 0, rows[i].normal);
         push(rows[i], motion, 1, rows[i].tangential.x);
@@ -148,8 +151,11 @@ inline Motion iterate(Row* rows, int count, const Motion& free, Mask frozen) {
             change = max(change, abs(step) * row.normalInverse);
 
             const Pair slip = Pair{velocityAlong(row, motion, 1), velocityAlong(row, motion, 2)} - row.slipTarget;
-            const Friction friction = calcFriction(slip - row.tangentInverse * row.tangential, row.slipBefore,
-                                                   row.friction * row.normal * row.tangentInverse);
+            const Pair free = slip - row.tangentInverse * row.tangential;
+            const Real bound = row.friction * row.normal * row.tangentInverse;
+            // How friction turns on the way hardly changes from one iteration to the next; once it stays, they converge.
+            if (iteration < kShapingIterations) row.shape = calcFrictionShape(free, row.slipBefore, bound);
+            const Friction friction = calcFriction(row.shape, free, bound);
             const Pair tangentialStep =
                 select(done, Pair{Real(0.0), Real(0.0)}, row.tangentMass * friction.change - row.tangential);
             row.sliding = (done && row.sliding) || (!done && friction.sliding);

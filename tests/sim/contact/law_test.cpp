@@ -20,8 +20,10 @@ struct Friction {
 };
 
 Friction calcFriction(const Vec2& slip, const Vec2& slipBefore, double bound) {
-    const contact::scalar::Friction friction =
-        contact::scalar::calcFriction({slip.x(), slip.y()}, {slipBefore.x(), slipBefore.y()}, bound);
+    const contact::scalar::Pair end = {slip.x(), slip.y()};
+    const contact::scalar::FrictionShape shape =
+        contact::scalar::calcFrictionShape(end, {slipBefore.x(), slipBefore.y()}, bound);
+    const contact::scalar::Friction friction = contact::scalar::calcFriction(shape, end, bound);
     return {{friction.change.x, friction.change.y}, friction.sliding};
 }
 
