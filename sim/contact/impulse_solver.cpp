@@ -1,6 +1,7 @@
 #include "sim/contact/impulse_solver.h"
 
 #include <Eigen/Cholesky>
+#include <array>
 
 #include "sim/contact/manifold.h"
 
@@ -52,15 +53,15 @@ StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& be
     const scalar::Motion scaledBefore = scaling.scale(before);
     const scalar::Motion scaledFree = scaling.scale(free);
     const scalar::Matrix turns = scaling.turns();
-    rows_.clear();
-    features_.clear();
-    for (const int index : thinOut(contacts, kMaxContacts)) {
-        scalar::prepareRow(rows_.emplace_back(), describe(contacts[index]), turns, scaledBefore, scaledFree,
-                           pair, dt);
-        features_.push_back(contacts[index].feature);
-    }
+    points_.clear();
+    for (const StepContact& contact : contacts)
+        points_.push_back({contact.arm, contact.normal, contact.gap});
+    std::array<int, kMaxContacts> kept{};
+    const int count = thinOut(points_, kept);
+    rows_.resize(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+        scalar::prepareRow(rows_[i], describe(contacts[kept[i]]), turns, scaledBefore, scaledFree, pair, dt);
 
-    const int count = static_cast<int>(rows_.size());
     const scalar::Motion after = scalar::solve(rows_.data(), count, scaledFree);
     StepResult result;
     result.motion = scaling.unscale(after);
@@ -72,7 +73,7 @@ StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& be
         result.carrying += row.normal > 0.0 ? 1 : 0;
         // The impulse of an impact says nothing about the next step's.
         const bool impact = row.target > 0.0;
-        remembered_.push_back({features_[i], impact ? 0.0 : row.normal,
+        remembered_.push_back({contacts[kept[i]].feature, impact ? 0.0 : row.normal,
                                impact ? scalar::Pair{0.0, 0.0} : row.tangential, row.sliding});
     }
     return result;

@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "sim/contact/formulas/scalar.h"
 #include "sim/contact/law.h"
+#include "sim/contact/manifold_point.h"
 
 namespace trapwright::contact {
 
@@ -47,7 +48,8 @@ struct StepResult {
 class ImpulseSolver {
  public:
     /// before: motion in the step before. free: before plus what gravity and gyroscopic torque add in this
-    /// step. dt [s]. More than kMaxContacts contacts are thinned out.
+    /// step. dt [s]. Contacts that say the same are taken as one, more than
+    /// kMaxContacts are thinned out.
     StepResult solve(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
                      const std::vector<StepContact>& contacts, const SurfaceLaw& law, double dt);
 
@@ -68,7 +70,7 @@ class ImpulseSolver {
     [[nodiscard]] scalar::Touch describe(const StepContact& contact) const;
 
     std::vector<scalar::Row> rows_;
-    std::vector<std::uint64_t> features_;  // of the rows
+    std::vector<ManifoldPoint> points_;
     std::vector<Remembered> remembered_;
 };
 

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
-#include "sim/contact/impulse_solver.h"
+#include "sim/contact/manifold_point.h"
 
 namespace trapwright::contact {
 
-/// Indices of at most `most` contacts that stand for all of them: of contacts with the same normal (a face
-/// lying on a plane) the lowest and those that span the widest figure. All, in order, where there are few.
-std::vector<int> thinOut(const std::vector<StepContact>& contacts, int most);
+/// Puts into `kept` the indices of contacts that stand for all of them, in order, and returns how many: of contacts that
+/// say the same (same normal, same place) the lowest; if these are more than `kept` holds, of contacts with the same
+/// normal (a face lying on a plane) the lowest and those that span the widest figure.
+int thinOut(std::span<const ManifoldPoint> points, std::span<int> kept);
 
 }  // namespace trapwright::contact

@@ -3,6 +3,8 @@
 
 /// How far a part may travel before the list of near-by features is made anew. [m]
 constexpr float kSkin = 4e-3F;
+/// Added to what a part can travel in a step, so that contacts are there before they carry. [m]
+constexpr float kMargin = 5e-6F;
 /// Of a candidate that is not there. [m]
 constexpr float kNever = 1e6F;
 
@@ -27,7 +29,7 @@ struct Placed {
 inline Placed place(Herd& herd, int lane) {
     Placed placed;
     placed.track = herd.track[lane];
-    placed.margin = herd.field(kMargin)[lane];
+    placed.margin = 1.1F * (herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane]) + kMargin;
     placed.found = &herd.found;
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k)
@@ -90,8 +92,23 @@ inline void addContact(const Placed& placed, const float* pointInPart, const flo
     contact.feature = name;
 }
 
-/// Each test returns how far the part may travel before the pair can touch.
-inline float testTriangle(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
+/// A lower bound of the distance of a pair of features, and the direction in which the part moves away, in the track's
+/// axes; blind: none is known.
+struct Bound {
+    float distance;
+    float direction[3];
+    bool blind;
+};
+
+inline Bound boundAlong(float distance, const float* direction) {
+    return {distance, {direction[0], direction[1], direction[2]}, false};
+}
+inline Bound boundBlindly(float distance) {
+    return {distance, {0.0F, 0.0F, 0.0F}, true};
+}
+
+/// Each test adds the contact if there is one.
+inline Bound testTriangle(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
     const PackedTriangle& triangle = placed.track->triangles[index];
     // Four planes at once into the part's frame.
     const Four inTrack[3] = {loadFour(triangle.nx), loadFour(triangle.ny), loadFour(triangle.nz)};
@@ -108,18 +125,19 @@ inline float testTriangle(const Placed& placed, const PackedPiece& piece, std::u
     }
     store(offset, offsets);
 
-    float clear = -kNever;
+    const auto boundBy = [&](float distance, int plane) {
+        const float direction[3] = {triangle.nx[plane], triangle.ny[plane], triangle.nz[plane]};
+        return boundAlong(distance, direction);
+    };
     if (piece.vertices.stride() > kWidestVector) {
         // The piece's ball first.
         alignas(16) float centre[4];
         for (int k = 0; k < 3; ++k)
             offset = mulAdd(loadFour(normals[k]), fourTimes(piece.centre[k]), offset);
         store(offset, centre);
-        clear = std::max(centre[0], -centre[0] - static_cast<float>(kDeepest));
-        for (int c = 1; c < 4; ++c)
-            clear = std::max(clear, centre[c]);
-        clear -= piece.radius;
-        if (clear >= placed.margin) return clear;
+        for (int c = 0; c < 4; ++c) {
+            if (centre[c] - piece.radius >= placed.margin) return boundBy(centre[c] - piece.radius, c);
+        }
     }
 
     Plane planes[4];
@@ -129,10 +147,14 @@ inline float testTriangle(const Placed& placed, const PackedPiece& piece, std::u
     const float inPart[3] = {normals[0][0], normals[1][0], normals[2][0]};
     const float normal[3] = {triangle.nx[0], triangle.ny[0], triangle.nz[0]};
     Real nearest = kNever;
+    Real lowest[4] = {kNever, kNever, kNever, kNever};
     const int width = static_cast<int>(hn::Lanes(Tag()));
     for (int first = 0; first < piece.vertexCount; first += width) {
         const VertexTest test = testVertex(loadThree(piece.vertices, 0, first), planes[0], sides, placed.margin);
         nearest = min(nearest, test.clear);
+        lowest[0] = min(lowest[0], test.gap);
+        for (int c = 0; c < 3; ++c)
+            lowest[1 + c] = min(lowest[1 + c], test.beside[c]);
         std::uint32_t bits = bitsOf(test.over);
         if (bits == 0) continue;
         alignas(64) float gaps[kWidestVector];
@@ -152,7 +174,14 @@ inline float testTriangle(const Placed& placed, const PackedPiece& piece, std::u
             addContact(placed, point, normal, gaps[i], nameContact(name, vertex));
         }
     }
-    return std::max(clear, leastOf(nearest));
+    const float low = leastOf(lowest[0]);
+    if (low >= placed.margin) return boundBy(low, 0);
+    for (int c = 1; c < 4; ++c) {
+        const float beside = leastOf(lowest[c]);
+        if (beside >= placed.margin) return boundBy(beside, c);
+    }
+    const float clear = leastOf(nearest);
+    return clear >= placed.margin ? boundBlindly(clear) : boundBy(low, 0);
 }
 
 /// The largest separation over all faces, and the face.
@@ -171,6 +200,12 @@ inline float findSeparation(const PackedPiece& piece, const Triple& a, const Tri
     return best;
 }
 
+/// Against a face's normal, in the track's axes.
+inline void awayFromFace(const Placed& placed, const PackedPiece& piece, int face, float* result) {
+    const float inPart[3] = {-piece.faces.row(0)[face], -piece.faces.row(1)[face], -piece.faces.row(2)[face]};
+    toTrack(placed, inPart, result);
+}
+
 inline float calcDistanceToSegment(const float* point, const float* from, const float* direction, float length) {
     const float between[3] = {point[0] - from[0], point[1] - from[1], point[2] - from[2]};
     const float along = std::min(std::max(dotThree(direction, between), 0.0F), length);
@@ -182,21 +217,25 @@ inline float calcDistanceToSegment(const float* point, const float* from, const 
     return std::sqrt(square);
 }
 
-inline float testEdge(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
+inline Bound testEdge(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
     const PackedEdge& edge = placed.track->edges[index];
-    float away[3];
+    float relative[3];
     for (int k = 0; k < 3; ++k)
-        away[k] = static_cast<float>(edge.from[k] - placed.position[k]);
+        relative[k] = static_cast<float>(edge.from[k] - placed.position[k]);
     alignas(16) float from[4];
     alignas(16) float direction[4];
-    toPart(placed, away, from);
+    toPart(placed, relative, from);
     toPart(placed, edge.direction, direction);
     const float ball = calcDistanceToSegment(piece.centre, from, direction, edge.length) - piece.radius;
-    if (ball >= placed.margin) return ball;
+    if (ball >= placed.margin) return boundBlindly(ball);
     const Triple begin = broadcast(from);
     const Triple along = broadcast(direction);
-    const float apart = findSeparation(piece, begin, mulAdd(edge.length, along, begin), nullptr);
-    if (apart >= placed.margin) return apart;
+    int face = 0;
+    const float apart = findSeparation(piece, begin, mulAdd(edge.length, along, begin), &face);
+    float away[3];
+    awayFromFace(placed, piece, face, away);
+    const Bound bound = boundAlong(apart, away);
+    if (apart >= placed.margin) return bound;
 
     alignas(16) float outward[4];
     alignas(16) float into[2][4];
@@ -232,10 +271,10 @@ inline float testEdge(const Placed& placed, const PackedPiece& piece, std::uint3
             addContact(placed, point, normal, values[0][i], nameContact(name, first + i));
         }
     }
-    return std::max(apart, ball);
+    return bound;
 }
 
-inline float testTrackVertex(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
+inline Bound testTrackVertex(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
     const PackedVertex& vertex = placed.track->vertices[index];
     float away[3];
     for (int k = 0; k < 3; ++k)
@@ -246,18 +285,17 @@ inline float testTrackVertex(const Placed& placed, const PackedPiece& piece, std
     const Triple p = broadcast(point);
     const float gap = findSeparation(piece, p, p, &face);
     const float deepest = static_cast<float>(kDeepest);
-    if (gap >= placed.margin || gap <= -deepest) return std::max(gap, -gap - deepest);
-
-    const float inPart[3] = {-piece.faces.row(0)[face], -piece.faces.row(1)[face], -piece.faces.row(2)[face]};
+    if (gap <= -deepest) return boundBlindly(-gap - deepest);
     float normal[3];
-    toTrack(placed, inPart, normal);
+    awayFromFace(placed, piece, face, normal);
+    if (gap >= placed.margin) return boundAlong(gap, normal);
     // The track must lie below the face: a part that slides level over a border is not stopped by it.
     bool below = true;
     for (int e = 0; e < vertex.edgeCount && below; ++e)
         below = dotThree(normal, placed.track->vertexEdges.data() + 3 * (vertex.firstEdge + e)) <=
                 static_cast<float>(kConeSlack);
     if (below) addContact(placed, point, normal, gap, nameContact(name, face));
-    return gap;
+    return boundAlong(gap, normal);
 }
 
 inline void addNear(Candidates& candidates, const BallArrays& balls, const float* centre, float reach, std::uint32_t name) {
@@ -291,47 +329,116 @@ inline void collectCandidates(Herd& herd, int lane, const Placed& placed) {
         addNear(candidates, placed.track->vertexBalls, centre, near, (kFaceOnVertex << kKindShift) | piece);
     }
     candidates.count = static_cast<int>(candidates.names.size());
-    candidates.clearUntil.assign(static_cast<std::size_t>(padToVectors(candidates.count)), kNever);
-    std::fill_n(candidates.clearUntil.begin(), candidates.count, -1.0F);
+    const auto padded = static_cast<std::size_t>(padToVectors(candidates.count));
+    for (AlignedVector<float>* zeros : {&candidates.normalX, &candidates.normalY, &candidates.normalZ, &candidates.blind})
+        zeros->assign(padded, 0.0F);
+    candidates.start.assign(padded, kNever);
+    std::fill_n(candidates.start.begin(), candidates.count, -1.0F);
+    candidates.collectAt = reach;
     // Counting anew from here keeps the numbers small and so exact.
-    herd.field(kTravel)[lane] = 0.0F;
-    herd.field(kCollectAt)[lane] = reach;
+    for (const int f : {kWayX, kWayY, kWayZ, kPath, kTurned})
+        herd.field(f)[lane] = 0.0F;
 }
 
-/// Fills herd.found with the contacts of one lane.
-inline void findContacts(Herd& herd, int lane) {
-    herd.found.clear();
-    const Placed placed = place(herd, lane);
-    if (herd.field(kTravel)[lane] + placed.margin >= herd.field(kCollectAt)[lane]) collectCandidates(herd, lane, placed);
+/// Where detection of one lane stands, before or after the coming step.
+struct Standing {
+    Triple way;
+    Real path, turned;
+};
 
+inline Real boundOf(const Candidates& candidates, int first, const Standing& standing) {
+    const Triple normal = {load(candidates.normalX.data() + first), load(candidates.normalY.data() + first),
+                           load(candidates.normalZ.data() + first)};
+    return load(candidates.start.data() + first) + dot(normal, standing.way) - standing.turned -
+           load(candidates.blind.data() + first) * standing.path;
+}
+
+inline void testCandidate(Herd& herd, int lane, const Placed& placed, int c) {
     Candidates& candidates = herd.candidates[lane];
-    const float travel = herd.field(kTravel)[lane];
-    const Real due = Real(travel + placed.margin);
-    const int width = static_cast<int>(hn::Lanes(Tag()));
-    Real nextLook = herd.field(kCollectAt)[lane];
-    for (int first = 0; first < candidates.count; first += width) {
-        float* clearUntil = candidates.clearUntil.data() + first;
-        std::uint32_t bits = bitsOf(load(clearUntil) <= due);
-        for (; bits != 0; bits &= bits - 1) {
-            const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-            const std::uint32_t name = candidates.names[static_cast<std::size_t>(first + i)];
-            const PackedPiece& piece = herd.model().body->pieces[(name >> kPieceShift) & 0x3FFU];
-            const int index = static_cast<int>(name & 0xFFFFFU);
-            float clear = 0.0F;
-            switch (name >> kKindShift) {
-                case kVertexOnTriangle:
-                    clear = testTriangle(placed, piece, name, index);
-                    break;
-                case kEdgeAcrossEdge:
-                    clear = testEdge(placed, piece, name, index);
-                    break;
-                default:
-                    clear = testTrackVertex(placed, piece, name, index);
-                    break;
-            }
-            clearUntil[i] = travel + clear;
-        }
-        nextLook = min(nextLook, load(clearUntil));
+    const std::uint32_t name = candidates.names[static_cast<std::size_t>(c)];
+    const PackedPiece& piece = herd.model().body->pieces[(name >> kPieceShift) & 0x3FFU];
+    const int index = static_cast<int>(name & 0xFFFFFU);
+    Bound bound;
+    switch (name >> kKindShift) {
+        case kVertexOnTriangle:
+            bound = testTriangle(placed, piece, name, index);
+            break;
+        case kEdgeAcrossEdge:
+            bound = testEdge(placed, piece, name, index);
+            break;
+        default:
+            bound = testTrackVertex(placed, piece, name, index);
+            break;
     }
-    herd.field(kNextLook)[lane] = leastOf(nextLook);
+    const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
+    const float blind = bound.blind ? 1.0F : 0.0F;
+    const auto place = static_cast<std::size_t>(c);
+    candidates.start[place] =
+        bound.distance - dotThree(bound.direction, way) + herd.field(kTurned)[lane] + blind * herd.field(kPath)[lane];
+    candidates.normalX[place] = bound.direction[0];
+    candidates.normalY[place] = bound.direction[1];
+    candidates.normalZ[place] = bound.direction[2];
+    candidates.blind[place] = blind;
+}
+
+/// Fills herd.found with the contacts of one lane, if any can carry in the coming step.
+inline void findContacts(Herd& herd, int lane) {
+    Candidates& candidates = herd.candidates[lane];
+    const float stepReach = herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane];
+    const float margin = 1.1F * stepReach + kMargin;
+    if (herd.field(kPath)[lane] + herd.field(kTurned)[lane] + margin >= candidates.collectAt)
+        collectCandidates(herd, lane, place(herd, lane));
+
+    const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
+    const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
+    const float path = herd.field(kPath)[lane];
+    const float turned = herd.field(kTurned)[lane];
+    const Standing now = {broadcast(way), path, turned};
+    const Standing next = {{way[0] + step[0], way[1] + step[1], way[2] + step[2]},
+                           path + herd.field(kStepPath)[lane],
+                           turned + herd.field(kStepTurned)[lane]};
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    Real least = kNever;
+    Real leastNext = kNever;
+    for (int first = 0; first < candidates.count; first += width) {
+        least = min(least, boundOf(candidates, first, now));
+        leastNext = min(leastNext, boundOf(candidates, first, next));
+    }
+    if (!any(leastNext < Real(kReserve))) {
+        herd.field(kNextLook)[lane] = std::min(path + turned + leastOf(least), candidates.collectAt);
+        return;
+    }
+
+    herd.field(kNextLook)[lane] = path + turned;
+    const Placed placed = place(herd, lane);
+    for (int first = 0; first < candidates.count; first += width) {
+        std::uint32_t bits = bitsOf(boundOf(candidates, first, now) < Real(placed.margin));
+        for (; bits != 0; bits &= bits - 1)
+            testCandidate(herd, lane, placed, first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
+    }
+}
+
+/// Whether any of the contacts found would overlap more at the step's end if nothing held it: otherwise no impulse acts.
+inline bool anyCarries(const Herd& herd, int lane) {
+    const float dt = herd.model().dt;
+    const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
+    float spin[3] = {herd.field(kAfterSpinX)[lane], herd.field(kAfterSpinY)[lane], herd.field(kAfterSpinZ)[lane]};
+    if (herd.model().anyBowl) {
+        // Relative to the track, in its axes.
+        const float sine = herd.field(kSine)[lane];
+        const float less = herd.field(kCosineLess)[lane];
+        const float x = spin[0];
+        const float y = spin[1];
+        spin[0] += less * x + sine * y;
+        spin[1] += less * y - sine * x;
+        spin[2] -= herd.field(kSineRate)[lane];
+    }
+    for (const FoundContact& contact : herd.found) {
+        const float* r = contact.arm;
+        const float moved[3] = {step[0] + dt * (spin[1] * r[2] - spin[2] * r[1]),
+                                step[1] + dt * (spin[2] * r[0] - spin[0] * r[2]),
+                                step[2] + dt * (spin[0] * r[1] - spin[1] * r[0])};
+        if (std::max(contact.gap, 0.0F) + dotThree(moved, contact.normal) < 0.0F) return true;
+    }
+    return false;
 }

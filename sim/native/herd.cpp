@@ -112,9 +112,9 @@ void Herd::add(const PackedTrack& packedTrack, const trial::TrialBatch& batch, c
     set(kRestitution, batch.contact.restitution * spec.restitutionScale);
 
     set(kNextLook, -1.0);
-    set(kCollectAt, -1.0);
     track[lane] = &packedTrack;
     candidates[lane].count = 0;
+    candidates[lane].collectAt = -1.0F;
     memory[lane].count = 0;
     memory[lane].carrying = 0;
 }
@@ -151,15 +151,15 @@ base::Pose Herd::poseInTrack(int lane) const {
 }
 
 void thinOutFound(std::vector<FoundContact>& found) {
-    std::vector<contact::StepContact> contacts;
-    contacts.reserve(found.size());
+    std::vector<contact::ManifoldPoint> points;
+    points.reserve(found.size());
     for (const FoundContact& f : found)
-        contacts.push_back({Vec3(f.arm[0], f.arm[1], f.arm[2]), Vec3(f.normal[0], f.normal[1], f.normal[2]),
-                            f.gap, Vec3::Zero(), Vec3::Zero(), f.feature});
-    std::vector<FoundContact> kept;
-    for (const int i : contact::thinOut(contacts, Memory::kMost))
-        kept.push_back(found[static_cast<std::size_t>(i)]);
-    found = std::move(kept);
+        points.push_back({{f.arm[0], f.arm[1], f.arm[2]}, {f.normal[0], f.normal[1], f.normal[2]}, f.gap});
+    std::array<int, Memory::kMost> kept{};
+    const int count = contact::thinOut(points, kept);
+    for (int i = 0; i < count; ++i)
+        found[static_cast<std::size_t>(i)] = found[static_cast<std::size_t>(kept[i])];  // in order: kept[i] >= i
+    found.resize(static_cast<std::size_t>(count));
 }
 
 }  // namespace trapwright::native

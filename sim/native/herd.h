@@ -30,83 +30,52 @@ struct HerdModel {
     float unscale[3][3];         // its inverse [m]
 };
 
+// clang-format off
 /// One float of every lane. Room axes unless said otherwise.
 enum Field : int {
-    kRotationW,
-    kRotationX,
-    kRotationY,
-    kRotationZ,
-    kVelocityX,
-    kVelocityY,
-    kVelocityZ,  // mean of the last step [m/s]
-    kSpinX,
-    kSpinY,
-    kSpinZ,  // angular velocity, mean of the last step [rad/s]
-    kTurnX,
-    kTurnY,
-    kTurnZ,  // angular acceleration at the step's begin [rad/s^2]
-    kTurnBeforeX,
-    kTurnBeforeY,
-    kTurnBeforeZ,
-    kAfterX,
-    kAfterY,
-    kAfterZ,  // velocity: free, then with the step's impulses
-    kAfterSpinX,
-    kAfterSpinY,
-    kAfterSpinZ,  // angular velocity: the same
-    kAdvanceX,
-    kAdvanceY,
-    kAdvanceZ,  // what moves the pose
-    kAdvanceSpinX,
-    kAdvanceSpinY,
-    kAdvanceSpinZ,
-    kAxes,  // nine: rotation matrix part -> room, row by row
-    kAxesEnd = kAxes + 9,
-    kPositionX = kAxesEnd,
-    kPositionY,  // copies of the doubles
-    // The drive. Displacement along the vibration line over amplitude at the step before, now, at the next.
-    kDriveBefore,
-    kDriveNow,
-    kDriveNext,
-    kDriveAlong,
-    kDriveUp,
-    kDriveTurn,  // amplitudes [m], [m], [rad]
-    kShiftX,
-    kShiftZ,
-    kSine,
-    kCosineLess,  // placement of the track now; CosineLess: cosine - 1
-    // Velocity of the track at (x, y): (rateX + cosineLessRate x - sineRate y, sineRate x + cosineLessRate y,
-    // rateZ)
-    kRateX,
-    kRateZ,
-    kSineRate,
-    kCosineLessRate,  // mean over the coming step
-    kRateBeforeX,
-    kRateBeforeZ,
-    kSineRateBefore,
-    kCosineLessRateBefore,
-    kTrackStepX,
-    kTrackStepY,
-    kTrackStepZ,  // way of the track at the part's centre in the coming step [m]
-    // Detection [m]
-    kTravel,
-    kMargin,
-    kNextLook,
-    kCollectAt,
-    kLastReach,
-    // The material pair
-    kStaticFriction,
-    kKineticFriction,
-    kRestitution,
+    kRotationW, kRotationX, kRotationY, kRotationZ,
+    kVelocityX, kVelocityY, kVelocityZ,              // mean of the last step [m/s]
+    kSpinX, kSpinY, kSpinZ,                          // angular velocity, mean of the last step [rad/s]
+    kTurnX, kTurnY, kTurnZ,                          // angular acceleration at the step's begin [rad/s^2]
+    kTurnBeforeX, kTurnBeforeY, kTurnBeforeZ,        // at the begin of the step before
+    kAfterX, kAfterY, kAfterZ,                       // velocity: free, then with the step's impulses
+    kAfterSpinX, kAfterSpinY, kAfterSpinZ,           // angular velocity: the same
+    kAdvanceX, kAdvanceY, kAdvanceZ,                 // what moves the pose
+    kAdvanceSpinX, kAdvanceSpinY, kAdvanceSpinZ,
+    kAxes, kAxesLast = kAxes + 8,                    // rotation matrix part -> room, row by row
+    kPositionX, kPositionY,                          // copies of the doubles
+
+    // The drive: its sine at the step before, now, at the next, at the one after.
+    kDriveBefore, kDriveNow, kDriveNext,
+    kDriveAlong, kDriveUp, kDriveTurn,               // amplitudes [m], [m], [rad]
+    kShiftX, kShiftZ, kSine, kCosineLess,            // placement of the track now; CosineLess: cosine - 1
+    kSineNext, kCosineLessNext,
+    // Velocity of the track at (x, y):
+    // (rateX + cosineLessRate x - sineRate y, sineRate x + cosineLessRate y, rateZ)
+    kRateX, kRateZ, kSineRate, kCosineLessRate,      // mean over the coming step
+    kRateBeforeX, kRateBeforeZ, kSineRateBefore, kCosineLessRateBefore,
+    kTrackStepX, kTrackStepY, kTrackStepZ,           // of the track at the part's centre in the coming step [m]
+
+    // Detection [m]: since the candidates were collected ...
+    kWayX, kWayY, kWayZ,                             // way of the centre in the track's axes
+    kPath,                                           // length of the centre's path
+    kTurned,                                         // the farthest that any point can have come by turning
+    // ... and what the coming step adds if nothing touches
+    kStepX, kStepY, kStepZ, kStepPath, kStepTurned,
+    kNextLook,                                       // path + turned before which nothing can touch
+
+    kStaticFriction, kKineticFriction, kRestitution,
     kFieldCount
 };
+// clang-format on
 
-/// The features of one track that are near one part.
+/// The features of one track that are near one part. A lower bound of the distance between part and feature is
+/// start + normal . way - turned - (path if `blind`): tells without looking at them which can touch.
 struct Candidates {
-    AlignedVector<float>
-        clearUntil;  // travel + margin below this: no contact possible. Padded with a huge value.
-    std::vector<std::uint32_t> names;  // kind, piece, feature of the track
+    AlignedVector<float> start, normalX, normalY, normalZ, blind;  // padded with a huge start
+    std::vector<std::uint32_t> names;                              // kind, piece, feature of the track
     int count = 0;
+    float collectAt = 0.0F;  // path + turned at which they must be collected anew
 };
 
 /// Impulses that the last step left at the contacts of one part.
@@ -201,6 +170,8 @@ class Herd {
     AlignedVector<double> positions_;
 };
 
+/// More contacts than this are looked through for those that say the same.
+inline constexpr std::size_t kFew = 3;
 /// Leaves at most Memory::kMost contacts that stand for all (contact::thinOut).
 void thinOutFound(std::vector<FoundContact>& found);
 

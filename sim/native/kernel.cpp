@@ -47,12 +47,11 @@ void finishStepOf(Herd& herd) {
             ++next;
             findContacts(herd, lane);
         }
-        if (herd.found.empty()) {
-            herd.memory[lane].count = 0;
-            herd.memory[lane].carrying = 0;
+        if (herd.found.empty() || !anyCarries(herd, lane)) {
+            rememberIdle(herd, lane);
             continue;
         }
-        if (herd.found.size() > Memory::kMost) thinOutFound(herd.found);
+        if (herd.found.size() > kFew) thinOutFound(herd.found);
         enqueue(herd, lane);
     }
     for (SolveBatch& batch : herd.solveBatches) {

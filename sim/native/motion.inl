@@ -34,9 +34,6 @@ inline Matrix toMatrix(Real w, Real x, Real y, Real z) {
              {two * (x * z - w * y), two * (y * z + w * x), one - two * (x * x + y * y)}}};
 }
 
-/// Added to what a part can travel in a step, so that contacts are there before they carry. [m]
-constexpr double kMargin0 = 5e-6;
-
 /// Gravity and gyroscopic torque over the coming step.
 inline void moveFreely(Herd& herd, int lane) {
     const HerdModel& model = herd.model();
@@ -97,6 +94,9 @@ inline void moveTrack(Herd& herd, int lane) {
         const Turn place = calcTurn(amplitude * now);
         const Turn next = calcTurn(amplitude * onward);
         const Turn last = calcTurn(amplitude * before);
+        const Turn placeNext = calcTurn(amplitude * get(herd, kDriveNext, lane));
+        set(herd, kSineNext, lane, placeNext.sine);
+        set(herd, kCosineLessNext, lane, placeNext.cosineLess);
         set(herd, kSine, lane, place.sine);
         set(herd, kCosineLess, lane, place.cosineLess);
         set(herd, kSineRate, lane, next.sine * rate);
@@ -112,26 +112,42 @@ inline void moveTrack(Herd& herd, int lane) {
     setThree(herd, kTrackStepX, lane, trackStep);
 }
 
-/// How far any point of the part can come relative to the track in this step. The track's own motion differs little
-/// between its points; that of the part's centre stands for it, with a reserve.
-inline Real calcReach(const Herd& herd, int lane, int velocityField, int spinField) {
+/// What moves detection on: way of the part's centre relative to the track in the track's axes, its length, and how far any
+/// point of the part can come by turning.
+struct Progress {
+    Triple way;
+    Real path, turned;
+};
+
+inline Progress calcProgress(const Herd& herd, int lane, int velocityField, int spinField) {
     const Real dt = herd.model().dt;
     const Real radius = herd.model().body->radius;
-    const Triple way = dt * getThree(herd, velocityField, lane) - getThree(herd, kTrackStepX, lane);
-    Real reach = norm(way) + norm(getThree(herd, spinField, lane)) * dt * radius;
-    if (herd.model().anyBowl) reach = reach + abs(get(herd, kSineRate, lane)) * dt * radius;
-    return reach;
+    Progress progress;
+    progress.way = dt * getThree(herd, velocityField, lane) - getThree(herd, kTrackStepX, lane);
+    progress.path = norm(progress.way);
+    progress.turned = norm(getThree(herd, spinField, lane)) * dt * radius;
+    if (herd.model().anyBowl) {
+        progress.turned = progress.turned + abs(get(herd, kSineRate, lane)) * dt * radius;
+        const Real sine = get(herd, kSineNext, lane);
+        const Real less = get(herd, kCosineLessNext, lane);
+        progress.way = {progress.way.x + less * progress.way.x + sine * progress.way.y,
+                        progress.way.y + less * progress.way.y - sine * progress.way.x, progress.way.z};
+    }
+    return progress;
 }
 
+/// Added to what a part can come near in a step. [m]
+constexpr double kReserve = 1e-6;
+
 inline void lookAhead(Herd& herd, int lane) {
-    const Real margin = mulAdd(Real(1.1), calcReach(herd, lane, kAfterX, kAfterSpinX), Real(kMargin0));
-    const Real travel = get(herd, kTravel, lane) + get(herd, kLastReach, lane);
-    set(herd, kMargin, lane, margin);
-    set(herd, kTravel, lane, travel);
-    std::uint32_t bits = bitsOf(travel + margin >= get(herd, kNextLook, lane));
-    while (bits != 0) {
+    const Progress step = calcProgress(herd, lane, kAfterX, kAfterSpinX);
+    setThree(herd, kStepX, lane, step.way);
+    set(herd, kStepPath, lane, step.path);
+    set(herd, kStepTurned, lane, step.turned);
+    const Real reach = get(herd, kPath, lane) + get(herd, kTurned, lane) + step.path + step.turned;
+    std::uint32_t bits = bitsOf(reach + Real(kReserve) >= get(herd, kNextLook, lane));
+    for (; bits != 0; bits &= bits - 1) {
         const int i = lane + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-        bits &= bits - 1;
         if (i < herd.count()) herd.looking.push_back(i);
     }
 }
@@ -139,7 +155,10 @@ inline void lookAhead(Herd& herd, int lane) {
 /// The pose at the step's end.
 inline void movePose(Herd& herd, int lane) {
     const Real dt = herd.model().dt;
-    set(herd, kLastReach, lane, calcReach(herd, lane, kAdvanceX, kAdvanceSpinX));
+    const Progress step = calcProgress(herd, lane, kAdvanceX, kAdvanceSpinX);
+    setThree(herd, kWayX, lane, getThree(herd, kWayX, lane) + step.way);
+    set(herd, kPath, lane, get(herd, kPath, lane) + step.path);
+    set(herd, kTurned, lane, get(herd, kTurned, lane) + step.turned);
 
     // A rotation whose axis wanders is not the mean angular velocity times the step: the next terms of Magnus' series
     // (Iserles et al. 2000, section 4).

@@ -225,3 +225,17 @@ inline void enqueue(Herd& herd, int lane) {
     }
     if (batch.filled == static_cast<int>(hn::Lanes(Tag()))) solveBatch(herd, batch);
 }
+
+/// Remembers contacts that touch but carry nothing.
+inline void rememberIdle(Herd& herd, int lane) {
+    Memory& memory = herd.memory[lane];
+    memory.count = std::min(static_cast<int>(herd.found.size()), Memory::kMost);
+    memory.carrying = 0;
+    for (int i = 0; i < memory.count; ++i) {
+        memory.feature[i] = herd.found[static_cast<std::size_t>(i)].feature;
+        memory.normal[i] = 0.0F;
+        memory.along[i] = 0.0F;
+        memory.across[i] = 0.0F;
+        memory.slid[i] = true;
+    }
+}

@@ -20,17 +20,19 @@ inline Real distanceBeyond(const Plane& plane, const Triple& p) {
 
 /// A part's vertex and a track triangle.
 struct VertexTest {
-    Real gap;    // above the triangle's plane
-    Real clear;  // the part may travel this far before they can touch
-    Mask over;   // within the triangle's sides and near enough
+    Real gap;        // above the triangle's plane
+    Real beside[3];  // beyond the triangle's sides
+    Real clear;      // the part may travel this far before they can touch
+    Mask over;       // within the triangle's sides and near enough
 };
 
 /// sides: the planes of the triangle's sides, normals out of the triangle.
 inline VertexTest testVertex(const Triple& vertex, const Plane& plane, const Plane (&sides)[3], Real margin) {
     VertexTest test;
     test.gap = distanceBeyond(plane, vertex);
-    const Real beside =
-        max(max(distanceBeyond(sides[0], vertex), distanceBeyond(sides[1], vertex)), distanceBeyond(sides[2], vertex));
+    for (int c = 0; c < 3; ++c)
+        test.beside[c] = distanceBeyond(sides[c], vertex);
+    const Real beside = max(max(test.beside[0], test.beside[1]), test.beside[2]);
     test.clear = max(max(test.gap, -test.gap - Real(kDeepest)), beside);
     test.over = test.gap < margin && test.gap > Real(-kDeepest) && beside <= Real(0.0);
     return test;
