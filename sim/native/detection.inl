@@ -298,48 +298,6 @@ inline Bound testTrackVertex(const Placed& placed, const PackedPiece& piece, std
     return boundAlong(gap, normal);
 }
 
-inline void addNear(Candidates& candidates, const BallArrays& balls, const float* centre, float reach, std::uint32_t name) {
-    const int width = static_cast<int>(hn::Lanes(Tag()));
-    for (int first = 0; first < balls.count; first += width) {
-        const Triple away = Triple{load(balls.x.data() + first), load(balls.y.data() + first), load(balls.z.data() + first)} -
-                            broadcast(centre);
-        const Real far = load(balls.radius.data() + first) + Real(reach);
-        std::uint32_t bits = bitsOf(dot(away, away) < far * far);
-        for (; bits != 0; bits &= bits - 1) {
-            const auto i = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-            candidates.names.push_back(name | i);
-        }
-    }
-}
-
-inline void collectCandidates(Herd& herd, int lane, const Placed& placed) {
-    Candidates& candidates = herd.candidates[lane];
-    candidates.names.clear();
-    const float reach = kSkin + placed.margin;
-    const std::vector<PackedPiece>& pieces = herd.model().body->pieces;
-    for (std::size_t p = 0; p < pieces.size(); ++p) {
-        float centre[3];
-        toTrack(placed, pieces[p].centre, centre);
-        for (int k = 0; k < 3; ++k)
-            centre[k] = static_cast<float>(placed.position[k] + centre[k]);
-        const float near = pieces[p].radius + reach;
-        const std::uint32_t piece = static_cast<std::uint32_t>(p) << kPieceShift;
-        addNear(candidates, placed.track->triangleBalls, centre, near, (kVertexOnTriangle << kKindShift) | piece);
-        addNear(candidates, placed.track->edgeBalls, centre, near, (kEdgeAcrossEdge << kKindShift) | piece);
-        addNear(candidates, placed.track->vertexBalls, centre, near, (kFaceOnVertex << kKindShift) | piece);
-    }
-    candidates.count = static_cast<int>(candidates.names.size());
-    const auto padded = static_cast<std::size_t>(padToVectors(candidates.count));
-    for (AlignedVector<float>* zeros : {&candidates.normalX, &candidates.normalY, &candidates.normalZ, &candidates.blind})
-        zeros->assign(padded, 0.0F);
-    candidates.start.assign(padded, kNever);
-    std::fill_n(candidates.start.begin(), candidates.count, -1.0F);
-    candidates.collectAt = reach;
-    // Counting anew from here keeps the numbers small and so exact.
-    for (const int f : {kWayX, kWayY, kWayZ, kPath, kTurned})
-        herd.field(f)[lane] = 0.0F;
-}
-
 /// Where detection of one lane stands, before or after the coming step.
 struct Standing {
     Triple way;
@@ -353,23 +311,20 @@ inline Real boundOf(const Candidates& candidates, int first, const Standing& sta
            load(candidates.blind.data() + first) * standing.path;
 }
 
-inline void testCandidate(Herd& herd, int lane, const Placed& placed, int c) {
-    Candidates& candidates = herd.candidates[lane];
-    const std::uint32_t name = candidates.names[static_cast<std::size_t>(c)];
+inline Bound testFeature(const Herd& herd, const Placed& placed, std::uint32_t name) {
     const PackedPiece& piece = herd.model().body->pieces[(name >> kPieceShift) & 0x3FFU];
     const int index = static_cast<int>(name & 0xFFFFFU);
-    Bound bound;
     switch (name >> kKindShift) {
         case kVertexOnTriangle:
-            bound = testTriangle(placed, piece, name, index);
-            break;
+            return testTriangle(placed, piece, name, index);
         case kEdgeAcrossEdge:
-            bound = testEdge(placed, piece, name, index);
-            break;
+            return testEdge(placed, piece, name, index);
         default:
-            bound = testTrackVertex(placed, piece, name, index);
-            break;
+            return testTrackVertex(placed, piece, name, index);
     }
+}
+
+inline void setBound(const Herd& herd, int lane, Candidates& candidates, int c, const Bound& bound) {
     const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
     const float blind = bound.blind ? 1.0F : 0.0F;
     const auto place = static_cast<std::size_t>(c);
@@ -381,13 +336,64 @@ inline void testCandidate(Herd& herd, int lane, const Placed& placed, int c) {
     candidates.blind[place] = blind;
 }
 
+/// Adds the features among `balls` that are near one piece: first by their balls, then by their own bounds.
+inline void addNear(Herd& herd, int lane, const Placed& placed, const BallArrays& balls, const float* centre, float near,
+                    std::uint32_t name) {
+    Candidates& candidates = herd.candidates[lane];
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    for (int first = 0; first < balls.count; first += width) {
+        const Triple away = Triple{load(balls.x.data() + first), load(balls.y.data() + first), load(balls.z.data() + first)} -
+                            broadcast(centre);
+        const Real far = load(balls.radius.data() + first) + Real(near);
+        std::uint32_t bits = bitsOf(dot(away, away) < far * far);
+        for (; bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+            const Bound bound = testFeature(herd, placed, name | i);
+            if (bound.distance >= placed.margin) continue;
+            candidates.names.push_back(name | i);
+            const auto padded = static_cast<std::size_t>(padToVectors(static_cast<int>(candidates.names.size())));
+            candidates.start.resize(padded, kNever);
+            for (AlignedVector<float>* array :
+                 {&candidates.normalX, &candidates.normalY, &candidates.normalZ, &candidates.blind})
+                array->resize(padded, 0.0F);
+            setBound(herd, lane, candidates, static_cast<int>(candidates.names.size()) - 1, bound);
+        }
+    }
+}
+
+/// The features within kSkin of the part.
+inline void collectCandidates(Herd& herd, int lane) {
+    Candidates& candidates = herd.candidates[lane];
+    candidates.names.clear();
+    candidates.start.clear();
+    // Counting anew from here keeps the numbers small and so exact.
+    for (const int f : {kWayX, kWayY, kWayZ, kPath, kTurned})
+        herd.field(f)[lane] = 0.0F;
+    Placed placed = place(herd, lane);
+    candidates.collectAt = kSkin + placed.margin;
+    placed.margin = candidates.collectAt;
+    const std::vector<PackedPiece>& pieces = herd.model().body->pieces;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        float centre[3];
+        toTrack(placed, pieces[p].centre, centre);
+        for (int k = 0; k < 3; ++k)
+            centre[k] = static_cast<float>(placed.position[k] + centre[k]);
+        const float near = pieces[p].radius + placed.margin;
+        const std::uint32_t piece = static_cast<std::uint32_t>(p) << kPieceShift;
+        addNear(herd, lane, placed, placed.track->triangleBalls, centre, near, (kVertexOnTriangle << kKindShift) | piece);
+        addNear(herd, lane, placed, placed.track->edgeBalls, centre, near, (kEdgeAcrossEdge << kKindShift) | piece);
+        addNear(herd, lane, placed, placed.track->vertexBalls, centre, near, (kFaceOnVertex << kKindShift) | piece);
+    }
+    candidates.count = static_cast<int>(candidates.names.size());
+    herd.found.clear();  // what lies within the skin is not within the margin
+}
+
 /// Fills herd.found with the contacts of one lane, if any can carry in the coming step.
 inline void findContacts(Herd& herd, int lane) {
     Candidates& candidates = herd.candidates[lane];
     const float stepReach = herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane];
     const float margin = 1.1F * stepReach + kMargin;
-    if (herd.field(kPath)[lane] + herd.field(kTurned)[lane] + margin >= candidates.collectAt)
-        collectCandidates(herd, lane, place(herd, lane));
+    if (herd.field(kPath)[lane] + herd.field(kTurned)[lane] + margin >= candidates.collectAt) collectCandidates(herd, lane);
 
     const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
     const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
@@ -411,10 +417,14 @@ inline void findContacts(Herd& herd, int lane) {
 
     herd.field(kNextLook)[lane] = path + turned;
     const Placed placed = place(herd, lane);
+    // An impulse at one contact may turn the part toward another: what comes within half of the step's reach counts.
+    const Real near = 0.5F * stepReach + kMargin;
     for (int first = 0; first < candidates.count; first += width) {
-        std::uint32_t bits = bitsOf(boundOf(candidates, first, now) < Real(placed.margin));
-        for (; bits != 0; bits &= bits - 1)
-            testCandidate(herd, lane, placed, first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
+        std::uint32_t bits = bitsOf(boundOf(candidates, first, next) < near);
+        for (; bits != 0; bits &= bits - 1) {
+            const int c = first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+            setBound(herd, lane, candidates, c, testFeature(herd, placed, candidates.names[static_cast<std::size_t>(c)]));
+        }
     }
 }
 

@@ -82,6 +82,13 @@ inline Real abs(Real a) {
 inline Real sqrt(Real a) {
     return Real(hn::Sqrt(a.lanes));
 }
+inline Real inverseSqrt(Real a) {
+    // Two steps of Newton's from the machine's own guess.
+    Real guess(hn::ApproximateReciprocalSqrt(a.lanes));
+    for (int i = 0; i < 2; ++i)
+        guess = guess * (Real(1.5) - Real(0.5) * a * guess * guess);
+    return guess;
+}
 inline Real log1p(Real a) {
     return Real(hn::Log1p(Tag(), a.lanes));
 }

@@ -101,8 +101,9 @@ struct Friction {
 /// Coulomb's cone over one step: a contact that can hold sticks exactly; one that slides has the full impulse against its
 /// slip.
 inline Friction calcFriction(const FrictionShape& shape, const Pair& slip, Real bound) {
-    const Real size = sqrt(dot(slip, slip));
-    const Mask sliding = shape.onTheWay || size > bound;
-    const Pair change = select(sliding, -bound / max(size, Real(kNoSpeed)), Real(-1.0)) * slip;
+    const Real square = dot(slip, slip);
+    const Mask sliding = shape.onTheWay || square > bound * bound;
+    const Pair change =
+        select(sliding, -bound * inverseSqrt(max(square, Real(kNoSpeed * kNoSpeed))), Real(-1.0)) * slip;
     return {select(shape.onTheWay, bound * shape.direction, change), sliding};
 }

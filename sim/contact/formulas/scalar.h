@@ -33,6 +33,9 @@ inline Real abs(Real a) {
 inline Real sqrt(Real a) {
     return std::sqrt(a);
 }
+inline Real inverseSqrt(Real a) {
+    return 1.0 / std::sqrt(a);
+}
 inline Real log1p(Real a) {
     return std::log1p(a);
 }

@@ -5,8 +5,8 @@
 // angular velocity, where S S^T is the inverse inertia times the mass, and `turn` is S^T times the torque's arm. [m/s], [1]
 
 constexpr int kMaxIterations = 30;
-/// How many of them look at how friction turns within the step.
-constexpr int kShapingIterations = 3;
+/// After the first, the one that looks again at how friction turns within the step.
+constexpr int kShapingIteration = 2;
 /// Iterations end when no contact's velocity changes by more. [m/s]
 constexpr double kVelocityTolerance = 2e-6;
 /// Share of an overlap that is taken back in one step, without giving the part speed.
@@ -140,7 +140,7 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
     }
     Mask done = frozen;
     for (int iteration = 0; iteration < kMaxIterations && !all(done); ++iteration) {
-        Real change = Real(0.0);
+        Real change = Real(0.0);  // of velocity, squared
         for (int i = 0; i < count; ++i) {
             Row& row = rows[iteration % 2 == 0 ? i : count - 1 - i];
             const Real normal =
@@ -148,13 +148,14 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
             const Real step = select(done, Real(0.0), normal - row.normal);
             row.normal = row.normal + step;
             push(row, motion, 0, step);
-            change = max(change, abs(step) * row.normalInverse);
+            const Real normalChange = step * row.normalInverse;
+            change = max(change, normalChange * normalChange);
 
             const Pair slip = Pair{velocityAlong(row, motion, 1), velocityAlong(row, motion, 2)} - row.slipTarget;
             const Pair free = slip - row.tangentInverse * row.tangential;
             const Real bound = row.friction * row.normal * row.tangentInverse;
             // How friction turns on the way hardly changes from one iteration to the next; once it stays, they converge.
-            if (iteration < kShapingIterations) row.shape = calcFrictionShape(free, row.slipBefore, bound);
+            if (iteration == 0 || iteration == kShapingIteration) row.shape = calcFrictionShape(free, row.slipBefore, bound);
             const Friction friction = calcFriction(row.shape, free, bound);
             const Pair tangentialStep =
                 select(done, Pair{Real(0.0), Real(0.0)}, row.tangentMass * friction.change - row.tangential);
@@ -162,9 +163,10 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
             row.tangential = row.tangential + tangentialStep;
             push(row, motion, 1, tangentialStep.x);
             push(row, motion, 2, tangentialStep.y);
-            change = max(change, sqrt(dot(tangentialStep, tangentialStep)) * row.tangentInverse);
+            const Pair slipChange = row.tangentInverse * tangentialStep;
+            change = max(change, dot(slipChange, slipChange));
         }
-        done = done || change < Real(kVelocityTolerance);
+        done = done || change < Real(kVelocityTolerance * kVelocityTolerance);
     }
     return motion;
 }
