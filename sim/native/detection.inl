@@ -428,8 +428,9 @@ inline void findContacts(Herd& herd, int lane) {
     }
 }
 
-/// Whether any of the contacts found would overlap more at the step's end if nothing held it: otherwise no impulse acts.
-inline bool anyCarries(const Herd& herd, int lane) {
+/// Leaves the contacts that can matter, as findContacts does with features, and tells whether any would overlap more at the
+/// step's end if nothing held it: otherwise no impulse acts.
+inline bool anyCarries(Herd& herd, int lane) {
     const float dt = herd.model().dt;
     const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
     float spin[3] = {herd.field(kAfterSpinX)[lane], herd.field(kAfterSpinY)[lane], herd.field(kAfterSpinZ)[lane]};
@@ -443,12 +444,18 @@ inline bool anyCarries(const Herd& herd, int lane) {
         spin[1] += less * y - sine * x;
         spin[2] -= herd.field(kSineRate)[lane];
     }
+    const float near = 0.5F * (herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane]) + kMargin;
+    bool carries = false;
+    std::size_t kept = 0;
     for (const FoundContact& contact : herd.found) {
         const float* r = contact.arm;
         const float moved[3] = {step[0] + dt * (spin[1] * r[2] - spin[2] * r[1]),
                                 step[1] + dt * (spin[2] * r[0] - spin[0] * r[2]),
                                 step[2] + dt * (spin[0] * r[1] - spin[1] * r[0])};
-        if (std::max(contact.gap, 0.0F) + dotThree(moved, contact.normal) < 0.0F) return true;
+        const float after = std::max(contact.gap, 0.0F) + dotThree(moved, contact.normal);
+        carries = carries || after < 0.0F;
+        if (after < near) herd.found[kept++] = contact;
     }
-    return false;
+    herd.found.resize(kept);
+    return carries;
 }

@@ -7,8 +7,10 @@
 constexpr int kMaxIterations = 30;
 /// After the first, the one that looks again at how friction turns within the step.
 constexpr int kShapingIteration = 2;
-/// Iterations end when no contact's velocity changes by more. [m/s]
+/// Iterations end when no contact's velocity changes by more: this, and this share of the part's speed, so that what
+/// rests stays where it is. [m/s], [1]
 constexpr double kVelocityTolerance = 2e-6;
+constexpr double kRelativeTolerance = 5e-5;
 /// Share of an overlap that is taken back in one step, without giving the part speed.
 constexpr double kRecovery = 0.2;
 /// Overlaps that are left alone. [m]
@@ -138,6 +140,8 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
         push(rows[i], motion, 1, rows[i].tangential.x);
         push(rows[i], motion, 2, rows[i].tangential.y);
     }
+    const Real tolerance = Real(kVelocityTolerance * kVelocityTolerance) +
+                           Real(kRelativeTolerance * kRelativeTolerance) * dot(motion.velocity, motion.velocity);
     Mask done = frozen;
     for (int iteration = 0; iteration < kMaxIterations && !all(done); ++iteration) {
         Real change = Real(0.0);  // of velocity, squared
@@ -166,7 +170,7 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
             const Pair slipChange = row.tangentInverse * tangentialStep;
             change = max(change, dot(slipChange, slipChange));
         }
-        done = done || change < Real(kVelocityTolerance * kVelocityTolerance);
+        done = done || change < tolerance;
     }
     return motion;
 }

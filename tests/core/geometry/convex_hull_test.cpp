@@ -75,6 +75,7 @@ class ConvexHullTest : public QObject {
 
     void pointsInsideFacesAndOnEdgesAreDropped() {
         std::vector<base::Vec3> points;
+        points.reserve(5 * 5 * 5);
         for (int i = 0; i < 5 * 5 * 5; ++i)
             points.emplace_back(i % 5, i / 5 % 5, i / 25);
         const auto hull = computeConvexHull(points);
@@ -88,6 +89,7 @@ class ConvexHullTest : public QObject {
     void orderOfPointsDoesNotMatter() {
         base::Random random({.seed = 5});
         std::vector<base::Vec3> points;
+        points.reserve(300);
         for (int i = 0; i < 300; ++i)
             points.emplace_back(random.normal(), random.normal(), random.normal());
         const auto forward = computeConvexHull(points);

@@ -39,6 +39,7 @@ inline TriangleMesh makePrism(const std::vector<base::Vec2>& outline, double hei
 
 inline std::vector<base::Vec2> makeCircle(int sides, double radius) {
     std::vector<base::Vec2> outline;
+    outline.reserve(sides);
     for (int i = 0; i < sides; ++i)
         outline.emplace_back(radius * std::cos(2.0 * base::kPi * i / sides),
                              radius * std::sin(2.0 * base::kPi * i / sides));
