@@ -217,6 +217,32 @@ inline float calcDistanceToSegment(const float* point, const float* from, const 
     return std::sqrt(square);
 }
 
+/// A bound for an edge that is near but does not touch: whether the part lies on one side of one of three planes through
+/// it. `fallback` if not.
+inline Bound separateFromEdge(const Placed& placed, const PackedPiece& piece, const PackedEdge& edge, const Edge& own,
+                              const Triple& outside, const Bound& fallback) {
+    const Triple axes[3] = {outside, own.into[0], own.into[1]};
+    const float* inTrack[3] = {edge.outward, edge.into[0], edge.into[1]};
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    for (int a = 0; a < 3; ++a) {
+        Real least = kNever;
+        Real greatest = -kNever;
+        for (int first = 0; first < piece.vertexCount; first += width) {
+            const Real distance = dot(axes[a], loadThree(piece.vertices, 0, first) - own.from);
+            least = min(least, distance);
+            greatest = max(greatest, distance);
+        }
+        const float above = leastOf(least);
+        if (above >= placed.margin) return boundAlong(above, inTrack[a]);
+        const float below = -greatestOf(greatest);
+        if (below >= placed.margin) {
+            const float away[3] = {-inTrack[a][0], -inTrack[a][1], -inTrack[a][2]};
+            return boundAlong(below, away);
+        }
+    }
+    return fallback;
+}
+
 inline Bound testEdge(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
     const PackedEdge& edge = placed.track->edges[index];
     float relative[3];
@@ -244,6 +270,7 @@ inline Bound testEdge(const Placed& placed, const PackedPiece& piece, std::uint3
     toPart(placed, edge.into[1], into[1]);
     const Edge own = {begin, along, edge.length, {broadcast(into[0]), broadcast(into[1])}};
     const Triple outside = broadcast(outward);
+    const std::size_t before = placed.found->size();
     const int width = static_cast<int>(hn::Lanes(Tag()));
     for (int first = 0; first < piece.edges.stride(); first += width) {
         const Edge part = {loadThree(piece.edges, kFromX, first),
@@ -271,7 +298,8 @@ inline Bound testEdge(const Placed& placed, const PackedPiece& piece, std::uint3
             addContact(placed, point, normal, values[0][i], nameContact(name, first + i));
         }
     }
-    return bound;
+    if (placed.found->size() > before) return bound;
+    return separateFromEdge(placed, piece, edge, own, outside, bound);
 }
 
 inline Bound testTrackVertex(const Placed& placed, const PackedPiece& piece, std::uint32_t name, int index) {
