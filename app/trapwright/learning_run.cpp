@@ -35,14 +35,14 @@ class Situation {
             study::estimateProgress(*plan_, generations_, control_.done(), secondsSince(begin));
         const std::int64_t trials = control_.done() - plan_->doneBefore;
         const double share =
-            plan_->trials() > 0 ? static_cast<double>(trials) / static_cast<double>(plan_->trials()) : 1.0;
+            plan_->trials > 0 ? static_cast<double>(trials) / static_cast<double>(plan_->trials) : 1.0;
         // What matters least is last, where a narrow terminal cuts.
         const std::string left =
             progress.secondsLeft > 0.0 ? formatDuration(progress.secondsLeft) + " left, " : "";
         return fmt::format("Generation {}/{} {} {}{:.0f}/s, {}/{} individuals, {}/{} trials",
                            plan_->generation + 1, generations_, formatBar(share), left,
                            progress.trialsPerSecond, progress.individualsDone, plan_->individuals, trials,
-                           plan_->trials());
+                           plan_->trials);
     }
 
  private:
