@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/trapwright/command.h"
+#include "app/trapwright/json_records.h"
 #include "app/trapwright/study_access.h"
 #include "core/store/compare.h"
 
@@ -22,6 +23,7 @@ void appendLines(std::string_view lines, nlohmann::ordered_json& list) {
 struct Options {
     std::string study;
     std::optional<std::string> compare;
+    bool checks = false;
 };
 
 Attempt<ExitCode> compare(const store::StudyFile& study, const Options& options, const Console& console) {
@@ -39,6 +41,15 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto file = store::StudyFile::openReadOnly(options.study);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
     if (options.compare) return compare(*file, options, console);
+    if (options.checks) {
+        const auto lines = store::dumpChecks(*file);
+        if (!lines) return Failure{ExitCode::badInput, lines.error().message};
+        console.print(*lines);
+        const auto checks = file->loadChecks();
+        if (!checks) return Failure{ExitCode::badInput, checks.error().message};
+        console.emit({{"study", options.study}, {"checks", toJson(*checks)}});
+        return ExitCode::ok;
+    }
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     const auto dumped = store::dumpGenes(*file, [&](std::string_view lines) {
         console.print(lines);
@@ -59,6 +70,8 @@ void addDumpCommand(CLI::App& program, Invocation& invocation) {
                    "trapwright dump one.trap > one.txt\n  trapwright dump one.trap --compare two.trap",
                    [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();
+    command.add_flag("--checks", options->checks,
+                     "Instead, what the reference engine made of each generation's winner (engine hybrid)");
     command.add_option("--compare", options->compare,
                        "Another study: tells where the two first differ; exit code 1 if they do");
 }

@@ -54,13 +54,19 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) 
     return loadStudy(std::move(*file));
 }
 
+/// "native, winners checked by simbody"
+std::string describeEngines(const OpenStudy& study, const study::StudyInputs& inputs) {
+    const auto reference = referenceFor(study.settings.simulation.engine);
+    return inputs.engine->name() + (reference ? ", winners checked by " + *reference : "");
+}
+
 std::string describeStart(const OpenStudy& study, const study::StudyInputs& inputs) {
     const study::EvolutionSettings& evolution = study.settings.evolution;
     return fmt::format(
         "Study {}: part {} (symmetry {}), {} individuals x {} trials, seed {}, engine {}, threads {}\n"
         "A perfect feeder scores F_D 0 and F_O {:.3f}.\n{}",
         study.file.path().string(), study.part->name, study.part->symmetry.name, evolution.populationSize,
-        evolution.trialsPerEvaluation, evolution.seed, inputs.engine->name(), inputs.threads,
+        evolution.trialsPerEvaluation, evolution.seed, describeEngines(study, inputs), inputs.threads,
         trial::calcBestOrientationScore(study.part->symmetry, evolution.orientationDistance),
         kLearningHeading);
 }
@@ -80,7 +86,7 @@ std::string_view endName(study::LearningEnd end) {
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openOrCreate(options, console);
     if (!study) return study.failure();
-    auto inputs = makeInputs(*study, std::nullopt, options.threads);
+    auto inputs = makeInputs(*study, std::nullopt, EngineUse::learning, options.threads);
     if (!inputs) return inputs.failure();
     console.print(describeStart(*study, *inputs));
 
@@ -92,20 +98,31 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     console.print(fmt::format("{}: {} generations in {}, {} trials in {:.1f} s ({:.1f}/s)\n",
                               report->interrupted ? "Stopped" : "Done", summaries->size(), options.study,
                               report->trials, report->seconds, rate));
+    const auto reference = referenceFor(study->settings.simulation.engine);
+    const auto unchecked = study->file.loadUncheckedWinners();
+    if (!unchecked) return Failure{ExitCode::badInput, unchecked.error().message};
+    if (reference && !unchecked->empty())
+        console.print(
+            fmt::format("{} winners are not checked yet; evolve --resume does that.\n", unchecked->size()));
     if (report->interrupted && !console.json())
         console.note(fmt::format("Go on with: trapwright evolve {} --resume", options.study));
 
+    const auto checks = study->file.loadChecks();
+    if (!checks) return Failure{ExitCode::badInput, checks.error().message};
     nlohmann::ordered_json generations = nlohmann::ordered_json::array();
     for (const study::GenerationSummary& summary : *summaries)
         generations.push_back(toJson(summary));
-    console.emit({{"study", options.study},
-                  {"engine", inputs->engine->name()},
-                  {"threads", inputs->threads},
-                  {"end", endName(report->end)},
-                  {"trials", report->trials},
-                  {"seconds", report->seconds},
-                  {"trials_per_second", rate},
-                  {"generations", generations}});
+    console.emit(
+        {{"study", options.study},
+         {"engine", inputs->engine->name()},
+         {"reference_engine", reference ? nlohmann::ordered_json(*reference) : nlohmann::ordered_json()},
+         {"threads", inputs->threads},
+         {"end", endName(report->end)},
+         {"trials", report->trials},
+         {"seconds", report->seconds},
+         {"trials_per_second", rate},
+         {"generations", generations},
+         {"checks", toJson(*checks)}});
     return report->interrupted ? ExitCode::interrupted : ExitCode::ok;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/trapwright/command.h"
+#include "app/trapwright/engines.h"
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
@@ -38,49 +39,59 @@ Failure refuseTrial(const Options& options, const study::Winner& individual, int
                         individual.generation, individual.individual, options.kind, trials - 1)};
 }
 
-/// How many selection trials the individual had in the last selection that it was in.
-Attempt<int> countSelectionTrials(const store::StudyFile& file, const study::Winner& individual) {
+/// Which trials of the individual there are to replay, and the engine that ran them.
+struct StoredTrials {
+    int count = 0;
+    std::string engine;
+};
+
+/// Those of the last selection that the individual was in.
+Attempt<StoredTrials> findSelectionTrials(const store::StudyFile& file, const study::Winner& individual) {
     const auto selections = file.loadSelections();
     if (!selections) return Failure{ExitCode::badInput, selections.error().message};
-    int trials = 0;
+    StoredTrials trials;
     for (const study::SelectionRecord& selection : *selections)
         for (const study::SelectionEntry& entry : selection.entries)
             if (entry.generation == individual.generation && entry.individual == individual.individual)
-                trials = entry.trials;
+                trials = {entry.trials, selection.engine};
     return trials;
 }
 
-/// The same for a pose of its last validation, whose trials are numbered by pose.
-Attempt<int> countValidationTrials(const store::StudyFile& file, const study::Winner& individual, int pose) {
+/// Those of a pose in its last validation, whose trials are numbered by pose.
+Attempt<StoredTrials> findValidationTrials(const store::StudyFile& file, const study::Winner& individual,
+                                           int pose) {
     const auto validations = file.loadValidations();
     if (!validations) return Failure{ExitCode::badInput, validations.error().message};
-    int trials = 0;
+    StoredTrials trials;
     for (const study::ValidationRecord& validation : *validations)
         if (validation.generation == individual.generation && validation.individual == individual.individual)
             for (const study::ValidationRow& row : validation.rows)
-                if (row.pose == pose) trials = row.trials;
+                if (row.pose == pose) trials = {row.trials, validation.engine};
     return trials;
+}
+
+Attempt<StoredTrials> findTrials(const Options& options, const OpenStudy& study,
+                                 const study::Winner& individual) {
+    if (options.kind == "selection") return findSelectionTrials(study.file, individual);
+    if (options.kind == "validation") return findValidationTrials(study.file, individual, options.pose - 1);
+    return StoredTrials{individual.record.trials,
+                        engineFor(study.settings.simulation.engine, EngineUse::learning)};
 }
 
 /// The batch that holds the trial, as it was when it was simulated.
 Attempt<trial::TrialBatch> makeBatch(const Options& options, const OpenStudy& study,
-                                     const study::Winner& individual) {
+                                     const study::Winner& individual, int trials) {
     auto track = study::decodeTrack(study.settings.track, individual.record.chromosome);
     if (!track) return Failure{ExitCode::badInput, track.error().message};
-    const study::TrialScene scene{&study.settings.simulation, study.part,
-                                  std::make_shared<const track::Track>(std::move(*track)),
-                                  study.settings.evolution.seed};
+    const study::TrialScene scene =
+        study::makeScene(study.settings, study.part, std::make_shared<const track::Track>(std::move(*track)));
     const int pose = options.pose - 1;
-    Attempt<int> trials = individual.record.trials;
-    if (options.kind == "selection") trials = countSelectionTrials(study.file, individual);
-    if (options.kind == "validation") trials = countValidationTrials(study.file, individual, pose);
-    if (!trials) return trials.failure();
-    if (options.trial < 0 || options.trial >= *trials) return refuseTrial(options, individual, *trials);
+    if (options.trial < 0 || options.trial >= trials) return refuseTrial(options, individual, trials);
     if (options.kind == "selection")
-        return study::makeSelectionBatch(scene, individual.generation, individual.individual, *trials);
+        return study::makeSelectionBatch(scene, individual.generation, individual.individual, trials);
     if (options.kind == "validation")
-        return study::makeValidationBatch(scene, individual.generation, individual.individual, pose, *trials);
-    return study::makeLearningBatch(scene, individual.generation, individual.individual, *trials);
+        return study::makeValidationBatch(scene, individual.generation, individual.individual, pose, trials);
+    return study::makeLearningBatch(scene, individual.generation, individual.individual, trials);
 }
 
 void appendPose(std::string& text, const base::Pose& pose) {
@@ -121,10 +132,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!study) return study.failure();
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.failure();
-    auto batch = makeBatch(options, *study, *individual);
+    auto trials = findTrials(options, *study, *individual);
+    if (!trials) return trials.failure();
+    auto batch = makeBatch(options, *study, *individual, trials->count);
     if (!batch) return batch.failure();
-    auto inputs = makeInputs(*study, std::nullopt, 1);
-    if (!inputs) return inputs.failure();
+    auto engine = makeEngine(trials->engine, {1, 0.0});
+    if (!engine) return engine.failure();
 
     base::RunControl control;
     auto trajectory = [&] {
@@ -132,8 +145,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         watch.progress = [] { return std::string("Simulating the trial again"); };
         watch.interrupted = [control](int) mutable { control.cancel(); };
         const WorkDisplay display(console, watch);
-        return inputs->engine->replay(*batch, static_cast<std::size_t>(options.trial),
-                                      options.interval * 1e-3, control);
+        return (*engine)->replay(*batch, static_cast<std::size_t>(options.trial), options.interval * 1e-3,
+                                 control);
     }();
     if (!trajectory) return describeRunFailure(control, trajectory.error());
 
@@ -147,7 +160,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         "# {} after {:.3f} s at x = {:.3f} mm; x along the track, y to its outer edge, z up; quaternions w, "
         "x, y, z\n",
         options.study, individual->generation, individual->individual, trialName, study->part->name,
-        inputs->engine->name(), trial::endingName(outcome.ending), outcome.time,
+        (*engine)->name(), trial::endingName(outcome.ending), outcome.time,
         outcome.farthest.position.x() * 1e3);
     if (options.out) {
         if (const auto written = base::writeFile(*options.out, toCsv(about, *trajectory)); !written)

@@ -8,6 +8,7 @@
 #include "app/trapwright/command.h"
 #include "app/trapwright/engines.h"
 #include "app/trapwright/part_source.h"
+#include "app/trapwright/study_engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 #include "core/study/settings.h"
@@ -50,7 +51,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         return Failure{ExitCode::usage, fmt::format("--step {} is too fine.", options.step)};
     auto loaded = loadPart(options.part, study::PartSettings{}.density);
     if (!loaded) return loaded.failure();
-    auto engine = makeEngine(options.engine, {});
+    auto engine = makeEngine(engineFor(options.engine, EngineUse::judging), {});
     if (!engine) return engine.failure();
 
     verify::ConveyingScene scene;
@@ -81,7 +82,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                          {"least_mm_s", speed->least * 1e3},
                          {"most_mm_s", speed->most * 1e3}});
     }
-    console.emit({{"part", scene.part->name}, {"engine", options.engine}, {"rows", table}});
+    console.emit({{"part", scene.part->name}, {"engine", (*engine)->name()}, {"rows", table}});
     return ExitCode::ok;
 }
 

@@ -8,6 +8,7 @@
 #include "app/trapwright/engines.h"
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/part_source.h"
+#include "app/trapwright/study_engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/track_trials.h"
 #include "app/trapwright/work_display.h"
@@ -62,7 +63,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!file) return Failure{ExitCode::badInput, file.error().message};
     auto loaded = loadPart(options.part, study::PartSettings{}.density);
     if (!loaded) return loaded.failure();
-    auto engine = makeEngine(options.engine, {options.threads, options.step * 1e-3});
+    auto engine =
+        makeEngine(engineFor(options.engine, EngineUse::judging), {options.threads, options.step * 1e-3});
     if (!engine) return engine.failure();
     const auto part = std::make_shared<const part::Part>(loaded->part);
     const study::Settings settings = settingsFor(options, file->track);
@@ -82,7 +84,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
     console.print(fmt::format("{}: part {}, half-stroke {:g} mm, throw number {:.3f}, engine {}\n",
                               options.file, part->name, options.halfStroke,
-                              trial::calcThrowNumber(batch.drive), options.engine) +
+                              trial::calcThrowNumber(batch.drive), (*engine)->name()) +
                   describeShare("Finished", counts.finished, counts.trials) +
                   describeShare("Fell off", counts.fellOff, counts.trials) +
                   describeShare("Stuck", counts.stuck, counts.trials) +
@@ -92,7 +94,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                                                         : "the most frequent final orientation"));
     console.emit({{"track", options.file},
                   {"part", part->name},
-                  {"engine", options.engine},
+                  {"engine", (*engine)->name()},
                   {"half_stroke_mm", options.halfStroke},
                   {"throw_number", trial::calcThrowNumber(batch.drive)},
                   {"trials", counts.trials},

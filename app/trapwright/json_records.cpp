@@ -20,6 +20,13 @@ Json rowToJson(const study::ValidationRow& row) {
             {"fell_off", row.fellOff}};
 }
 
+Json scoreToJson(const study::EngineScore& score, int trials) {
+    Json json = {{"engine", score.engine}};
+    json.update(toJson(score.fitness));
+    json.update({{"finished", score.finished}, {"oriented", shareToJson(score.oriented, trials)}});
+    return json;
+}
+
 }  // namespace
 
 Json toJson(const base::Quaternion& rotation) {
@@ -57,6 +64,25 @@ Json toJson(const study::GenerationSummary& summary) {
             {"p_dm", statistics.topStrategy.mutation},
             {"p_s", statistics.topStrategy.smoothing},
             {"seconds", summary.seconds}};
+}
+
+Json toJson(const std::vector<study::CheckRecord>& records) {
+    Json list = Json::array();
+    for (const study::CheckRecord& record : records) {
+        const study::EngineScore& learning = record.learning;
+        const study::EngineScore& reference = record.reference;
+        const double success = static_cast<double>(reference.oriented - learning.oriented) / record.trials;
+        list.push_back({{"generation", record.generation},
+                        {"individual", record.individual},
+                        {"trials", record.trials},
+                        {"learning", scoreToJson(learning, record.trials)},
+                        {"reference", scoreToJson(reference, record.trials)},
+                        {"difference",
+                         {{"F_D", reference.fitness.distance - learning.fitness.distance},
+                          {"F_O", reference.fitness.orientation - learning.fitness.orientation},
+                          {"success", success}}}});
+    }
+    return list;
 }
 
 Json toJson(const study::SelectionRecord& record) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "core/part/part.h"
 #include "core/study/records.h"
@@ -14,6 +15,8 @@ nlohmann::ordered_json toJson(const base::Vec3& vector, double scale);
 nlohmann::ordered_json toJson(const trial::Fitness& fitness);
 nlohmann::ordered_json toJson(const study::IndividualRecord& record);
 nlohmann::ordered_json toJson(const study::GenerationSummary& summary);
+/// Differences are the reference's value less the learning engine's.
+nlohmann::ordered_json toJson(const std::vector<study::CheckRecord>& records);
 nlohmann::ordered_json toJson(const study::SelectionRecord& record);
 nlohmann::ordered_json toJson(const study::ValidationRecord& record, const part::Part& part);
 /// {"count", "share", "low", "high"} of `count` successes in `trials`.

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <mutex>
 
+#include "app/trapwright/winner_checks.h"
 #include "app/trapwright/work_display.h"
 
 namespace trapwright::app {
@@ -35,14 +36,14 @@ class Situation {
             study::estimateProgress(*plan_, generations_, control_.done(), secondsSince(begin));
         const std::int64_t trials = control_.done() - plan_->doneBefore;
         const double share =
-            plan_->trials() > 0 ? static_cast<double>(trials) / static_cast<double>(plan_->trials()) : 1.0;
+            plan_->trials > 0 ? static_cast<double>(trials) / static_cast<double>(plan_->trials) : 1.0;
         // What matters least is last, where a narrow terminal cuts.
         const std::string left =
             progress.secondsLeft > 0.0 ? formatDuration(progress.secondsLeft) + " left, " : "";
         return fmt::format("Generation {}/{} {} {}{:.0f}/s, {}/{} individuals, {}/{} trials",
                            plan_->generation + 1, generations_, formatBar(share), left,
                            progress.trialsPerSecond, progress.individualsDone, plan_->individuals, trials,
-                           plan_->trials());
+                           plan_->trials);
     }
 
  private:
@@ -102,13 +103,17 @@ Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyIn
         last = std::move(*loaded);
     }
 
+    auto started = WinnerChecks::start(file, inputs);
+    if (!started) return started.failure();
+    WinnerChecks* const checks = started->get();
+
     study::LearningControl control;
     Situation situation(inputs.settings.evolution.generations, control.run);
     const Clock::time_point begin = Clock::now();
     LearningReport report;
     bool saved = true;
     bool timeOver = false;
-    auto end = [&] {
+    auto end = [&]() -> base::Result<study::LearningEnd> {
         WorkDisplay display(console, watchLearning(situation, begin, control, console));
         study::LearningEvents events;
         events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
@@ -118,13 +123,26 @@ Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyIn
                 return status;
             }
             display.print(describeGeneration(record));
+            if (checks != nullptr) {
+                checks->add(record);
+                if (auto status = checks->save(display); !status) {
+                    saved = false;
+                    return status;
+                }
+            }
             if (timeLimit && secondsSince(begin) + record.seconds > *timeLimit) {
                 timeOver = true;
                 control.stopAfterGeneration();
             }
             return base::success();
         };
-        return study::evolve(inputs, std::move(last), events, control);
+        auto ended = study::evolve(inputs, std::move(last), events, control);
+        if (!ended || checks == nullptr) return ended;
+        if (auto status = checks->stop(display); !status) {
+            saved = false;
+            return status.error();
+        }
+        return ended;
     }();
     if (!end) return Failure{saved ? ExitCode::fault : ExitCode::cannotWrite, end.error().message};
     report.end = *end;
@@ -132,6 +150,12 @@ Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyIn
         *end == study::LearningEnd::cancelled || (*end == study::LearningEnd::stopped && !timeOver);
     report.trials = control.run.done();
     report.seconds = secondsSince(begin);
+    // Who asked to stop, or has a time limit, did not ask for this to begin.
+    if (checks != nullptr && *end == study::LearningEnd::completed && !control.stopRequested()) {
+        auto finished = checks->finish(console);
+        if (!finished) return finished.failure();
+        report.interrupted = !*finished;
+    }
     return report;
 }
 

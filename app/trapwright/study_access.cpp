@@ -120,8 +120,8 @@ Attempt<study::Winner> findIndividual(const store::StudyFile& file, const Indivi
 }
 
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       unsigned threads) {
-    auto made = makeEngine(engine.value_or(study.settings.simulation.engine), {threads, 0.0});
+                                       EngineUse use, unsigned threads) {
+    auto made = makeEngine(engineFor(engine.value_or(study.settings.simulation.engine), use), {threads, 0.0});
     if (!made) return made.failure();
     return study::StudyInputs{study.settings, study.part, *made,
                               threads == 0 ? base::availableThreads() : threads};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/trapwright/exit_codes.h"
+#include "app/trapwright/study_engines.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
 
@@ -42,8 +43,9 @@ void addIndividualOptions(CLI::App& command, IndividualChoice& choice);
 /// selection, or without any the fittest winner.
 Attempt<study::Winner> findIndividual(const store::StudyFile& file, const IndividualChoice& choice);
 
-/// The study's engine, or the one named, made for these threads (0: all).
+/// The engine for this use that the study's setting, or the one named, means; made for these threads (0:
+/// all).
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       unsigned threads);
+                                       EngineUse use, unsigned threads);
 
 }  // namespace trapwright::app

@@ -103,7 +103,9 @@ void addSettingOptions(CLI::App& command, SettingOptions& options) {
     command.add_option("--population", options.population, "Individuals of a generation");
     command.add_option("--trials", options.trials, "Simulated trials of every individual");
     command.add_option("--seed", options.seed, "Of all random numbers");
-    command.add_option("--engine", options.engine, "What simulates: simbody");
+    command.add_option(
+        "--engine", options.engine,
+        "What simulates: native, simbody, or hybrid (native, each generation's winner checked by simbody)");
 }
 
 Attempt<study::Settings> applySettings(study::Settings settings, const SettingOptions& options) {
@@ -120,7 +122,8 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
     evolution.trialsPerEvaluation = options.trials.value_or(evolution.trialsPerEvaluation);
     evolution.seed = options.seed.value_or(evolution.seed);
     settings.simulation.engine = options.engine.value_or(settings.simulation.engine);
-    if (auto engine = findEngine(settings.simulation.engine); !engine) return engine.failure();
+    if (auto engine = findEngine(engineFor(settings.simulation.engine, EngineUse::learning)); !engine)
+        return Failure{engine.failure().code, engine.failure().message + " A study also takes hybrid."};
     return settings;
 }
 

@@ -60,6 +60,26 @@ base::Status dumpGenes(const StudyFile& study, const std::function<void(std::str
     return base::success();
 }
 
+base::Result<std::string> dumpChecks(const StudyFile& study) {
+    const auto checks = study.loadChecks();
+    if (!checks) return checks.error();
+    std::string lines;
+    for (const study::CheckRecord& check : *checks) {
+        lines += std::to_string(check.generation) + " " + std::to_string(check.individual) + " " +
+                 std::to_string(check.trials);
+        for (const study::EngineScore* score : {&check.learning, &check.reference}) {
+            lines += " " + score->engine;
+            for (const double value :
+                 {score->fitness.collision, score->fitness.distance, score->fitness.orientation}) {
+                lines += " " + exactText(value);
+            }
+            lines += " " + std::to_string(score->finished) + " " + std::to_string(score->oriented);
+        }
+        lines += "\n";
+    }
+    return lines;
+}
+
 base::Result<std::string> findDifference(const StudyFile& a, const StudyFile& b) {
     const auto countA = a.generationCount();
     const auto countB = b.generationCount();

@@ -14,8 +14,12 @@ namespace trapwright::store {
 /// of the same study give the same lines. Each call of `write` gets the lines of one generation.
 base::Status dumpGenes(const StudyFile& study, const std::function<void(std::string_view lines)>& write);
 
+/// The checks of winners as text, one line each: generation, individual, trials; then of the learning engine
+/// and of the reference the name, F_C, F_D, F_O to the last bit, finished, oriented.
+base::Result<std::string> dumpChecks(const StudyFile& study);
+
 /// Where the genes and scores of two studies first differ, in words; empty if they are the same. Wall times
-/// do not count.
+/// and checks of winners do not count.
 base::Result<std::string> findDifference(const StudyFile& a, const StudyFile& b);
 
 }  // namespace trapwright::store

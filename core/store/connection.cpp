@@ -35,13 +35,6 @@ std::filesystem::path sidePath(const std::filesystem::path& path, const char* su
     return side;
 }
 
-/// Whether transactions are still waiting in the write-ahead log.
-bool hasPendingLog(const std::filesystem::path& path) {
-    std::error_code missing;
-    const auto size = std::filesystem::file_size(sidePath(path, "-wal"), missing);
-    return !missing && size > 0;
-}
-
 std::uint64_t bigEndian(const std::array<char, kHeaderSize>& header, std::size_t offset, std::size_t bytes) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < bytes; ++i)
@@ -133,6 +126,12 @@ base::Error describeFailure(const std::exception& failure, const std::filesystem
         default:
             return {doing + ": " + study + ": " + failure.what() + "."};
     }
+}
+
+bool hasPendingLog(const std::filesystem::path& path) {
+    std::error_code missing;
+    const auto size = std::filesystem::file_size(sidePath(path, "-wal"), missing);
+    return !missing && size > 0;
 }
 
 base::Status checkStudyFile(const std::filesystem::path& path) {

@@ -17,6 +17,9 @@ namespace trapwright::store {
 base::Error describeFailure(const std::exception& failure, const std::filesystem::path& path,
                             const std::string& doing);
 
+/// Whether transactions are still waiting in the write-ahead log beside the study.
+bool hasPendingLog(const std::filesystem::path& path);
+
 /// An error if there is no file, or it is plainly no study: empty, cut off, not SQLite.
 base::Status checkStudyFile(const std::filesystem::path& path);
 

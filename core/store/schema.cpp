@@ -77,7 +77,25 @@ CREATE TABLE validation_row (
 ) WITHOUT ROWID;
 )sql";
 
-constexpr std::array<Migration, 1> kMigrations = {{{1, kVersion1}}};
+// What studies of version 1 were learned with, whatever the defaults become.
+constexpr const char* kVersion2 = R"sql(
+CREATE TABLE winner_check (
+    generation INTEGER PRIMARY KEY REFERENCES generation (number),
+    individual INTEGER NOT NULL,    -- the winner
+    program TEXT NOT NULL,
+    trials INTEGER NOT NULL,        -- in each engine
+    learning_engine TEXT NOT NULL,
+    learning_collision REAL NOT NULL, learning_distance REAL NOT NULL, learning_orientation REAL NOT NULL,
+    learning_finished INTEGER NOT NULL, learning_oriented INTEGER NOT NULL,
+    reference_engine TEXT NOT NULL,
+    reference_collision REAL NOT NULL, reference_distance REAL NOT NULL, reference_orientation REAL NOT NULL,
+    reference_finished INTEGER NOT NULL, reference_oriented INTEGER NOT NULL
+);
+UPDATE study SET settings = json_set(settings, '$.evolution.racingTrials', 0,
+    '$.evolution.racingShare', 0.3, '$.evolution.commonRandomNumbers', json('false'));
+)sql";
+
+constexpr std::array<Migration, 2> kMigrations = {{{1, kVersion1}, {2, kVersion2}}};
 
 }  // namespace
 

@@ -130,6 +130,12 @@ base::Result<StudyFile> StudyFile::create(const std::filesystem::path& path, con
     if (std::filesystem::exists(std::filesystem::symlink_status(path, missing))) return refuseExisting();
     auto lock = FileLock::acquire(path);
     if (!lock) return lock.error();
+    // SQLite would take the old study's log for that of the new one, and mix the two.
+    if (hasPendingLog(path)) {
+        return base::Error{"The study " + path.string() + " cannot be made: " + path.string() +
+                           "-wal is there, the log of a study of that name that is gone. Delete it, or put "
+                           "that study back and open it once."};
+    }
 
     // Written beside and renamed, so that a study is either whole or not there.
     std::filesystem::path unfinished = path;

@@ -69,6 +69,14 @@ class StudyFile {
     /// The winner of every generation, in their order.
     [[nodiscard]] base::Result<std::vector<study::Winner>> loadWinners() const;
 
+    /// Adds the check of a generation's winner, in a transaction of its own. An error if the generation has
+    /// one already.
+    base::Status saveCheck(const study::CheckRecord& record);
+    /// All checks, in the order of their generations.
+    [[nodiscard]] base::Result<std::vector<study::CheckRecord>> loadChecks() const;
+    /// The winners that were simulated and have no check, in the order of their generations.
+    [[nodiscard]] base::Result<std::vector<study::Winner>> loadUncheckedWinners() const;
+
     base::Status saveSelection(const study::SelectionRecord& record);
     /// All selections, oldest first.
     [[nodiscard]] base::Result<std::vector<study::SelectionRecord>> loadSelections() const;

@@ -76,6 +76,25 @@ std::string nameOf(int generation, int individual) {
     return "individual " + std::to_string(individual) + " of generation " + std::to_string(generation);
 }
 
+base::Result<std::vector<study::Winner>> readWinners(SQLite::Database& database,
+                                                     const std::filesystem::path& path,
+                                                     const std::string& condition) {
+    SQLite::Statement query(database, std::string("SELECT generation, individual.number, ") +
+                                          kIndividualColumns +
+                                          " FROM generation JOIN individual ON individual.generation = "
+                                          "generation.number AND individual.number = generation.winner " +
+                                          condition + "ORDER BY generation");
+    std::vector<study::Winner> winners;
+    while (query.executeStep()) {
+        const int generation = query.getColumn(0).getInt();
+        const int number = query.getColumn(1).getInt();
+        auto record = readIndividual(query, 2);
+        if (!record) return damagedValue(path, nameOf(generation, number));
+        winners.push_back({generation, number, std::move(*record)});
+    }
+    return winners;
+}
+
 }  // namespace
 
 base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
@@ -180,22 +199,15 @@ base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int
 
 base::Result<std::vector<study::Winner>> StudyFile::loadWinners() const {
     return guarded(path(), "The winners could not be read",
-                   [&]() -> base::Result<std::vector<study::Winner>> {
-                       SQLite::Statement query(
-                           *state_->database,
-                           std::string("SELECT generation, individual.number, ") + kIndividualColumns +
-                               " FROM generation JOIN individual ON individual.generation = generation.number"
-                               " AND individual.number = generation.winner ORDER BY generation");
-                       std::vector<study::Winner> winners;
-                       while (query.executeStep()) {
-                           const int generation = query.getColumn(0).getInt();
-                           const int number = query.getColumn(1).getInt();
-                           auto record = readIndividual(query, 2);
-                           if (!record) return damagedValue(path(), nameOf(generation, number));
-                           winners.push_back({generation, number, std::move(*record)});
-                       }
-                       return winners;
-                   });
+                   [&] { return readWinners(*state_->database, path(), ""); });
+}
+
+base::Result<std::vector<study::Winner>> StudyFile::loadUncheckedWinners() const {
+    return guarded(path(), "The winners could not be read", [&] {
+        return readWinners(*state_->database, path(),
+                           "WHERE individual.trials > 0 AND NOT EXISTS (SELECT 1 FROM winner_check "
+                           "WHERE winner_check.generation = generation.number) ");
+    });
 }
 
 }  // namespace trapwright::store

@@ -1,9 +1,10 @@
 #include "core/study/evaluator.h"
 
-#include <optional>
+#include <algorithm>
 #include <string>
 
 #include "core/base/parallel.h"
+#include "core/evolution/racing.h"
 #include "core/geometry/self_overlap.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
@@ -15,33 +16,32 @@ namespace {
 /// An individual on its way to a record.
 struct Candidate {
     std::shared_ptr<const track::Track> track;
-    int overlaps = 0;
-    std::optional<trial::TrialBatch> batch;  // if it is to be simulated
+    bool simulated = false;
+    std::vector<trial::Outcome> outcomes;  // so far
+    IndividualRecord record;
     std::string failure;
 };
 
-Candidate prepare(const StudyInputs& inputs, int generation, int individual,
-                  const evolution::Chromosome& chromosome) {
+Candidate prepare(const StudyInputs& inputs, const evolution::Chromosome& chromosome) {
     const Settings& settings = inputs.settings;
     Candidate candidate;
+    candidate.record.chromosome = chromosome;
     auto track = decodeTrack(settings.track, chromosome);
     if (!track) {
         candidate.failure = track.error().message;
         return candidate;
     }
     candidate.track = std::make_shared<const track::Track>(std::move(track).value());
-    candidate.overlaps =
+    candidate.record.overlaps =
         geometry::countOverlappingTriangles(candidate.track->solid, candidate.track->surfaceTriangles);
-    if (candidate.overlaps == 0 || settings.evolution.simulateOverlapping) {
-        const TrialScene scene{&settings.simulation, inputs.part, candidate.track, settings.evolution.seed};
-        candidate.batch =
-            makeLearningBatch(scene, generation, individual, settings.evolution.trialsPerEvaluation);
-    }
+    candidate.simulated = candidate.record.overlaps == 0 || settings.evolution.simulateOverlapping;
+    if (!candidate.simulated)
+        candidate.record.fitness = trial::calcUnsimulatedFitness(*candidate.track, candidate.record.overlaps);
     return candidate;
 }
 
 void countEndings(std::span<const trial::Outcome> outcomes, IndividualRecord& record) {
-    record.trials = static_cast<int>(outcomes.size());
+    record.trials += static_cast<int>(outcomes.size());
     for (const trial::Outcome& outcome : outcomes) {
         if (outcome.ending == trial::Ending::finished) {
             ++record.finished;
@@ -61,6 +61,79 @@ base::Error brokenEngine(const trial::Engine& engine, const std::string& what) {
     return {"The engine " + engine.name() + " " + what +
             ". This is a fault of the engine; choose another one."};
 }
+
+/// The race of a generation's individuals; without racing a race of one round.
+class Race {
+ public:
+    Race(const StudyInputs& inputs, int generation, std::vector<Candidate>& candidates)
+        : inputs_(&inputs),
+          generation_(generation),
+          candidates_(&candidates),
+          stages_(evolution::makeRacingStages(candidates.size(), settings().racingTrials,
+                                              settings().trialsPerEvaluation, settings().racingShare)),
+          running_(static_cast<int>(
+              std::count_if(candidates.begin(), candidates.end(),
+                            [](const Candidate& candidate) { return candidate.simulated; }))) {}
+
+    /// Who runs next; empty when all is decided.
+    [[nodiscard]] std::vector<evolution::RacingStep> findNextRound() const {
+        std::vector<double> fitnesses;
+        for (const Candidate& candidate : *candidates_)
+            fitnesses.push_back(candidate.record.fitness.total());
+        return evolution::findNextRound(fitnesses, countTrials(), stages_);
+    }
+
+    [[nodiscard]] GenerationPlan plan(std::span<const evolution::RacingStep> round,
+                                      std::int64_t doneBefore) const {
+        std::vector<int> trials = countTrials();
+        for (const evolution::RacingStep& step : round)
+            trials[step.individual] = step.trials;
+        return {generation_, static_cast<int>(candidates_->size()), running_,
+                evolution::countRacingTrials(trials, running_, stages_), doneBefore};
+    }
+
+    base::Status run(std::span<const evolution::RacingStep> round, const base::RunControl& control) {
+        std::vector<trial::TrialBatch> batches(round.size());
+        base::parallelFor(round.size(), inputs_->threads, [&](std::size_t i, unsigned /*worker*/) {
+            const Candidate& candidate = (*candidates_)[round[i].individual];
+            const int first = candidate.record.trials;
+            batches[i] =
+                makeLearningBatch(makeScene(inputs_->settings, inputs_->part, candidate.track), generation_,
+                                  static_cast<int>(round[i].individual), round[i].trials - first, first);
+        });
+        auto outcomes = runTrials(*inputs_->engine, batches, control);
+        if (!outcomes) return outcomes.error();
+        // Eq. 5 goes over all pairs, so this is worth the threads, too.
+        base::parallelFor(round.size(), inputs_->threads, [&](std::size_t i, unsigned /*worker*/) {
+            score((*outcomes)[i], (*candidates_)[round[i].individual]);
+        });
+        return base::success();
+    }
+
+ private:
+    [[nodiscard]] const EvolutionSettings& settings() const { return inputs_->settings.evolution; }
+
+    [[nodiscard]] std::vector<int> countTrials() const {
+        std::vector<int> trials;
+        for (const Candidate& candidate : *candidates_)
+            trials.push_back(candidate.simulated ? candidate.record.trials : settings().trialsPerEvaluation);
+        return trials;
+    }
+
+    void score(std::span<const trial::Outcome> more, Candidate& candidate) const {
+        candidate.outcomes.insert(candidate.outcomes.end(), more.begin(), more.end());
+        countEndings(more, candidate.record);
+        candidate.record.fitness =
+            trial::calcFitness(*candidate.track, candidate.outcomes, candidate.record.overlaps,
+                               inputs_->part->symmetry, settings().orientationDistance);
+    }
+
+    const StudyInputs* inputs_;
+    int generation_;
+    std::vector<Candidate>* candidates_;
+    std::vector<evolution::RacingStage> stages_;
+    int running_;
+};
 
 }  // namespace
 
@@ -98,51 +171,30 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
 base::Result<std::vector<IndividualRecord>> evaluateGeneration(
     const StudyInputs& inputs, int generation, std::span<const evolution::Chromosome> population,
     const std::function<void(const GenerationPlan&)>& planned, base::RunControl control) {
-    // Build all tracks.
     std::vector<Candidate> candidates(population.size());
     base::parallelFor(population.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
-        if (control.cancelled()) return;
-        candidates[i] = prepare(inputs, generation, static_cast<int>(i), population[i]);
+        if (!control.cancelled()) candidates[i] = prepare(inputs, population[i]);
     });
     if (control.cancelled()) return base::Error{"The evaluation was cancelled."};
-
-    // Simulate what can be simulated, all at once.
-    std::vector<trial::TrialBatch> batches;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (!candidates[i].failure.empty()) {
-            return base::Error{"The track of individual " + std::to_string(i) + " of generation " +
-                               std::to_string(generation) + " cannot be built: " + candidates[i].failure};
-        }
-        if (candidates[i].batch) batches.push_back(std::move(*candidates[i].batch));
+        if (candidates[i].failure.empty()) continue;
+        return base::Error{"The track of individual " + std::to_string(i) + " of generation " +
+                           std::to_string(generation) + " cannot be built: " + candidates[i].failure};
     }
-    const EvolutionSettings& settings = inputs.settings.evolution;
-    if (planned) {
-        planned({generation, static_cast<int>(population.size()), static_cast<int>(batches.size()),
-                 settings.trialsPerEvaluation, control.done()});
-    }
-    const auto outcomes = runTrials(*inputs.engine, batches, control);
-    if (!outcomes) return outcomes.error();
 
-    // Score; Eq. 5 goes over all pairs, so this is worth the threads, too.
-    std::vector<std::size_t> batchOf(candidates.size());
-    for (std::size_t i = 0, next = 0; i < candidates.size(); ++i) {
-        if (candidates[i].batch) batchOf[i] = next++;
-    }
-    std::vector<IndividualRecord> records(candidates.size());
-    base::parallelFor(candidates.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
-        const Candidate& candidate = candidates[i];
-        IndividualRecord& record = records[i];
-        record.chromosome = population[i];
-        record.overlaps = candidate.overlaps;
-        if (!candidate.batch) {
-            record.fitness = trial::calcUnsimulatedFitness(*candidate.track, candidate.overlaps);
-            return;
-        }
-        const std::vector<trial::Outcome>& own = (*outcomes)[batchOf[i]];
-        countEndings(own, record);
-        record.fitness = trial::calcFitness(*candidate.track, own, candidate.overlaps, inputs.part->symmetry,
-                                            settings.orientationDistance);
-    });
+    Race race(inputs, generation, candidates);
+    const std::int64_t doneBefore = control.done();
+    auto round = race.findNextRound();
+    do {
+        if (planned) planned(race.plan(round, doneBefore));
+        if (const auto ran = race.run(round, control); !ran) return ran.error();
+        round = race.findNextRound();
+    } while (!round.empty());
+
+    std::vector<IndividualRecord> records;
+    records.reserve(candidates.size());
+    for (Candidate& candidate : candidates)
+        records.push_back(std::move(candidate.record));
     return records;
 }
 

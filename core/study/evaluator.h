@@ -32,9 +32,10 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
                                                                  base::RunControl control);
 
 /// Judges every individual of a generation (paper, section 3, step 2a): its track is built, overlapping
-/// triangles are counted, and all trials of all individuals go to the engine at once. A track that overlaps
-/// itself is not simulated unless the settings want it. `planned` is called once, before the trials begin. An
-/// error if cancelled.
+/// triangles are counted, and all trials of all individuals go to the engine at once; in a race, those of
+/// each round (core/evolution/racing.h). A track that overlaps itself is not simulated unless the settings
+/// want it. `planned` is called before the trials, in a race before those of each round. An error if
+/// cancelled.
 base::Result<std::vector<IndividualRecord>> evaluateGeneration(
     const StudyInputs& inputs, int generation, std::span<const evolution::Chromosome> population,
     const std::function<void(const GenerationPlan&)>& planned, base::RunControl control);

@@ -8,15 +8,14 @@
 
 namespace trapwright::study {
 
-/// What one generation is going to cost, known once its tracks are built.
+/// What one generation is going to cost, known once its tracks are built; of a race an estimate, made anew
+/// for each round.
 struct GenerationPlan {
     int generation = 0;
     int individuals = 0;          // the population
     int simulated = 0;            // of them; the others' surfaces overlap themselves
-    int trialsPerIndividual = 0;  // of those simulated
+    std::int64_t trials = 0;      // of all together
     std::int64_t doneBefore = 0;  // RunControl::done() before its first trial
-
-    [[nodiscard]] std::int64_t trials() const { return std::int64_t{simulated} * trialsPerIndividual; }
 };
 
 /// A copyable handle on a learning run: any copy may stop it, from any thread and from a signal handler.

@@ -73,6 +73,9 @@ Settings paperMode(Settings settings) {
     settings.evolution.smoothingLimit = 1.0;
     settings.evolution.mutationFloor = 0.0;
     settings.evolution.simulateOverlapping = true;
+    settings.evolution.racingTrials = 0;
+    settings.evolution.commonRandomNumbers = false;
+    settings.simulation.engine = "simbody";
     return settings;
 }
 

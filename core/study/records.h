@@ -56,6 +56,27 @@ struct Winner {
     IndividualRecord record;
 };
 
+/// What one engine made of the trials of a check.
+struct EngineScore {
+    std::string engine;
+    trial::Fitness fitness;
+    int finished = 0;
+    int oriented = 0;  // finished within the tolerance of the learning engine's modal orientation
+
+    friend bool operator==(const EngineScore&, const EngineScore&) = default;
+};
+
+/// A generation's winner on the same trials in the engine that learned and in the reference.
+struct CheckRecord {
+    int generation = 0;
+    int individual = 0;
+    int trials = 0;  // in each engine
+    EngineScore learning;
+    EngineScore reference;
+
+    friend bool operator==(const CheckRecord&, const CheckRecord&) = default;
+};
+
 /// A winner re-simulated with many trials (paper, section 6.1.1).
 struct SelectionEntry {
     int generation = 0;

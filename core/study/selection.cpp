@@ -46,9 +46,8 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     for (const Winner& winner : ranked) {
         auto track = decodeTrack(settings.track, winner.record.chromosome);
         if (!track) return track.error();
-        const TrialScene scene{&settings.simulation, inputs.part,
-                               std::make_shared<const track::Track>(std::move(track).value()),
-                               settings.evolution.seed};
+        const TrialScene scene =
+            makeScene(settings, inputs.part, std::make_shared<const track::Track>(std::move(track).value()));
         batches.push_back(makeSelectionBatch(scene, winner.generation, winner.individual,
                                              settings.validation.selectionTrials));
     }

@@ -45,6 +45,9 @@ struct EvolutionSettings {
     double mutationFloor = 0.0005;  // floor of p_dm; 0 in the paper
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0
+    int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody
+    double racingShare = 0.3;          // of the population that gets all N in a race
+    bool commonRandomNumbers = false;  // trial i is the same for all individuals of a generation
     int generations = 200;
     std::uint64_t seed = 1;
 

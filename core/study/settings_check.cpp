@@ -108,6 +108,11 @@ std::vector<std::string> findProblems(const Settings& settings) {
                            "; it must not be more than evolution.populationSize, which is " +
                            std::to_string(evolution.populationSize) + ".");
     }
+    if (evolution.racingTrials == 1) {
+        problems.emplace_back(
+            "evolution.racingTrials is 1; F_O compares two parts at least, so it must be 0 (no race) or at "
+            "least 2.");
+    }
     const trial::ContactParameters& contact = settings.simulation.contact;
     if (contact.kineticFriction > contact.staticFriction) {
         problems.push_back("simulation.contact.kineticFriction is " +

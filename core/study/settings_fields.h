@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/evolution/statistics.h"
 #include "core/study/number_text.h"
 #include "core/study/settings.h"
 
@@ -71,6 +72,9 @@ void visitFields(Visitor& v, SettingsType& s) {
              Choices<trial::OrientationDistance, 2>{{{"symmetric", trial::OrientationDistance::symmetric},
                                                      {"plain", trial::OrientationDistance::plain}}});
     v.flag("evolution.simulateOverlapping", s.evolution.simulateOverlapping);
+    v.count({"evolution.racingTrials", 0, 1000000}, s.evolution.racingTrials);
+    v.number({"evolution.racingShare", none, evolution::kTopShare, 1.0}, s.evolution.racingShare);
+    v.flag("evolution.commonRandomNumbers", s.evolution.commonRandomNumbers);
     v.count({"evolution.generations", 1, 1000000}, s.evolution.generations);
     v.seed("evolution.seed", s.evolution.seed);
 

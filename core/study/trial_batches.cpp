@@ -1,5 +1,7 @@
 #include "core/study/trial_batches.h"
 
+#include <utility>
+
 #include "core/trial/start.h"
 
 namespace trapwright::study {
@@ -34,9 +36,17 @@ base::StreamKey keyOf(const TrialScene& scene, int generation, int individual, i
 
 }  // namespace
 
-trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials) {
+TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part> part,
+                     std::shared_ptr<const track::Track> track) {
+    return {&settings.simulation, std::move(part), std::move(track), settings.evolution.seed,
+            settings.evolution.commonRandomNumbers};
+}
+
+trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials,
+                                    int first) {
+    const int stream = scene.commonRandomNumbers ? 0 : individual;
     return makeBatch(scene, scene.simulation->start,
-                     keyOf(scene, generation, individual, 0, base::Purpose::trialStart), trials);
+                     keyOf(scene, generation, stream, first, base::Purpose::trialStart), trials);
 }
 
 trial::TrialBatch makeSelectionBatch(const TrialScene& scene, int generation, int individual, int trials) {

@@ -7,20 +7,28 @@
 
 namespace trapwright::study {
 
-/// What every trial of a study has in common.
+/// What every trial on one track of a study has in common.
 struct TrialScene {
     const SimulationSettings* simulation = nullptr;
     std::shared_ptr<const part::Part> part;
     std::shared_ptr<const track::Track> track;
-    std::uint64_t seed = 0;  // of the study
+    std::uint64_t seed = 0;            // of the study
+    bool commonRandomNumbers = false;  // see makeLearningBatch
 };
+
+/// The scene of a track of the study. Refers to `settings`.
+TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part> part,
+                     std::shared_ptr<const track::Track> track);
 
 /// Each trial's start is drawn from its own stream (seed, generation, individual, trial, purpose), so that
 /// any single trial can be made again from the study alone. Each of these makes the batch anew with the same
 /// bits.
 
-/// The trials by which an individual is judged while learning.
-trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials);
+/// The trials by which an individual is judged while learning: `trials` of them from `first` on. With common
+/// random numbers all individuals of a generation have the streams of individual 0, so that each meets the
+/// same starts and a difference of two scores has less noise.
+trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials,
+                                    int first = 0);
 
 /// Fresh trials of a winner (paper, section 6.1.1).
 trial::TrialBatch makeSelectionBatch(const TrialScene& scene, int generation, int individual, int trials);

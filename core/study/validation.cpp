@@ -53,9 +53,8 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner&
     }
     auto built = decodeTrack(settings.track, individual.record.chromosome);
     if (!built) return built.error();
-    const TrialScene scene{&settings.simulation, inputs.part,
-                           std::make_shared<const track::Track>(std::move(built).value()),
-                           settings.evolution.seed};
+    const TrialScene scene =
+        makeScene(settings, inputs.part, std::make_shared<const track::Track>(std::move(built).value()));
     std::vector<trial::TrialBatch> batches;
     batches.reserve(static_cast<std::size_t>(poses));
     for (int pose = 0; pose < poses; ++pose) {

@@ -84,6 +84,31 @@ class StudyTroubleTest : public QObject {
         path_ = directory_ / "study.trap";
     }
 
+    /// A run is killed, and somebody deletes the study, but not the log beside it.
+    void logOfAStudyThatIsGoneIsNotTakenUp() {
+        std::filesystem::path log = path_;
+        log += "-wal";
+        const std::filesystem::path kept = directory_ / "kept";
+        sample::write(path_, 0);
+        {
+            auto study = store::StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(study);
+            VERIFY_OK(study->saveGeneration(sample::generation(0)));
+            QVERIFY(std::filesystem::copy_file(log, kept));
+        }
+        std::filesystem::remove(path_);
+        std::filesystem::rename(kept, log);
+        const auto create = [&] {
+            return store::StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+        };
+        QVERIFY(sample::messageOf(create()).contains("study.trap-wal is there"));
+        QVERIFY(std::filesystem::exists(log) && !std::filesystem::exists(path_));
+        std::filesystem::remove(log);
+        const auto made = create();
+        VERIFY_OK(made);
+        QCOMPARE(made->generationCount().value(), 0);
+    }
+
     void unusableFilesAreRefused_data() {
         QTest::addColumn<QString>("kind");
         QTest::addColumn<QString>("message");

@@ -33,8 +33,9 @@ class FakeEngine : public trial::Engine {
 
     /// Called after each trial, from any thread.
     std::function<void()> afterTrial;
+    std::string title = "fake";
 
-    [[nodiscard]] std::string name() const override { return "fake"; }
+    [[nodiscard]] std::string name() const override { return title; }
     [[nodiscard]] double defaultStep() const override { return 1e-3; }
 
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(

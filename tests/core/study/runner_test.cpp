@@ -161,10 +161,10 @@ class RunnerTest : public QObject {
                 std::count_if(record.individuals.begin(), record.individuals.end(),
                               [](const study::IndividualRecord& r) { return r.trials > 0; });
             if (plan.generation != record.index || plan.individuals != 24 || plan.simulated != simulated ||
-                plan.doneBefore != expected || plan.trials() != 6 * simulated) {
+                plan.doneBefore != expected || plan.trials != 6 * simulated) {
                 return base::Status(base::Error{"the plan is wrong"});
             }
-            expected += plan.trials();
+            expected += plan.trials;
             return control.run.done() == expected ? base::success()
                                                   : base::Status(base::Error{"trials are miscounted"});
         };
@@ -272,7 +272,7 @@ class RunnerTest : public QObject {
     }
 
     void progressIsArithmetic() {
-        const study::GenerationPlan plan{2, 10, 8, 100, 1600};
+        const study::GenerationPlan plan{2, 10, 8, 800, 1600};
         const study::LearningProgress none = study::estimateProgress(plan, 5, 0, 0.0);
         QCOMPARE(none.individualsDone, 2);
         QCOMPARE(none.trialsPerSecond, 0.0);

@@ -74,6 +74,9 @@ class SettingsCheckTest : public QObject {
         QCOMPARE(s.evolution.smoothingLimit, 1.0);
         QCOMPARE(s.evolution.mutationFloor, 0.0);
         QVERIFY(s.evolution.simulateOverlapping);
+        QCOMPARE(s.evolution.racingTrials, 0);
+        QVERIFY(!s.evolution.commonRandomNumbers);
+        QCOMPARE(s.simulation.engine, std::string("simbody"));
     }
 
     void materialsAreFoundByName() {
@@ -96,6 +99,13 @@ class SettingsCheckTest : public QObject {
         row(
             "negative population", [](Settings& s) { s.evolution.populationSize = -5; },
             "evolution.populationSize is -5; it must be from 2 to 100000.");
+        row(
+            "race of one trial", [](Settings& s) { s.evolution.racingTrials = 1; },
+            "evolution.racingTrials is 1; F_O compares two parts at least, so it must be 0 (no race) or at "
+            "least 2.");
+        row(
+            "race for fewer than the statistics show", [](Settings& s) { s.evolution.racingShare = 0.25; },
+            "evolution.racingShare is 0.25; it must be from 0.3 to 1.");
         row(
             "negative length", [](Settings& s) { s.track.segmentWidth = -3e-3; },
             "track.segmentWidth_mm is -3; it must be from 1 to 1000.");

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "core/base/run_control.h"
+#include "core/study/evaluator.h"
+#include "core/study/records.h"
+
+namespace trapwright::study {
+
+/// Checks winners (reference_check.h) on one thread of its own, of the lowest priority, so that learning is
+/// not slowed and never waits. The latest winner comes first, because it is
+/// the one that somebody who watches wants to know of. Used by one thread.
+class BackgroundChecks {
+ public:
+    /// The engine of the inputs learned. Both engines shall use one thread.
+    BackgroundChecks(StudyInputs inputs, std::shared_ptr<const trial::Engine> reference);
+    BackgroundChecks(const BackgroundChecks&) = delete;
+    BackgroundChecks& operator=(const BackgroundChecks&) = delete;
+    ~BackgroundChecks();
+
+    /// Has the winner checked sooner or later; it has trials.
+    void add(Winner winner);
+    /// What has been finished since the last call.
+    std::vector<CheckRecord> takeFinished();
+    /// Ends the thread; a check that is under way is dropped. What is still to be checked, earliest
+    /// generation first, a check that failed included.
+    std::vector<Winner> stop();
+
+ private:
+    void run();
+
+    StudyInputs inputs_;
+    std::shared_ptr<const trial::Engine> reference_;
+    base::RunControl control_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::vector<Winner> waiting_;  // the last comes first
+    std::vector<Winner> left_;     // failed or dropped
+    std::vector<CheckRecord> finished_;
+    std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace trapwright::study

@@ -1,0 +1,31 @@
+#include "core/base/thread_priority.h"
+
+#include <sys/resource.h>
+
+#include <QtTest>
+#include <thread>
+
+using namespace trapwright;
+
+class ThreadPriorityTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void onlyTheThreadAndThoseItStartsStepBack() {
+        const int before = ::getpriority(PRIO_PROCESS, 0);
+        int own = -1;
+        int started = -1;
+        std::thread thread([&] {
+            base::lowerPriority();
+            own = ::getpriority(PRIO_PROCESS, 0);
+            std::thread([&] { started = ::getpriority(PRIO_PROCESS, 0); }).join();
+        });
+        thread.join();
+        QCOMPARE(own, 19);
+        QCOMPARE(started, 19);
+        QCOMPARE(::getpriority(PRIO_PROCESS, 0), before);
+    }
+};
+
+QTEST_APPLESS_MAIN(ThreadPriorityTest)
+#include "thread_priority_test.moc"

@@ -1,0 +1,137 @@
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "core/store/compare.h"
+#include "core/store/schema.h"
+#include "sample_study.h"
+
+using namespace trapwright;
+using store::StudyFile;
+
+namespace {
+
+study::CheckRecord sampleCheck(int generation) {
+    return {generation,
+            sample::generation(generation).winner,
+            97,
+            {"native", {-1.0, -0.1 - generation, 0.1 + 0.2}, 96, 95},
+            {"simbody", {-1.0, -1.0 / 3.0, 0.7}, 94, 90 - generation}};
+}
+
+/// A generation whose winner had so many trials.
+study::GenerationRecord generationOf(int index, int winnersTrials) {
+    study::GenerationRecord record = sample::generation(index);
+    record.individuals[static_cast<std::size_t>(record.winner)].trials = winnersTrials;
+    return record;
+}
+
+/// The study as a program of schema version 1 would have left it.
+void makeOld(const std::filesystem::path& path) {
+    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    database.exec("DROP TABLE winner_check");
+    database.exec(
+        "UPDATE study SET settings = json_remove(settings, '$.evolution.racingTrials', "
+        "'$.evolution.racingShare', '$.evolution.commonRandomNumbers')");
+    database.exec("PRAGMA user_version = 1");
+}
+
+}  // namespace
+
+class StudyChecksTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void init() {
+        folder_.emplace();
+        path_ = std::filesystem::path(folder_->path().toStdString()) / "checked.trap";
+    }
+
+    void keepsChecksOfGenerations() {
+        sample::write(path_, 4);
+        {
+            auto study = StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(study);
+            QVERIFY(study->loadChecks().value().empty());
+            // As they come in: not in the order of the generations.
+            for (const int generation : {2, 0, 3})
+                VERIFY_OK(study->saveCheck(sampleCheck(generation)));
+        }
+        const auto study = StudyFile::openReadOnly(path_);
+        VERIFY_OK(study);
+        const auto checks = study->loadChecks();
+        VERIFY_OK(checks);
+        QVERIFY(*checks == (std::vector<study::CheckRecord>{sampleCheck(0), sampleCheck(2), sampleCheck(3)}));
+        const std::string lines = store::dumpChecks(*study).value();
+        QCOMPARE(std::count(lines.begin(), lines.end(), '\n'), 3);
+        const std::string first = "0 " + std::to_string(sampleCheck(0).individual) +
+                                  " 97 native -1 -0.1 0.30000000000000004 96 95 simbody -1 "
+                                  "-0.3333333333333333 0.7 94 90\n";
+        QCOMPARE(lines.substr(0, first.size()), first);
+    }
+
+    void generationHasOneCheck() {
+        sample::write(path_, 1);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        VERIFY_OK(study->saveCheck(sampleCheck(0)));
+        QVERIFY(sample::messageOf(study->saveCheck(sampleCheck(0))).contains("has one already"));
+        auto reader = StudyFile::openReadOnly(path_);
+        VERIFY_OK(reader);
+        QVERIFY(sample::messageOf(reader->saveCheck(sampleCheck(0))).contains("reading only"));
+    }
+
+    void knowsWhatIsUnchecked() {
+        sample::write(path_, 0);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        for (const auto& [index, trials] : {std::pair(0, 20), {1, 0}, {2, 100}, {3, 100}})
+            VERIFY_OK(study->saveGeneration(generationOf(index, trials)));
+        VERIFY_OK(study->saveCheck(sampleCheck(2)));
+        const auto unchecked = study->loadUncheckedWinners();
+        VERIFY_OK(unchecked);
+        // Not generation 1, whose winner was never simulated.
+        QCOMPARE(unchecked->size(), std::size_t{2});
+        for (std::size_t i = 0; i < 2; ++i) {
+            const study::GenerationRecord record = generationOf(i == 0 ? 0 : 3, i == 0 ? 20 : 100);
+            QCOMPARE((*unchecked)[i].generation, record.index);
+            QCOMPARE((*unchecked)[i].individual, record.winner);
+            QVERIFY((*unchecked)[i].record == record.individuals[static_cast<std::size_t>(record.winner)]);
+        }
+    }
+
+    void studyOfVersion1IsBroughtUpToDate() {
+        sample::write(path_, 2);
+        makeOld(path_);
+        QVERIFY(sample::messageOf(StudyFile::openReadOnly(path_)).contains("older Trapwright"));
+        {
+            auto study = StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(study);
+            QCOMPARE(study->generationCount().value(), 2);
+            QVERIFY(sample::equal(study->loadGeneration(1).value(), sample::generation(1)));
+            QVERIFY(study->loadChecks().value().empty());
+            VERIFY_OK(study->saveCheck(sampleCheck(1)));
+        }
+        const auto study = StudyFile::openReadOnly(path_);
+        VERIFY_OK(study);
+        // Learned without a race, and to the last digit with what it had.
+        QVERIFY(study->loadSettings().value() == sample::settings());
+        QCOMPARE(study->loadSettings().value().evolution.racingTrials, 0);
+        QVERIFY(study->loadChecks().value() == std::vector{sampleCheck(1)});
+        SQLite::Database database(path_.string(), SQLite::OPEN_READONLY);
+        QCOMPARE(database.execAndGet("PRAGMA user_version").getInt(), store::currentSchemaVersion());
+        const std::string json = database.execAndGet("SELECT settings FROM study").getString();
+        for (const char* pinned :
+             {"\"racingTrials\":0", "\"racingShare\":0.3", "\"commonRandomNumbers\":false"}) {
+            QVERIFY2(json.find(pinned) != std::string::npos, json.c_str());
+        }
+    }
+
+ private:
+    std::optional<QTemporaryDir> folder_;
+    std::filesystem::path path_;
+};
+
+QTEST_APPLESS_MAIN(StudyChecksTest)
+#include "study_checks_test.moc"

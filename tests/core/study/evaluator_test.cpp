@@ -1,0 +1,152 @@
+#include "core/study/evaluator.h"
+
+#include <QtTest>
+#include <map>
+#include <set>
+
+#include "core/study/runner.h"
+#include "fake_engine.h"
+
+using namespace trapwright;
+using study::GenerationRecord;
+
+namespace {
+
+/// Goes on from what is in `saved`, and adds to it.
+base::Result<study::LearningEnd> learn(const study::StudyInputs& inputs,
+                                       std::vector<GenerationRecord>& saved) {
+    study::LearningEvents events;
+    events.save = [&](const GenerationRecord& record) {
+        saved.push_back(record);
+        return base::success();
+    };
+    return study::evolve(inputs, saved.empty() ? std::nullopt : std::optional(saved.back()), events, {});
+}
+
+/// A study that races: 4, 8 and 16 trials.
+study::StudyInputs racingInputs(unsigned threads = 1) {
+    study::StudyInputs inputs = fake::waveInputs(threads);
+    inputs.settings.evolution.trialsPerEvaluation = 16;
+    inputs.settings.evolution.racingTrials = 4;
+    return inputs;
+}
+
+}  // namespace
+
+/// Races, and common random numbers: what changes which trials a generation is judged by.
+class EvaluatorTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void raceGivesAllTrialsToTheBest() {
+        const study::StudyInputs inputs = racingInputs();
+        std::vector<GenerationRecord> saved;
+        VERIFY_OK(learn(inputs, saved));
+        for (const GenerationRecord& record : saved) {
+            std::vector<study::IndividualRecord> ranked = record.individuals;
+            std::stable_sort(ranked.begin(), ranked.end(),
+                             [](const study::IndividualRecord& a, const study::IndividualRecord& b) {
+                                 return a.fitness.total() > b.fitness.total();
+                             });
+            // 30 % of 24 are 7.2.
+            for (std::size_t place = 0; place < 8; ++place)
+                QCOMPARE(ranked[place].trials, 16);
+            QVERIFY(ranked[0] == record.individuals[static_cast<std::size_t>(record.winner)]);
+            int total = 0;
+            for (const study::IndividualRecord& individual : ranked) {
+                QVERIFY(QList({0, 4, 8, 16}).contains(individual.trials));
+                QCOMPARE(individual.finished + individual.fellOff + individual.stuck, individual.trials);
+                total += individual.trials;
+            }
+            QVERIFY2(total < 24 * 16 * 3 / 4, QByteArray::number(total));
+        }
+    }
+
+    /// Trial i is trial i: who ran t trials in the race has the scores of a run of t trials.
+    void raceTakesTheTrialsOfARunWithoutOne() {
+        study::StudyInputs inputs = racingInputs();
+        inputs.settings.evolution.generations = 1;
+        std::vector<GenerationRecord> raced;
+        VERIFY_OK(learn(inputs, raced));
+        inputs.settings.evolution.racingTrials = 0;
+        int compared = 0;
+        for (const int trials : {4, 8, 16}) {
+            inputs.settings.evolution.trialsPerEvaluation = trials;
+            std::vector<GenerationRecord> plain;
+            VERIFY_OK(learn(inputs, plain));
+            for (std::size_t i = 0; i < 24; ++i) {
+                if (raced[0].individuals[i].trials != trials) continue;
+                ++compared;
+                QVERIFY(raced[0].individuals[i] == plain[0].individuals[i]);
+            }
+        }
+        QVERIFY(compared > 12);
+    }
+
+    void raceGivesTheSameBitsForAnyNumberOfThreadsAndAnyStop() {
+        std::vector<GenerationRecord> one;
+        VERIFY_OK(learn(racingInputs(1), one));
+        std::vector<GenerationRecord> many;
+        study::StudyInputs inputs = racingInputs(5);
+        inputs.settings.evolution.generations = 2;
+        VERIFY_OK(learn(inputs, many));
+        inputs.settings.evolution.generations = 5;
+        VERIFY_OK(learn(inputs, many));
+        QCOMPARE(many.size(), one.size());
+        for (std::size_t i = 0; i < one.size(); ++i)
+            QVERIFY(one[i].individuals == many[i].individuals);
+    }
+
+    void racePlansComeTrueInTheLastRound() {
+        study::LearningControl control;
+        std::vector<study::GenerationPlan> plans;
+        study::LearningEvents events;
+        events.planned = [&](const study::GenerationPlan& plan) { plans.push_back(plan); };
+        events.save = [&](const GenerationRecord& record) {
+            std::int64_t total = 0;
+            for (const study::IndividualRecord& individual : record.individuals)
+                total += individual.trials;
+            const study::GenerationPlan& last = plans.back();
+            const bool right = last.generation == record.index && last.trials == total &&
+                               last.doneBefore + total == control.run.done();
+            return right ? base::success() : base::Status(base::Error{"the plan is wrong"});
+        };
+        VERIFY_OK(study::evolve(racingInputs(), std::nullopt, events, control));
+        QVERIFY(plans.size() >= 5 * 3);  // three stages at least
+    }
+
+    void commonRandomNumbersAreAGenerations_data() {
+        QTest::addColumn<bool>("common");
+        QTest::newRow("common") << true;
+        QTest::newRow("of its own") << false;
+    }
+    void commonRandomNumbersAreAGenerations() {
+        QFETCH(bool, common);
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.evolution.commonRandomNumbers = common;
+        inputs.settings.evolution.generations = 2;
+        // What an engine is given: per generation and trial, how many starts there are.
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<double>> phases;
+        inputs.engine = std::make_shared<fake::FakeEngine>(
+            [&](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                phases[{spec.stream.generation, spec.stream.trial}].insert(spec.start.phase);
+                return fake::waveLaw(batch, spec);
+            });
+        std::vector<GenerationRecord> saved;
+        VERIFY_OK(learn(inputs, saved));
+        QCOMPARE(phases.size(), std::size_t{2 * 6});
+        std::set<double> all;
+        for (const auto& [trial, own] : phases) {
+            const GenerationRecord& record = saved[trial.first];
+            const auto simulated = static_cast<std::size_t>(
+                std::count_if(record.individuals.begin(), record.individuals.end(),
+                              [](const study::IndividualRecord& r) { return r.trials > 0; }));
+            QCOMPARE(own.size(), common ? std::size_t{1} : simulated);
+            all.insert(own.begin(), own.end());
+        }
+        if (common) QCOMPARE(all.size(), std::size_t{2 * 6});  // no two trials alike
+    }
+};
+
+QTEST_APPLESS_MAIN(EvaluatorTest)
+#include "evaluator_test.moc"
