@@ -35,6 +35,8 @@ SQLite       core/store     ^(SQLiteCpp/|sqlite3)
 Simbody      sim/simbody    ^(Simbody[.]h|SimTK|simbody/|simmath/)
 VTK          ui/scene       ^vtk
 Highway      sim/native     ^hwy/
+ODE          tests/peers    ^ode/
+MuJoCo       tests/peers    ^mujoco/
 Random123    core/base      ^Random123/
 HACD         one            (^|/)hacd[A-Z]
 lib3mf       one            (^|/)(lib3mf|NMR_|Model/COM/)

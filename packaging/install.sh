@@ -19,15 +19,20 @@ packages=(
     # tests
     qt6-base-dev
 )
+# other simulators that tests/peers measures against
+peers=(libmujoco-dev libode-dev)
 
 usage() {
     cat <<USAGE
-Usage: packaging/install.sh
+Usage: packaging/install.sh [--peers]
 
 Installs, as root or through sudo, the Debian 12 packages that Trapwright is built, run and tested with.
 Does nothing when all of them are there. The packages:
 
 $(printf '%s\n' "${packages[@]}" | sort | fmt -w 100)
+
+  --peers      also those for the comparison with other simulators (tests/peers): ${peers[*]}
+  -h, --help   this text
 USAGE
 }
 
@@ -42,6 +47,7 @@ for argument in "$@"; do
             usage
             exit 0
             ;;
+        --peers) packages+=("${peers[@]}") ;;
         *) fail "unknown option '$argument'. See packaging/install.sh --help." ;;
     esac
 done

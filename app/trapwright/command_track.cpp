@@ -10,10 +10,10 @@
 #include "app/trapwright/part_source.h"
 #include "app/trapwright/study_engines.h"
 #include "app/trapwright/study_jobs.h"
-#include "app/trapwright/track_trials.h"
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
 #include "core/study/evaluator.h"
+#include "core/study/track_trials.h"
 #include "core/track/track_file.h"
 
 namespace trapwright::app {
@@ -71,16 +71,17 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (const auto checked = study::checkInputs({settings, part, *engine}); !checked)
         return Failure{ExitCode::usage, checked.error().message};
 
-    const trial::TrialBatch batch = makeTrackBatch(std::make_shared<const track::Track>(file->track), part,
-                                                   settings.simulation, options.seed, options.trials);
+    const trial::TrialBatch batch =
+        study::makeTrackBatch(std::make_shared<const track::Track>(file->track), part, settings.simulation,
+                              options.seed, options.trials);
     base::RunControl control;
     const auto outcomes = [&] {
         const WorkDisplay display(console, watchTrials("Simulating", options.trials, control));
         return study::runTrials(**engine, {&batch, 1}, control);
     }();
     if (!outcomes) return describeRunFailure(control, outcomes.error());
-    const TrialCounts counts = countTrials(outcomes->front(), part->symmetry, file->expectedOrientation,
-                                           settings.validation.tolerance);
+    const study::TrialCounts counts = study::countTrials(
+        outcomes->front(), part->symmetry, file->expectedOrientation, settings.validation.tolerance);
 
     console.print(fmt::format("{}: part {}, half-stroke {:g} mm, throw number {:.3f}, engine {}\n",
                               options.file, part->name, options.halfStroke,

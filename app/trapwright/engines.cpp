@@ -29,6 +29,14 @@ constexpr std::array<NamedEngine, 3> kEngines = {{{"simbody", make<simbody::Simb
 
 }  // namespace
 
+std::vector<std::string> engineNames() {
+    std::vector<std::string> names;
+    names.reserve(kEngines.size());
+    for (const NamedEngine& engine : kEngines)
+        names.emplace_back(engine.name);
+    return names;
+}
+
 Attempt<EngineFactory> findEngine(const std::string& name) {
     std::string known;
     for (const NamedEngine& engine : kEngines) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/trapwright/exit_codes.h"
 #include "core/trial/engine.h"
@@ -10,6 +11,9 @@
 namespace trapwright::app {
 
 using EngineFactory = std::function<std::unique_ptr<trial::Engine>(const trial::EngineOptions&)>;
+
+/// The names of all engines.
+std::vector<std::string> engineNames();
 
 /// The engine of that name; an unknown one is a failure that lists those that there are.
 Attempt<EngineFactory> findEngine(const std::string& name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/trial/batch.h"
+#include "core/trial/costs.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::trial {
@@ -15,6 +17,8 @@ namespace trapwright::trial {
 struct EngineOptions {
     unsigned threads = 0;  // 0: all processors
     double step = 0.0;     // of simulated time [s]; 0: the engine's own
+    /// Told what run() spent on what, by engines that can tell. Null: nothing is measured.
+    std::shared_ptr<CostMeter> costs = nullptr;
 };
 
 /// A rigid-body simulator that judges tracks. Takes whole batches, so that it may use threads, wide

@@ -23,7 +23,7 @@ PartContact::PartContact(const ContactTrack& track, const ContactBody& body, con
 
 StepResult PartContact::step(long step, const base::Pose& pose, double inverseMass,
                              const base::Mat3& inverseInertia, const BodyMotion& before,
-                             const BodyMotion& free) {
+                             const BodyMotion& free, trial::CostLaps& laps) {
     // How far any point of the part can come relative to the track in this step. The track's own motion
     // differs little between its points; that of the part's centre stands for it, with a reserve.
     const Vec3 centre = now_.toTrack(pose.position);
@@ -32,6 +32,7 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
     const double reach =
         (free.velocity * dt_ - trackStep).norm() + free.angularVelocity.norm() * dt_ * body_->radius + turn;
     detector_.findContacts(now_.toTrack(pose), lastReach_, 1.1 * reach + kMargin, points_);
+    laps.end(&trial::Costs::detection);
 
     StepResult result{free, free, 0};
     if (points_.empty()) {
@@ -48,6 +49,7 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
         const BodyInertia inertia{inverseMass, rotation * inverseInertia * rotation.transpose()};
         result = solver_.solve(inertia, before, free, stepContacts_, law_, dt_);
     }
+    laps.end(&trial::Costs::law);
 
     lastReach_ = (result.advance.velocity * dt_ - trackStep).norm() +
                  result.advance.angularVelocity.norm() * dt_ * body_->radius + turn;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/trial/costs.h"
 #include "sim/contact/detector.h"
 #include "sim/contact/drive_motion.h"
 #include "sim/contact/impulse_solver.h"
@@ -17,8 +18,9 @@ class PartContact {
 
     /// Advances the track from step `step` (time step * dt) to the next. pose: part frame to room at the
     /// step's begin; inverseInertia: the part's, in part axes [1/(kg m^2)]; before, free: see ImpulseSolver.
+    /// `laps` stands at the end of whatever came before.
     StepResult step(long step, const base::Pose& pose, double inverseMass, const base::Mat3& inverseInertia,
-                    const BodyMotion& before, const BodyMotion& free);
+                    const BodyMotion& before, const BodyMotion& free, trial::CostLaps& laps);
 
     /// The part's pose relative to the track at the step that step() would take next.
     [[nodiscard]] base::Pose poseInTrack(const base::Pose& pose) const { return now_.toTrack(pose); }

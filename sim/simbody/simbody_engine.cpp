@@ -30,7 +30,8 @@ class Worker {
           bodies_(makeBodies(count)),
           lanes_(count) {}
 
-    void run(base::RunControl& control) {
+    void run(base::RunControl& control, trial::CostMeter* costs) {
+        trial::CostLaps laps(costs);
         for (int slot = 0; slot < static_cast<int>(lanes_.size()); ++slot)
             fill(slot);
         for (long step = 0; shrink(); ++step) {
@@ -38,7 +39,7 @@ class Worker {
             bodies_.beginStep(dt_);
             for (int slot = 0; slot < static_cast<int>(lanes_.size()); ++slot) {
                 if (!lanes_[slot]) continue;
-                if (!lanes_[slot]->lane.step(bodies_, slot)) continue;
+                if (!lanes_[slot]->lane.step(bodies_, slot, laps)) continue;
                 const Lane& done = *lanes_[slot];
                 (*outcomes_)[done.batch][done.trial] = done.lane.outcome();
                 control.advance(1);
@@ -49,6 +50,7 @@ class Worker {
                 fill(slot);
             ended_.clear();
         }
+        laps.end(&trial::Costs::integration);
     }
 
  private:
@@ -103,7 +105,8 @@ class Worker {
 
 SimbodyEngine::SimbodyEngine(const trial::EngineOptions& options)
     : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
-      step_(options.step > 0.0 ? options.step : kDefaultStep) {}
+      step_(options.step > 0.0 ? options.step : kDefaultStep),
+      costs_(options.costs) {}
 
 base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
@@ -121,7 +124,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
         const int bodies = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kBodiesPerSystem));
         try {
             base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
-                Worker(like, queue, bodies, step_, outcomes).run(control);
+                Worker(like, queue, bodies, step_, outcomes).run(control, costs_.get());
             });
         } catch (const std::exception& e) {
             return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
@@ -138,12 +141,13 @@ base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& b
         const geometry::MassProperties& mass = batch.part->massProperties;
         FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);
         TrialLane lane(std::make_shared<const Scene>(batch), index, bodies, 0, step_);
+        trial::CostLaps laps(nullptr);
         trial::Trajectory trajectory;
         while (true) {
             if (control.cancelled()) return base::Error{"The replay was cancelled."};
             bodies.beginStep(step_);
             const trial::TrajectorySample sample = lane.sample(bodies, 0);
-            const bool ended = lane.step(bodies, 0).has_value();
+            const bool ended = lane.step(bodies, 0, laps).has_value();
             if (ended ||
                 sample.time + 0.5 * step_ >= static_cast<double>(trajectory.samples.size()) * interval)
                 trajectory.samples.push_back(sample);

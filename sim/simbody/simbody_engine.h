@@ -30,6 +30,7 @@ class SimbodyEngine : public trial::Engine {
  private:
     unsigned threads_;
     double step_;
+    std::shared_ptr<trial::CostMeter> costs_;
 };
 
 }  // namespace trapwright::simbody

@@ -34,14 +34,16 @@ TrialLane::TrialLane(std::shared_ptr<const Scene> scene, std::size_t trial, Free
     bodies.place(slot, drive_.placement(0.0).toRoom(start.pose), {start.velocity, start.angularVelocity}, dt);
 }
 
-std::optional<trial::Ending> TrialLane::step(FreeBodies& bodies, int slot) {
+std::optional<trial::Ending> TrialLane::step(FreeBodies& bodies, int slot, trial::CostLaps& laps) {
     const base::Pose pose = bodies.pose(slot);
     if (steps_ % stepsPerCheck_ == 0) {
         const auto ending = progress_.update(time(), contact_.poseInTrack(pose));
         if (ending) return ending;
     }
-    const contact::StepResult result = contact_.step(
-        steps_, pose, bodies.inverseMass(), bodies.inverseInertia(), bodies.before(slot), bodies.free(slot));
+    laps.end(&trial::Costs::integration);
+    const contact::StepResult result =
+        contact_.step(steps_, pose, bodies.inverseMass(), bodies.inverseInertia(), bodies.before(slot),
+                      bodies.free(slot), laps);
     bodies.resolve(slot, result);
     carrying_ = result.carrying;
     ++steps_;

@@ -30,7 +30,7 @@ class TrialLane {
 
     /// Between FreeBodies::beginStep and endStep: checks for the end, then lets the contacts act.
     /// Returns the ending when the trial is over; the step is then not taken.
-    std::optional<trial::Ending> step(FreeBodies& bodies, int slot);
+    std::optional<trial::Ending> step(FreeBodies& bodies, int slot, trial::CostLaps& laps);
 
     [[nodiscard]] const trial::Outcome& outcome() const { return progress_.outcome(); }
     [[nodiscard]] double time() const { return static_cast<double>(steps_) * dt_; }

@@ -125,6 +125,8 @@ class BadInputTest : public QObject {
             << QStringList{"sweep", "--from", "1", "--to", "0.5"} << 2 << "more than --to";
         QTest::newRow("verify: no such case")
             << QStringList{"verify", "--case", "teapot"} << 2 << "The cases are";
+        QTest::newRow("bench: no such engine")
+            << QStringList{"bench", "--engine", "simbody,bullet"} << 2 << "The engines are";
         QTest::newRow("bench: no such scene")
             << QStringList{"bench", "--scene", "teapot"} << 2 << "The scenes are";
         QTest::newRow("no command") << QStringList{} << 2 << "--help";

@@ -184,15 +184,45 @@ class CommandsTest : public QObject {
     }
 
     void bench() {
-        const QJsonObject answer = ask({"bench", "--trials", "2", "--json"}).json();
-        const QJsonArray scenes = answer["scenes"].toArray();
-        QCOMPARE(scenes.size(), 3);
-        for (const QJsonValue scene : scenes) {
-            QVERIFY(scene["cpu_seconds_per_trial"].toDouble() > 0.0);
-            QVERIFY(std::abs(scene["cpu_seconds_per_trial"].toDouble() *
-                                 scene["trials_per_second_per_core"].toDouble() -
+        const Ran ran = ask({"bench", "--trials", "4", "--repeats", "2", "--engine", "simbody", "--json"});
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonArray rows = ran.json()["measurements"].toArray();
+        QStringList scenes;
+        for (const QJsonValue row : rows) {
+            scenes << row["scene"].toString();
+            QCOMPARE(row["engine"].toString(), "simbody");
+            QCOMPARE(row["trials"].toInt(), 4);
+            QCOMPARE(row["step_ms"].toDouble(), 0.2);
+            QCOMPARE(row["ratio_to_first"].toDouble(), 1.0);
+            QCOMPARE(row["cpu_seconds"].toArray().size(), 2);
+            const double perTrial = row["cpu_seconds_per_trial"].toDouble();
+            QVERIFY(perTrial > 0.0);
+            QVERIFY(std::abs(perTrial * row["trials_per_second_per_core"].toDouble() - 1.0) < 1e-9);
+            QVERIFY(std::abs(row["cpu_microseconds_per_step"].toDouble() * 1e-6 *
+                                 row["steps_per_trial"].toDouble() / perTrial -
                              1.0) < 1e-9);
+            const QJsonObject shares = row["shares"].toObject();
+            double sum = 0.0;
+            for (const char* share : {"detection", "law", "integration"}) {
+                QVERIFY(shares[share].toDouble() > 0.0);
+                sum += shares[share].toDouble();
+            }
+            QVERIFY(std::abs(sum - 1.0) < 1e-9);
+            QVERIFY(row["finished"]["high"].toDouble() >= row["oriented"]["share"].toDouble());
         }
+        QCOMPARE(scenes, QStringList({"cuboid flat", "cuboid rough", "cuboid learned", "cone learned",
+                                      "bracket rough", "bowl"}));
+    }
+
+    void benchComparesWithTheFirst() {
+        const Ran ran = ask({"bench", "--trials", "4", "--repeats", "1", "--scene", "flat", "--engine",
+                             "simbody,simbody", "--json"});
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonArray rows = ran.json()["measurements"].toArray();
+        QCOMPARE(rows.size(), 2);
+        const double rate = rows[1]["trials_per_second_per_core"].toDouble() /
+                            rows[0]["trials_per_second_per_core"].toDouble();
+        QVERIFY(std::abs(rows[1]["ratio_to_first"].toDouble() / rate - 1.0) < 1e-9);
     }
 
     void verify() {

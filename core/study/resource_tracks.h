@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string_view>
 
-namespace trapwright::app {
+namespace trapwright::study {
 
 /// Where a track file that comes with Trapwright is: in the folder tracks/ beside that of the bundled parts.
 std::filesystem::path findResourceTrack(std::string_view file);
 
-}  // namespace trapwright::app
+}  // namespace trapwright::study

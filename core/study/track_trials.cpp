@@ -1,16 +1,15 @@
-#include "app/trapwright/track_trials.h"
+#include "core/study/track_trials.h"
 
 #include "core/study/final_orientation.h"
 #include "core/study/trial_batches.h"
 #include "core/trial/fitness.h"
 
-namespace trapwright::app {
+namespace trapwright::study {
 
 trial::TrialBatch makeTrackBatch(std::shared_ptr<const track::Track> track,
-                                 std::shared_ptr<const part::Part> part,
-                                 const study::SimulationSettings& simulation, std::uint64_t seed,
-                                 int trials) {
-    return study::makeLearningBatch({&simulation, std::move(part), std::move(track), seed}, 0, 0, trials);
+                                 std::shared_ptr<const part::Part> part, const SimulationSettings& simulation,
+                                 std::uint64_t seed, int trials) {
+    return makeLearningBatch({&simulation, std::move(part), std::move(track), seed}, 0, 0, trials);
 }
 
 TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
@@ -18,8 +17,7 @@ TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::Sy
     TrialCounts counts;
     counts.trials = static_cast<int>(outcomes.size());
     counts.expected =
-        expected ? *expected
-                 : trial::findModalOrientation(study::finalOrientations(outcomes), symmetry, tolerance);
+        expected ? *expected : trial::findModalOrientation(finalOrientations(outcomes), symmetry, tolerance);
     for (const trial::Outcome& outcome : outcomes) {
         counts.simulatedTime += outcome.time;
         if (outcome.ending == trial::Ending::finished) {
@@ -29,9 +27,9 @@ TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::Sy
         } else {
             ++counts.stuck;
         }
-        if (study::isOriented(outcome, counts.expected, symmetry, tolerance)) ++counts.oriented;
+        if (isOriented(outcome, counts.expected, symmetry, tolerance)) ++counts.oriented;
     }
     return counts;
 }
 
-}  // namespace trapwright::app
+}  // namespace trapwright::study

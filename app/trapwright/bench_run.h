@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/trapwright/console.h"
+#include "app/trapwright/exit_codes.h"
+#include "core/bench/benchmark.h"
+
+namespace trapwright::app {
+
+/// What a benchmark is asked for on the command line.
+struct BenchOptions {
+    int trials = 200;
+    int repeats = 3;
+    double step = 0.0;            // [ms]; 0: each engine's own
+    std::string engines = "all";  // or names with commas between
+    std::string filter;           // part of the scenes' names
+};
+
+/// Adds --trials, --repeats, --scene, --step and --engine to a command.
+void addBenchOptions(CLI::App& command, BenchOptions& options);
+
+/// The program's own engines.
+std::vector<bench::Contender> listContenders();
+
+/// Times the engines that the options name among `known` on the scenes that they name, with progress and
+/// Ctrl-C, and prints the table. "all" are those that are quick enough to learn with.
+Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const bench::Contender> known,
+                           const Console& console);
+
+}  // namespace trapwright::app

@@ -1,0 +1,95 @@
+#include "tests/peers/peer_engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/parallel.h"
+#include "core/trial/progress.h"
+#include "sim/contact/drive_motion.h"
+
+namespace trapwright::peers {
+
+namespace {
+
+/// The ending is looked for this often, as in Trapwright's engines. [s]
+constexpr double kCheckInterval = 2e-3;
+
+struct Running {
+    const trial::TrialBatch& batch;
+    const PeerScene& scene;
+    double dt;
+    base::RunControl control;
+};
+
+/// Simulates one trial, taking a sample every `interval` (none where it is 0). Nothing if cancelled.
+std::optional<trial::Trajectory> simulate(const Running& running, std::size_t index, double interval,
+                                          trial::CostLaps& laps) {
+    const auto trial = running.scene.start(index);
+    trial::Progress progress(*running.batch.track, running.batch.termination);
+    const contact::DriveMotion drive(running.batch.drive, running.batch.track->shape,
+                                     running.batch.trials[index].start.phase);
+    const long stepsPerCheck = std::max(1L, std::lround(kCheckInterval / running.dt));
+    trial::Trajectory trajectory;
+    for (long step = 0;; ++step) {
+        const double time = static_cast<double>(step) * running.dt;
+        bool ended = false;
+        if (step % stepsPerCheck == 0) {
+            if (running.control.cancelled()) return std::nullopt;
+            ended = progress.update(time, trial->poseInTrack()).has_value();
+        }
+        const double due = static_cast<double>(trajectory.samples.size()) * interval;
+        if (interval > 0.0 && (ended || time + 0.5 * running.dt >= due)) {
+            const contact::BodyMotion motion = trial->motion();
+            trajectory.samples.push_back(
+                {time, trial->pose(), progress.toTrackCoordinates(trial->poseInTrack()),
+                 drive.displacement(time), motion.velocity, motion.angularVelocity, trial->contacts()});
+        }
+        if (ended) break;
+        trial->step(laps);
+    }
+    laps.end(&trial::Costs::integration);
+    trajectory.outcome = progress.outcome();
+    return trajectory;
+}
+
+}  // namespace
+
+PeerEngine::PeerEngine(const trial::EngineOptions& options, double defaultStep)
+    : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
+      step_(options.step > 0.0 ? options.step : defaultStep),
+      costs_(options.costs) {}
+
+base::Result<std::vector<std::vector<trial::Outcome>>> PeerEngine::run(
+    std::span<const trial::TrialBatch> batches, base::RunControl control) const {
+    std::vector<std::vector<trial::Outcome>> outcomes;
+    for (const trial::TrialBatch& batch : batches) {
+        if (const auto problem = findProblem(batch)) return *problem;
+        const auto scene = prepare(batch);
+        if (!scene) return scene.error();
+        std::vector<trial::Outcome>& slots = outcomes.emplace_back(batch.trials.size());
+        base::parallelFor(slots.size(), threads_, [&](std::size_t i, unsigned) {
+            trial::CostLaps laps(costs_.get());
+            if (const auto done = simulate({batch, **scene, step_, control}, i, 0.0, laps)) {
+                slots[i] = done->outcome;
+                control.advance(1);
+            }
+        });
+    }
+    if (control.cancelled()) return base::Error{"The simulation was cancelled."};
+    return outcomes;
+}
+
+base::Result<trial::Trajectory> PeerEngine::replay(const trial::TrialBatch& batch, std::size_t index,
+                                                   double interval, base::RunControl control) const {
+    if (const auto problem = findProblem(batch, index)) return *problem;
+    const auto scene = prepare(batch);
+    if (!scene) return scene.error();
+    trial::CostLaps laps(nullptr);
+    auto trajectory = simulate({batch, **scene, step_, control}, index, interval, laps);
+    if (!trajectory) return base::Error{"The replay was cancelled."};
+    control.advance(1);
+    return *std::move(trajectory);
+}
+
+}  // namespace trapwright::peers

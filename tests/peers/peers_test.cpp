@@ -1,0 +1,145 @@
+#include <QtTest>
+#include <cmath>
+
+#include "core/track/track_solid.h"
+#include "core/verify/scenes.h"
+#include "core/verify/verify.h"
+#include "tests/peers/mujoco_engine.h"
+#include "tests/peers/ode_engine.h"
+#include "tests/sim/simbody/engine_scenes.h"
+
+using namespace trapwright;
+using base::Vec3;
+
+namespace {
+
+std::unique_ptr<trial::Engine> makeEngine(const QString& name, const trial::EngineOptions& options) {
+    if (name == "ode") return std::make_unique<peers::OdeEngine>(options);
+    return std::make_unique<peers::MujocoEngine>(options);
+}
+
+/// Whether the rows of verification with this in their name come out right.
+bool agrees(const QString& engine, double step, const std::string& filter) {
+    const verify::EngineFactory factory = [&](trial::EngineOptions options) {
+        if (options.step == 0.0) options.step = step;
+        return makeEngine(engine, options);
+    };
+    return verify::runCases(factory, filter, {}, [](const verify::Row& row) {
+        if (!row.passed)
+            qWarning("%s: expected %s, got %s", row.name.c_str(), row.expected.c_str(), row.got.c_str());
+    });
+}
+
+void addEngines() {
+    QTest::addColumn<QString>("engine");
+    QTest::newRow("ode") << "ode";
+    QTest::newRow("mujoco") << "mujoco";
+}
+
+}  // namespace
+
+/// The other simulators do what they are told: the same start, the same moving track, the same endings.
+class PeersTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    /// A flying part knows nothing of the track's vibration, in whatever frame the simulator works.
+    void flightIsAParabola_data() {
+        QTest::addColumn<QString>("engine");
+        QTest::addColumn<bool>("bowl");
+        for (const char* engine : {"ode", "mujoco"})
+            for (const bool bowl : {false, true})
+                QTest::addRow("%s, %s", engine, bowl ? "bowl" : "linear") << engine << bowl;
+    }
+    void flightIsAParabola() {
+        QFETCH(QString, engine);
+        QFETCH(bool, bowl);
+        track::FeederShape shape;
+        if (bowl) shape.type = track::FeederType::bowl;
+        trial::TrialBatch batch = testing::makeLyingOn(shape, 0.3, 0.08);
+        trial::TrialStart& start = batch.trials.front().start;
+        start.pose.position.z() += 0.06;
+        start.velocity = Vec3(0.1, -0.05, 0.2);
+        start.angularVelocity = Vec3(3.0, -8.0, 5.0);
+        const double step = 1e-4;
+        const auto replay = makeEngine(engine, {1, step})->replay(batch, 0, 0.01, {});
+        QVERIFY2(replay.ok(), replay.ok() ? "" : replay.error().message.c_str());
+        QVERIFY(replay->samples.size() >= 8);
+        const base::Pose first = replay->samples.front().room;
+        const base::Mat3& inertia = batch.part->massProperties.inertia;
+        const auto momentum = [&](const trial::TrajectorySample& sample) {
+            const base::Mat3 rotation = sample.room.rotation.toRotationMatrix();
+            return Vec3(rotation * inertia * rotation.transpose() * sample.angularVelocity);
+        };
+        for (const trial::TrajectorySample& sample : replay->samples) {
+            QCOMPARE(sample.contacts, 0);
+            const Vec3 expected = first.position + sample.time * start.velocity -
+                                  0.5 * batch.gravity * sample.time * sample.time * Vec3::UnitZ();
+            // Semi-implicit steps of gravity fall short or far by half a step's worth of speed.
+            const double error = 0.5 * batch.gravity * step * sample.time;
+            QVERIFY2((sample.room.position - expected).norm() < 1.1 * error + 1e-7,
+                     qPrintable(QString::number((sample.room.position - expected).norm())));
+            const Vec3 before = momentum(replay->samples.front());
+            QVERIFY((momentum(sample) - before).norm() < 0.01 * before.norm());
+        }
+    }
+
+    void trialsDependOnNoThread_data() { addEngines(); }
+    void trialsDependOnNoThread() {
+        QFETCH(QString, engine);
+        const auto batch = testing::makeRoughBatch(verify::makePaperCuboid(), 3, 6, 0.3);
+        const auto one = makeEngine(engine, {1, 0.0})->run(std::vector{batch}, {});
+        const auto two = makeEngine(engine, {2, 0.0})->run(std::vector{batch}, {});
+        QVERIFY2(one.ok() && two.ok(), one.ok() ? "" : one.error().message.c_str());
+        QVERIFY(*one == *two);
+        const auto replay = makeEngine(engine, {1, 0.0})->replay(batch, 2, 0.05, {});
+        QVERIFY(replay.ok());
+        QVERIFY(replay->outcome == one->front()[2]);
+    }
+
+    void theirCostsAreTold_data() { addEngines(); }
+    void theirCostsAreTold() {
+        QFETCH(QString, engine);
+        const auto meter = std::make_shared<trial::CostMeter>();
+        const auto batch = testing::makeLyingOn({}, 0.0, 0.3);
+        QVERIFY(makeEngine(engine, {1, 0.0, meter})->run(std::vector{batch}, {}).ok());
+        QVERIFY(meter->read().detection > 0.0 && meter->read().law > 0.0);
+    }
+
+    // Friction and the vibrating track arrive in the simulator as they were meant. Steps and cases are those
+    // in which each of them is known to be exact enough.
+    void odeSlidesAndRests() {
+        QVERIFY(agrees("ode", 1e-3, "slope"));
+        QVERIFY(agrees("ode", 1e-3, "sliding"));
+        QVERIFY(agrees("ode", 1e-3, "plastic-hop"));
+    }
+    void mujocoHops() { QVERIFY(agrees("mujoco", 2.5e-4, "plastic-hop")); }
+
+    void whatTheyCannotDoIsSaid_data() { addEngines(); }
+    void whatTheyCannotDoIsSaid() {
+        QFETCH(QString, engine);
+        auto batch = testing::makeLyingOn({}, 0.0, 0.3);
+        batch.contact.staticFriction = 0.7;
+        const auto outcomes = makeEngine(engine, {1, 0.0})->run(std::vector{batch}, {});
+        QVERIFY(!outcomes.ok());
+        QVERIFY(outcomes.error().message.find("friction") != std::string::npos);
+    }
+
+    void mujocoRefusesOverhangs() {
+        auto batch = testing::makeLyingOn({}, 0.0, 0.3);
+        auto overhanging = std::make_shared<track::Track>(*batch.track);
+        for (track::CrossSection& section : overhanging->sections)
+            section.points = {{-0.03, 0.015}, {0.01, 0.015}, {0.0, 0.025}, {0.03, 0.025}};
+        const track::TrackSolid solid =
+            track::buildTrackSolid(overhanging->shape, overhanging->sections, 3e-3);
+        overhanging->solid = solid.mesh;
+        overhanging->surfaceTriangles = solid.surfaceTriangles;
+        batch.track = overhanging;
+        const auto outcomes = makeEngine("mujoco", {1, 0.0})->run(std::vector{batch}, {});
+        QVERIFY(!outcomes.ok());
+        QVERIFY(outcomes.error().message.find("overhangs") != std::string::npos);
+    }
+};
+
+QTEST_APPLESS_MAIN(PeersTest)
+#include "peers_test.moc"
