@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/part/part.h"
 #include "core/trial/batch.h"
+#include "core/trial/costs.h"
 #include "sim/contact/impulse_solver.h"
 #include "sim/native/aligned.h"
 #include "sim/native/packed_body.h"
@@ -160,6 +161,7 @@ class Herd {
     std::vector<Memory> memory;
     std::vector<SolveBatch> solveBatches;
     std::vector<FoundContact> found;
+    trial::CostLaps* laps = nullptr;    // if the costs are to be told apart
     std::vector<std::int32_t> looking;  // lanes that may have contacts in this step
 
  private:

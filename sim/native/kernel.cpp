@@ -29,6 +29,10 @@ namespace trapwright::native::HWY_NAMESPACE {
 #include "sim/native/detection.inl"
 #include "sim/native/solving.inl"
 
+void endLap(Herd& herd, double trial::Costs::*what) {
+    if (herd.laps != nullptr) herd.laps->end(what);
+}
+
 void beginStepOf(Herd& herd) {
     const int width = static_cast<int>(hn::Lanes(Tag()));
     herd.looking.clear();
@@ -40,6 +44,7 @@ void beginStepOf(Herd& herd) {
 }
 
 void finishStepOf(Herd& herd) {
+    endLap(herd, &trial::Costs::integration);
     std::size_t next = 0;
     for (int lane = 0; lane < herd.count(); ++lane) {
         herd.found.clear();
@@ -52,11 +57,15 @@ void finishStepOf(Herd& herd) {
             continue;
         }
         if (herd.found.size() > kFew) thinOutFound(herd.found);
+        endLap(herd, &trial::Costs::detection);
         enqueue(herd, lane);
+        endLap(herd, &trial::Costs::law);
     }
+    endLap(herd, &trial::Costs::detection);
     for (SolveBatch& batch : herd.solveBatches) {
         if (batch.filled > 0) solveBatch(herd, batch);
     }
+    endLap(herd, &trial::Costs::law);
     const int width = static_cast<int>(hn::Lanes(Tag()));
     for (int lane = 0; lane < herd.count(); lane += width)
         movePose(herd, lane);

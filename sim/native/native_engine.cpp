@@ -99,8 +99,11 @@ class RunningTrials {
 
 /// One thread's work.
 void runTrials(const HerdModel& model, TrialQueue& queue, int lanes,
-               std::vector<std::vector<trial::Outcome>>& outcomes, base::RunControl& control) {
+               std::vector<std::vector<trial::Outcome>>& outcomes, trial::CostMeter* costs,
+               base::RunControl& control) {
+    trial::CostLaps laps(costs);
     RunningTrials trials(model, lanes);
+    if (costs != nullptr) trials.herd().laps = &laps;
     bool more = true;
     for (long step = 0;; ++step) {
         if (step % kStepsPerLook == 0 && control.cancelled()) return;
@@ -123,6 +126,7 @@ void runTrials(const HerdModel& model, TrialQueue& queue, int lanes,
         }
         if (trials.count() == 0) return;
         trials.step();
+        laps.end(&trial::Costs::integration);
     }
 }
 
@@ -157,7 +161,8 @@ trial::TrajectorySample sampleOf(RunningTrials& trials, const contact::DriveMoti
 
 NativeEngine::NativeEngine(const trial::EngineOptions& options)
     : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
-      step_(options.step > 0.0 ? options.step : kDefaultStep) {}
+      step_(options.step > 0.0 ? options.step : kDefaultStep),
+      costs_(options.costs) {}
 
 base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
@@ -174,7 +179,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
         base::parallelFor(threads_, threads_,
-                          [&](std::size_t, unsigned) { runTrials(model, queue, lanes, outcomes, control); });
+                          [&](std::size_t, unsigned) { runTrials(model, queue, lanes, outcomes, costs_.get(), control); });
         if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     }
     return outcomes;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "core/trial/engine.h"
 
 namespace trapwright::native {
@@ -25,6 +27,7 @@ class NativeEngine : public trial::Engine {
  private:
     unsigned threads_;
     double step_;
+    std::shared_ptr<trial::CostMeter> costs_;
 };
 
 }  // namespace trapwright::native
