@@ -61,7 +61,7 @@ struct SimulationSettings {
     trial::Termination termination;
     trial::StartPolicy start;  // of learning trials
     double gravity = base::kStandardGravity;
-    std::string engine = "simbody";
+    std::string engine = "hybrid";
 
     friend bool operator==(const SimulationSettings& a, const SimulationSettings& b);
 };
