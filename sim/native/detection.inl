@@ -23,7 +23,7 @@ struct Placed {
     alignas(16) float axes[3][4];  // rows of the rotation part -> track
     double position[3];            // [m]
     float margin;
-    std::vector<FoundContact>* found;
+    FoundContacts* found;
 };
 
 inline Placed place(Herd& herd, int lane) {
@@ -82,14 +82,16 @@ inline Triple loadThree(const FloatRows& rows, int row, int column) {
     return {load(rows.row(row) + column), load(rows.row(row + 1) + column), load(rows.row(row + 2) + column)};
 }
 
+/// Adds a contact if it `counts`: written in any case, for a processor cannot guess which do.
 inline void addContact(const Placed& placed, const float* pointInPart, const float* normalInTrack, float gap,
-                       std::uint64_t name) {
-    FoundContact& contact = placed.found->emplace_back();
+                       std::uint64_t name, bool counts) {
+    FoundContact& contact = placed.found->next();
     toTrack(placed, pointInPart, contact.arm);
     for (int k = 0; k < 3; ++k)
         contact.normal[k] = normalInTrack[k];
     contact.gap = gap;
     contact.feature = name;
+    placed.found->keepIf(counts);
 }
 
 /// A lower bound of the distance of a pair of features, and the direction in which the part moves away, in the track's
@@ -157,6 +159,7 @@ inline Bound testTriangle(const Placed& placed, const PackedPiece& piece, std::u
             lowest[1 + c] = min(lowest[1 + c], test.beside[c]);
         std::uint32_t bits = bitsOf(test.over);
         if (bits == 0) continue;
+        placed.found->reserve(kWidestVector);
         alignas(64) float gaps[kWidestVector];
         store(test.gap, gaps);
         for (; bits != 0; bits &= bits - 1) {
@@ -165,13 +168,12 @@ inline Bound testTriangle(const Placed& placed, const PackedPiece& piece, std::u
             if (vertex >= piece.vertexCount) break;
             // The part must lie above the plane: otherwise the vertex passes by (along the border of the face that the part
             // lies on) or touches the other flank of a thin wall.
-            bool above = true;
-            for (int e = piece.firstEdge[vertex]; e < piece.firstEdge[vertex + 1] && above; ++e)
-                above = dotThree(inPart, piece.vertexEdges.data() + 3 * e) >= static_cast<float>(-kConeSlack);
-            if (!above) continue;
+            float least = kNever;
+            for (int e = piece.firstEdge[vertex]; e < piece.firstEdge[vertex + 1]; ++e)
+                least = std::min(least, dotThree(inPart, piece.vertexEdges.data() + 3 * e));
             const float point[3] = {piece.vertices.row(0)[vertex], piece.vertices.row(1)[vertex],
                                     piece.vertices.row(2)[vertex]};
-            addContact(placed, point, normal, gaps[i], nameContact(name, vertex));
+            addContact(placed, point, normal, gaps[i], nameContact(name, vertex), least >= static_cast<float>(-kConeSlack));
         }
     }
     const float low = leastOf(lowest[0]);
@@ -280,6 +282,7 @@ inline Bound testEdge(const Placed& placed, const PackedPiece& piece, std::uint3
         const EdgeTest test = testEdges(part, own, outside, placed.margin);
         std::uint32_t bits = bitsOf(test.touching);
         if (bits == 0) continue;
+        placed.found->reserve(kWidestVector);
         alignas(64) float values[5][kWidestVector];
         store(test.gap, values[0]);
         store(test.alongPart, values[1]);
@@ -295,7 +298,7 @@ inline Bound testEdge(const Placed& placed, const PackedPiece& piece, std::uint3
                 point[k] = piece.edges.row(kFromX + k)[first + i] +
                            values[1][i] * piece.edges.row(kDirectionX + k)[first + i];
             toTrack(placed, inPart, normal);
-            addContact(placed, point, normal, values[0][i], nameContact(name, first + i));
+            addContact(placed, point, normal, values[0][i], nameContact(name, first + i), true);
         }
     }
     if (placed.found->size() > before) return bound;
@@ -318,11 +321,11 @@ inline Bound testTrackVertex(const Placed& placed, const PackedPiece& piece, std
     awayFromFace(placed, piece, face, normal);
     if (gap >= placed.margin) return boundAlong(gap, normal);
     // The track must lie below the face: a part that slides level over a border is not stopped by it.
-    bool below = true;
-    for (int e = 0; e < vertex.edgeCount && below; ++e)
-        below = dotThree(normal, placed.track->vertexEdges.data() + 3 * (vertex.firstEdge + e)) <=
-                static_cast<float>(kConeSlack);
-    if (below) addContact(placed, point, normal, gap, nameContact(name, face));
+    placed.found->reserve(1);
+    float highest = -kNever;
+    for (int e = 0; e < vertex.edgeCount; ++e)
+        highest = std::max(highest, dotThree(normal, placed.track->vertexEdges.data() + 3 * (vertex.firstEdge + e)));
+    addContact(placed, point, normal, gap, nameContact(name, face), highest <= static_cast<float>(kConeSlack));
     return boundAlong(gap, normal);
 }
 
@@ -432,13 +435,13 @@ inline void findContacts(Herd& herd, int lane) {
                            path + herd.field(kStepPath)[lane],
                            turned + herd.field(kStepTurned)[lane]};
     const int width = static_cast<int>(hn::Lanes(Tag()));
-    Real least = kNever;
     Real leastNext = kNever;
-    for (int first = 0; first < candidates.count; first += width) {
-        least = min(least, boundOf(candidates, first, now));
+    for (int first = 0; first < candidates.count; first += width)
         leastNext = min(leastNext, boundOf(candidates, first, next));
-    }
     if (!any(leastNext < Real(kReserve))) {
+        Real least = kNever;
+        for (int first = 0; first < candidates.count; first += width)
+            least = min(least, boundOf(candidates, first, now));
         herd.field(kNextLook)[lane] = std::min(path + turned + leastOf(least), candidates.collectAt);
         return;
     }
@@ -474,16 +477,19 @@ inline bool anyCarries(Herd& herd, int lane) {
     }
     const float near = 0.5F * (herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane]) + kMargin;
     bool carries = false;
-    std::size_t kept = 0;
-    for (const FoundContact& contact : herd.found) {
+    FoundContacts& found = herd.found;
+    const std::size_t count = found.size();
+    found.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        const FoundContact contact = found[i];
         const float* r = contact.arm;
         const float moved[3] = {step[0] + dt * (spin[1] * r[2] - spin[2] * r[1]),
                                 step[1] + dt * (spin[2] * r[0] - spin[0] * r[2]),
                                 step[2] + dt * (spin[0] * r[1] - spin[1] * r[0])};
         const float after = std::max(contact.gap, 0.0F) + dotThree(moved, contact.normal);
-        carries = carries || after < 0.0F;
-        if (after < near) herd.found[kept++] = contact;
+        carries |= after < 0.0F;
+        found.next() = contact;
+        found.keepIf(after < near);
     }
-    herd.found.resize(kept);
     return carries;
 }

@@ -150,16 +150,18 @@ base::Pose Herd::poseInTrack(int lane) const {
     return pose;
 }
 
-void thinOutFound(std::vector<FoundContact>& found) {
+void thinOutFound(FoundContacts& found) {
     std::vector<contact::ManifoldPoint> points;
     points.reserve(found.size());
-    for (const FoundContact& f : found)
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const FoundContact& f = found[i];
         points.push_back({{f.arm[0], f.arm[1], f.arm[2]}, {f.normal[0], f.normal[1], f.normal[2]}, f.gap});
+    }
     std::array<int, Memory::kMost> kept{};
     const int count = contact::thinOut(points, kept);
     for (int i = 0; i < count; ++i)
         found[static_cast<std::size_t>(i)] = found[static_cast<std::size_t>(kept[i])];  // in order: kept[i] >= i
-    found.resize(static_cast<std::size_t>(count));
+    found.shrink(static_cast<std::size_t>(count));
 }
 
 }  // namespace trapwright::native

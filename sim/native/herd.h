@@ -98,6 +98,29 @@ struct FoundContact {
     std::uint64_t feature;
 };
 
+/// The contacts of one part: writing comes first, counting after.
+class FoundContacts {
+ public:
+    void clear() { size_ = 0; }
+    /// Makes room for so many more.
+    void reserve(std::size_t more) {
+        if (contacts_.size() < size_ + more) contacts_.resize(2 * (size_ + more));
+    }
+    /// The place of the next one, for which there is room.
+    FoundContact& next() { return contacts_[size_]; }
+    void keepIf(bool counts) { size_ += counts ? 1 : 0; }
+    void shrink(std::size_t size) { size_ = size; }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    FoundContact& operator[](std::size_t i) { return contacts_[i]; }
+    const FoundContact& operator[](std::size_t i) const { return contacts_[i]; }
+
+ private:
+    std::vector<FoundContact> contacts_;
+    std::size_t size_ = 0;
+};
+
 /// What a row of contacts is made of, one float per slot of a SolveBatch.
 enum TouchField : int {
     kArmX,
@@ -160,7 +183,7 @@ class Herd {
     std::vector<Candidates> candidates;
     std::vector<Memory> memory;
     std::vector<SolveBatch> solveBatches;
-    std::vector<FoundContact> found;
+    FoundContacts found;
     trial::CostLaps* laps = nullptr;    // if the costs are to be told apart
     std::vector<std::int32_t> looking;  // lanes that may have contacts in this step
 
@@ -175,7 +198,7 @@ class Herd {
 /// More contacts than this are looked through for those that say the same.
 inline constexpr std::size_t kFew = 3;
 /// Leaves at most Memory::kMost contacts that stand for all (contact::thinOut).
-void thinOutFound(std::vector<FoundContact>& found);
+void thinOutFound(FoundContacts& found);
 
 /// How many contacts each SolveBatch is for.
 inline constexpr std::array<int, 7> kSolveRows = {1, 2, 3, 4, 6, 8, contact::ImpulseSolver::kMaxContacts};
