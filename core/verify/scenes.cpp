@@ -89,6 +89,18 @@ std::shared_ptr<const track::Track> makeRough() {
     });
 }
 
+std::shared_ptr<const track::Track> makeHills(double amplitude) {
+    constexpr double kLevel = 0.1;
+    std::vector<double> xs = spread(kLevel, 0.34, 13);
+    xs.insert(xs.begin(), 0.0);
+    return makeSurface(xs, spread(-0.03, 0.03, 9), [=](double x, double y) {
+        const double along = std::max(0.0, x - kLevel);
+        const double rise = std::min(1.0, along / 0.04);
+        return 15e-3 + amplitude * rise *
+                           (std::sin(110.0 * along + 60.0 * y) + 0.75 * std::sin(230.0 * y - 70.0 * along));
+    });
+}
+
 double findSurfaceHeight(const track::Track& track, double x, double y) {
     double highest = -1e300;
     for (std::size_t t = 0; t < track.surfaceTriangles; ++t) {

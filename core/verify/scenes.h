@@ -27,6 +27,9 @@ std::shared_ptr<const track::Track> makeFlat();
 std::shared_ptr<const track::Track> makeSlope(double slopeX, double slopeY);
 /// Hills and valleys of some millimetres, the same every time.
 std::shared_ptr<const track::Track> makeRough();
+/// Level at z = 15 mm up to x = 100 mm, then hills and valleys, 340 mm long and 60 mm wide. Lower ones than
+/// makeRough's let some parts pass: `amplitude` [m] is that of the larger of two waves.
+std::shared_ptr<const track::Track> makeHills(double amplitude);
 
 /// Height of a track's surface as makeSurface made it is a function; this asks the mesh: the highest surface
 /// point at (x, y). [m]
