@@ -232,6 +232,37 @@ class CommandsTest : public QObject {
         QVERIFY(!ran.json()["rows"].toArray().isEmpty());
     }
 
+    /// So few trials that no verdict is asked for; what must hold is the table's own arithmetic.
+    void verifyAgreement() {
+        const Ran ran =
+            ask({"verify", "--engine", "native", "--case", "agreement", "--trials", "6", "--json"});
+        const QJsonObject answer = ran.json();
+        QVERIFY2(answer["rows"].toArray().isEmpty(), ran.all());
+        const QJsonArray rows = answer["agreement"].toObject()["rows"].toArray();
+        QCOMPARE(rows.size(), 9);
+        for (const QJsonValue row : rows) {
+            for (const char* engine : {"native", "simbody"}) {
+                const QJsonObject tally = row[engine].toObject();
+                const int finished = tally["finished"].toObject()["count"].toInt();
+                const int oriented = tally["oriented"].toObject()["count"].toInt();
+                QVERIFY2(oriented <= finished && finished <= 6, ran.all());
+                QCOMPARE(tally["median_transit_s"].toDouble() > 0.0, finished > 0);
+            }
+            QCOMPARE(row["passed"].toBool(), row["family_p"].toDouble() > 0.05);
+        }
+        // The cuboid leaves a level track by no side.
+        QCOMPARE(rows[0].toObject()["native"].toObject()["finished"].toObject()["count"].toInt(), 6);
+        QCOMPARE(ran.code, answer["passed"].toBool() ? 0 : 1);
+    }
+
+    void verifyWithoutAgreement() {
+        const Ran ran = ask({"verify", "--engine", "native", "--case", "agreement", "--no-agreement"});
+        QCOMPARE(ran.code, 2);
+        QCOMPARE(ask({"verify", "--case", "agreement"}).code, 2);
+        const Ran poses = ask({"verify", "--engine", "native", "--case", "stable-poses", "--json"});
+        QVERIFY(!poses.json().contains("agreement"));
+    }
+
     /// The main job, as short as it can be; a second time it goes on in the same folder.
     void demo() {
         QStringList arguments = quickStudy("", 1).mid(4);

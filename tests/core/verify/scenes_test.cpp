@@ -19,12 +19,14 @@ class ScenesTest : public QObject {
         QTest::newRow("flat") << 0;
         QTest::newRow("slope") << 1;
         QTest::newRow("rough") << 2;
+        QTest::newRow("hills") << 3;
     }
     void tracksAreSolids() {
         QFETCH(int, scene);
         const auto track = scene == 0   ? verify::makeFlat()
                            : scene == 1 ? verify::makeSlope(0.3, 0.2)
-                                        : verify::makeRough();
+                           : scene == 2 ? verify::makeRough()
+                                        : verify::makeHills(1.0 * kMillimetre);
         QVERIFY(geometry::checkMesh(track->solid, true).isSolid());
         QCOMPARE(geometry::checkMesh(track->solid, true).overlappingTriangles, 0);
         // The surface comes first, and all of it looks up.
