@@ -1,7 +1,7 @@
 #include <QtTest>
 #include <cmath>
 
-#include "engine_scenes.h"
+#include "tests/sim/engines/engine_scenes.h"
 #include "sim/contact/drive_motion.h"
 #include "sim/simbody/certifying_engine.h"
 #include "sim/simbody/certifying_trial.h"
