@@ -27,7 +27,8 @@ struct Difference {
     double turn = 0.0;  // greatest angle [rad]
 };
 
-Difference compare(const trial::Trajectory& a, const trial::Trajectory& b, std::size_t first, std::size_t last) {
+Difference compare(const trial::Trajectory& a, const trial::Trajectory& b, std::size_t first,
+                   std::size_t last) {
     Difference difference;
     for (std::size_t i = first; i < last; ++i) {
         const base::Pose& p = a.samples[i].room;
@@ -72,9 +73,9 @@ FeederShape shapeOf(const QString& feeder) {
 
 }  // namespace
 
-/// Both engines have one law in one source, yet their own stepping, detection and precision. Followed over a time so
-/// short that chaos has not set in, the same trial must be the same in both: a difference between the laws would
-/// show here long before it showed in outcomes.
+/// Both engines have one law in one source, yet their own stepping, detection and precision. Followed over a
+/// time so short that chaos has not set in, the same trial must be the same in both: a difference between the
+/// laws would show here long before it showed in outcomes.
 class AgreementTest : public QObject {
     Q_OBJECT
 
@@ -105,42 +106,44 @@ class AgreementTest : public QObject {
     void droppedPartsBounceAlike_data() {
         QTest::addColumn<QString>("name");
         QTest::addColumn<QString>("feeder");
-        for (const char* name : {"cuboid", "cone", "bracket", "cup"})
-            for (const char* feeder : {"linear", "clockwise", "anticlockwise"})
-                QTest::addRow("%s, %s", name, feeder) << QString(name) << QString(feeder);
+        QTest::addColumn<int>("alike");
+        for (const char* feeder : {"linear", "clockwise", "anticlockwise"}) {
+            for (const char* name : {"cuboid", "cone", "bracket"})
+                QTest::addRow("%s, %s", name, feeder) << QString(name) << QString(feeder) << 57;
+            // Corners of its rim hit two at a time, and then what comes out hangs on which is solved first.
+            QTest::addRow("cup, %s", feeder) << QString("cup") << QString(feeder) << 36;
+        }
     }
+    // Of 60 drops onto the rough linear track or a level bowl at least so many are alike until 10 ms after
+    // the first impact; in flight all are.
     void droppedPartsBounceAlike() {
         QFETCH(QString, name);
         QFETCH(QString, feeder);
+        QFETCH(int, alike);
         constexpr int kDrops = 60;
+        constexpr std::size_t kFollowed = 50;  // steps
         trial::TrialBatch drops = testing::makeRoughBatch(makeBundled(name.toStdString()), 9, kDrops, 0.1);
-        for (trial::TrialSpec& spec : drops.trials)
-            spec.start.pose.position.z() += 2.0 * kMillimetre;
         const FeederShape shape = shapeOf(feeder);
-        if (shape.type == FeederType::bowl) {
-            drops.track = testing::makeLevelOn(shape, 0.5);
-            for (trial::TrialSpec& spec : drops.trials) {
-                const Vec3 place(spec.start.pose.position.x(), spec.start.pose.position.y(), 0.026);
-                spec.start.pose.position = shape.toRoom(place);
-            }
-        }
-        std::vector<double> f, t5, t10,t20,t30, r10;
+        if (shape.type == FeederType::bowl) drops.track = testing::makeLevelOn(shape, 0.5);
+        int count = 0;
         for (const trial::TrialSpec& spec : drops.trials) {
             trial::TrialBatch one = drops;
             one.trials = {spec};
+            Vec3& position = one.trials[0].start.pose.position;
+            // No part is that long.
+            if (shape.type == FeederType::bowl)
+                position = shape.toRoom({position.x(), position.y(), 26.0 * kMillimetre});
+            else
+                position.z() += 2.0 * kMillimetre;
             const Both both(one);
             const std::size_t touch = both.findTouch();
-            Difference d = compare(both.simbody, both.native, 0, touch);
-            f.push_back(d.way*1e6);
-            for (auto* v : {&t5,&t10,&t20,&t30}) {
-              int n = v==&t5?25: v==&t10?50:v==&t20?100:150;
-              Difference e = compare(both.simbody, both.native, touch, std::min(both.size(), touch+n));
-              v->push_back(e.way*1e6); if (n==50) r10.push_back(e.turn);
-            }
-            std::size_t tn=0; while (tn<both.size() && both.native.samples[tn].contacts==0) ++tn;
-            if (touch<10||tn!=touch) qInfo("touch %d %d", (int)touch, (int)tn);
+            QVERIFY(touch > 5 && touch + kFollowed < both.size());
+            const Difference inFlight = compare(both.simbody, both.native, 0, touch);
+            QVERIFY2(inFlight.way < 5e-9 && inFlight.turn < 1e-6, describe(inFlight));
+            const Difference after = compare(both.simbody, both.native, touch, touch + kFollowed);
+            count += after.way < 0.1 * kMicrometre && after.turn < 2e-5 ? 1 : 0;
         }
-        for (auto* v : {&f,&t5,&t10,&t20,&t30,&r10}) { std::sort(v->begin(), v->end()); auto&w=*v; qInfo("med %g 80%% %g 90%% %g 95%% %g max %g", w[30],w[48],w[54],w[57],w[59]); }
+        QVERIFY2(count >= alike, qPrintable(QString("%1 of %2").arg(count).arg(kDrops)));
     }
 };
 

@@ -6,8 +6,8 @@
 #include "sim/native/native_engine.h"
 #include "sim/simbody/simbody_engine.h"
 
-/// For tests of what every engine must do: initTestCase_data() calls addEngines(), and so each test function is run
-/// with each engine.
+/// For tests of what every engine must do: initTestCase_data() calls addEngines(), and so each test function
+/// is run with each engine.
 namespace trapwright::testing {
 
 inline void addEngines() {

@@ -41,7 +41,7 @@ class EngineTest : public QObject {
     Q_OBJECT
 
     trial::TrialBatch batch_ = testing::makeRoughBatch(verify::makePaperCuboid(), 1, 40, 0.25);
-    std::vector<trial::Outcome> outcomes_;           // of batch_ ...
+    std::vector<trial::Outcome> outcomes_;              // of batch_ ...
     std::map<std::string, Outcomes> outcomesByEngine_;  // ... which is simulated once by each
 
  private slots:
@@ -95,16 +95,16 @@ class EngineTest : public QObject {
         QVERIFY(joined == outcomes_);
     }
 
-    // Batches of several parts and tracks, on bowls and linear feeders, in one call give what each gives alone.
+    // Batches of several parts and tracks, on bowls and linear feeders, in one call give what each gives
+    // alone.
     void batchesDoNotSeeEachOther() {
         const auto brick = verify::makeCuboid(Vec3(3, 6, 7) * base::kMillimetre, 8500.0);
         const trial::TrialBatch flat = testing::makeLyingOn({}, 0.3, 0.2);
         const trial::TrialBatch bowl = testing::makeLyingOn({track::FeederType::bowl, 0.175}, 0.3, 0.2);
         trial::TrialBatch few = batch_;
         few.trials.resize(5);
-        const std::vector<trial::TrialBatch> batches = {
-            few, testing::makeRoughBatch(brick, 2, 6, 0.2), flat, bowl,
-            testing::makeRoughBatch(brick, 3, 2, 0.1)};
+        const std::vector<trial::TrialBatch> batches = {few, testing::makeRoughBatch(brick, 2, 6, 0.2), flat,
+                                                        bowl, testing::makeRoughBatch(brick, 3, 2, 0.1)};
         const Outcomes together = simulate(batches, 2);
         QCOMPARE(together.size(), batches.size());
         for (std::size_t b = 0; b < batches.size(); ++b)

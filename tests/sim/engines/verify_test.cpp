@@ -10,9 +10,7 @@ class VerifyTest : public QObject {
     Q_OBJECT
 
     static verify::EngineFactory makeFactory() {
-        return [](const trial::EngineOptions& options) {
-            return testing::makeEngine(options);
-        };
+        return [](const trial::EngineOptions& options) { return testing::makeEngine(options); };
     }
 
  private slots:
