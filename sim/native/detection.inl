@@ -1,5 +1,5 @@
-// Which features of one part touch its track: lane by lane, whole vectors of the part's features. Included once per
-// instruction set, inside HWY_NAMESPACE. The tests themselves are sim/contact/formulas/features.inl.
+// Which features of one part touch its track: lane by lane, whole vectors of the part's features. Included
+// once per instruction set, inside HWY_NAMESPACE. The tests themselves are sim/contact/formulas/features.inl.
 
 /// How far a part may travel before the list of near-by features is made anew. [m]
 constexpr float kSkin = 4e-3F;
@@ -94,8 +94,8 @@ inline void addContact(const Placed& placed, const float* pointInPart, const flo
     placed.found->keepIf(counts);
 }
 
-/// A lower bound of the distance of a pair of features, and the direction in which the part moves away, in the track's
-/// axes; blind: none is known.
+/// A lower bound of the distance of a pair of features, and the direction in which the part moves away, in
+/// the track's axes; blind: none is known.
 struct Bound {
     float distance;
     float direction[3];
@@ -152,7 +152,8 @@ inline Bound testTriangle(const Placed& placed, const PackedPiece& piece, std::u
     Real lowest[4] = {kNever, kNever, kNever, kNever};
     const int width = static_cast<int>(hn::Lanes(Tag()));
     for (int first = 0; first < piece.vertexCount; first += width) {
-        const VertexTest test = testVertex(loadThree(piece.vertices, 0, first), planes[0], sides, placed.margin);
+        const VertexTest test =
+            testVertex(loadThree(piece.vertices, 0, first), planes[0], sides, placed.margin);
         nearest = min(nearest, test.clear);
         lowest[0] = min(lowest[0], test.gap);
         for (int c = 0; c < 3; ++c)
@@ -166,14 +167,15 @@ inline Bound testTriangle(const Placed& placed, const PackedPiece& piece, std::u
             const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
             const int vertex = first + i;
             if (vertex >= piece.vertexCount) break;
-            // The part must lie above the plane: otherwise the vertex passes by (along the border of the face that the part
-            // lies on) or touches the other flank of a thin wall.
+            // The part must lie above the plane: otherwise the vertex passes by (along the border of the face
+            // that the part lies on) or touches the other flank of a thin wall.
             float least = kNever;
             for (int e = piece.firstEdge[vertex]; e < piece.firstEdge[vertex + 1]; ++e)
                 least = std::min(least, dotThree(inPart, piece.vertexEdges.data() + 3 * e));
             const float point[3] = {piece.vertices.row(0)[vertex], piece.vertices.row(1)[vertex],
                                     piece.vertices.row(2)[vertex]};
-            addContact(placed, point, normal, gaps[i], nameContact(name, vertex), least >= static_cast<float>(-kConeSlack));
+            addContact(placed, point, normal, gaps[i], nameContact(name, vertex),
+                       least >= static_cast<float>(-kConeSlack));
         }
     }
     const float low = leastOf(lowest[0]);
@@ -197,7 +199,8 @@ inline float findSeparation(const PackedPiece& piece, const Triple& a, const Tri
         if (greatest <= best) continue;
         best = greatest;
         if (face != nullptr)
-            *face = first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bitsOf(separation >= Real(greatest))));
+            *face = first + static_cast<int>(
+                                hwy::Num0BitsBelowLS1Bit_Nonzero32(bitsOf(separation >= Real(greatest))));
     }
     return best;
 }
@@ -208,7 +211,8 @@ inline void awayFromFace(const Placed& placed, const PackedPiece& piece, int fac
     toTrack(placed, inPart, result);
 }
 
-inline float calcDistanceToSegment(const float* point, const float* from, const float* direction, float length) {
+inline float calcDistanceToSegment(const float* point, const float* from, const float* direction,
+                                   float length) {
     const float between[3] = {point[0] - from[0], point[1] - from[1], point[2] - from[2]};
     const float along = std::min(std::max(dotThree(direction, between), 0.0F), length);
     float square = 0.0F;
@@ -219,10 +223,10 @@ inline float calcDistanceToSegment(const float* point, const float* from, const 
     return std::sqrt(square);
 }
 
-/// A bound for an edge that is near but does not touch: whether the part lies on one side of one of three planes through
-/// it. `fallback` if not.
-inline Bound separateFromEdge(const Placed& placed, const PackedPiece& piece, const PackedEdge& edge, const Edge& own,
-                              const Triple& outside, const Bound& fallback) {
+/// A bound for an edge that is near but does not touch: whether the part lies on one side of one of three
+/// planes through it. `fallback` if not.
+inline Bound separateFromEdge(const Placed& placed, const PackedPiece& piece, const PackedEdge& edge,
+                              const Edge& own, const Triple& outside, const Bound& fallback) {
     const Triple axes[3] = {outside, own.into[0], own.into[1]};
     const float* inTrack[3] = {edge.outward, edge.into[0], edge.into[1]};
     const int width = static_cast<int>(hn::Lanes(Tag()));
@@ -324,8 +328,10 @@ inline Bound testTrackVertex(const Placed& placed, const PackedPiece& piece, std
     placed.found->reserve(1);
     float highest = -kNever;
     for (int e = 0; e < vertex.edgeCount; ++e)
-        highest = std::max(highest, dotThree(normal, placed.track->vertexEdges.data() + 3 * (vertex.firstEdge + e)));
-    addContact(placed, point, normal, gap, nameContact(name, face), highest <= static_cast<float>(kConeSlack));
+        highest = std::max(highest,
+                           dotThree(normal, placed.track->vertexEdges.data() + 3 * (vertex.firstEdge + e)));
+    addContact(placed, point, normal, gap, nameContact(name, face),
+               highest <= static_cast<float>(kConeSlack));
     return boundAlong(gap, normal);
 }
 
@@ -359,8 +365,8 @@ inline void setBound(const Herd& herd, int lane, Candidates& candidates, int c, 
     const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
     const float blind = bound.blind ? 1.0F : 0.0F;
     const auto place = static_cast<std::size_t>(c);
-    candidates.start[place] =
-        bound.distance - dotThree(bound.direction, way) + herd.field(kTurned)[lane] + blind * herd.field(kPath)[lane];
+    candidates.start[place] = bound.distance - dotThree(bound.direction, way) + herd.field(kTurned)[lane] +
+                              blind * herd.field(kPath)[lane];
     candidates.normalX[place] = bound.direction[0];
     candidates.normalY[place] = bound.direction[1];
     candidates.normalZ[place] = bound.direction[2];
@@ -368,21 +374,24 @@ inline void setBound(const Herd& herd, int lane, Candidates& candidates, int c, 
 }
 
 /// Adds the features among `balls` that are near one piece: first by their balls, then by their own bounds.
-inline void addNear(Herd& herd, int lane, const Placed& placed, const BallArrays& balls, const float* centre, float near,
-                    std::uint32_t name) {
+inline void addNear(Herd& herd, int lane, const Placed& placed, const BallArrays& balls, const float* centre,
+                    float near, std::uint32_t name) {
     Candidates& candidates = herd.candidates[lane];
     const int width = static_cast<int>(hn::Lanes(Tag()));
     for (int first = 0; first < balls.count; first += width) {
-        const Triple away = Triple{load(balls.x.data() + first), load(balls.y.data() + first), load(balls.z.data() + first)} -
-                            broadcast(centre);
+        const Triple away =
+            Triple{load(balls.x.data() + first), load(balls.y.data() + first), load(balls.z.data() + first)} -
+            broadcast(centre);
         const Real far = load(balls.radius.data() + first) + Real(near);
         std::uint32_t bits = bitsOf(dot(away, away) < far * far);
         for (; bits != 0; bits &= bits - 1) {
-            const auto i = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+            const auto i = static_cast<std::uint32_t>(first) +
+                           static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
             const Bound bound = testFeature(herd, placed, name | i);
             if (bound.distance >= placed.margin) continue;
             candidates.names.push_back(name | i);
-            const auto padded = static_cast<std::size_t>(padToVectors(static_cast<int>(candidates.names.size())));
+            const auto padded =
+                static_cast<std::size_t>(padToVectors(static_cast<int>(candidates.names.size())));
             candidates.start.resize(padded, kNever);
             for (AlignedVector<float>* array :
                  {&candidates.normalX, &candidates.normalY, &candidates.normalZ, &candidates.blind})
@@ -411,9 +420,12 @@ inline void collectCandidates(Herd& herd, int lane) {
             centre[k] = static_cast<float>(placed.position[k] + centre[k]);
         const float near = pieces[p].radius + placed.margin;
         const std::uint32_t piece = static_cast<std::uint32_t>(p) << kPieceShift;
-        addNear(herd, lane, placed, placed.track->triangleBalls, centre, near, (kVertexOnTriangle << kKindShift) | piece);
-        addNear(herd, lane, placed, placed.track->edgeBalls, centre, near, (kEdgeAcrossEdge << kKindShift) | piece);
-        addNear(herd, lane, placed, placed.track->vertexBalls, centre, near, (kFaceOnVertex << kKindShift) | piece);
+        addNear(herd, lane, placed, placed.track->triangleBalls, centre, near,
+                (kVertexOnTriangle << kKindShift) | piece);
+        addNear(herd, lane, placed, placed.track->edgeBalls, centre, near,
+                (kEdgeAcrossEdge << kKindShift) | piece);
+        addNear(herd, lane, placed, placed.track->vertexBalls, centre, near,
+                (kFaceOnVertex << kKindShift) | piece);
     }
     candidates.count = static_cast<int>(candidates.names.size());
     herd.found.clear();  // what lies within the skin is not within the margin
@@ -424,7 +436,8 @@ inline void findContacts(Herd& herd, int lane) {
     Candidates& candidates = herd.candidates[lane];
     const float stepReach = herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane];
     const float margin = 1.1F * stepReach + kMargin;
-    if (herd.field(kPath)[lane] + herd.field(kTurned)[lane] + margin >= candidates.collectAt) collectCandidates(herd, lane);
+    if (herd.field(kPath)[lane] + herd.field(kTurned)[lane] + margin >= candidates.collectAt)
+        collectCandidates(herd, lane);
 
     const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
     const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
@@ -448,23 +461,26 @@ inline void findContacts(Herd& herd, int lane) {
 
     herd.field(kNextLook)[lane] = path + turned;
     const Placed placed = place(herd, lane);
-    // An impulse at one contact may turn the part toward another: what comes within half of the step's reach counts.
+    // An impulse at one contact may turn the part toward another: what comes within half of the step's reach
+    // counts.
     const Real near = 0.5F * stepReach + kMargin;
     for (int first = 0; first < candidates.count; first += width) {
         std::uint32_t bits = bitsOf(boundOf(candidates, first, next) < near);
         for (; bits != 0; bits &= bits - 1) {
             const int c = first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-            setBound(herd, lane, candidates, c, testFeature(herd, placed, candidates.names[static_cast<std::size_t>(c)]));
+            setBound(herd, lane, candidates, c,
+                     testFeature(herd, placed, candidates.names[static_cast<std::size_t>(c)]));
         }
     }
 }
 
-/// Leaves the contacts that can matter, as findContacts does with features, and tells whether any would overlap more at the
-/// step's end if nothing held it: otherwise no impulse acts.
+/// Leaves the contacts that can matter, as findContacts does with features, and tells whether any would
+/// overlap more at the step's end if nothing held it: otherwise no impulse acts.
 inline bool anyCarries(Herd& herd, int lane) {
     const float dt = herd.model().dt;
     const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
-    float spin[3] = {herd.field(kAfterSpinX)[lane], herd.field(kAfterSpinY)[lane], herd.field(kAfterSpinZ)[lane]};
+    float spin[3] = {herd.field(kAfterSpinX)[lane], herd.field(kAfterSpinY)[lane],
+                     herd.field(kAfterSpinZ)[lane]};
     if (herd.model().anyBowl) {
         // Relative to the track, in its axes.
         const float sine = herd.field(kSine)[lane];
