@@ -1,5 +1,4 @@
 #include <QtTest>
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -9,7 +8,6 @@
 #include "tests/sim/engines/engine_scenes.h"
 
 using namespace trapwright;
-using trial::Ending;
 
 namespace {
 
