@@ -18,7 +18,9 @@ core/geometry   core/base core/geometry
 core/part       core/base core/geometry core/part
 core/stats      core/base core/stats
 core/track      core/base core/geometry core/track
-sim             core/base core/geometry core/part core/track core/trial sim
+sim/contact     core/base core/geometry core/part core/track core/trial sim/contact
+sim/native      core/base core/geometry core/part core/track core/trial sim/contact sim/native
+sim/simbody     core/base core/geometry core/part core/track core/trial sim/contact sim/simbody
 ui              core ui
 app             core sim ui app
 resources       core resources
@@ -84,7 +86,7 @@ awk -v layersFile="$work/layers" -v librariesFile="$work/libraries" -v edgesFile
             if (header !~ pattern[i]) continue
             if (home[i] == "one") home[i] = tested
             if (tested != home[i]) complain(library[i] " is known by " home[i] " alone: " header)
-            if (FILENAME ~ /[.]h$/) complain(library[i] " belongs into .cpp files, not into a header: " header)
+            if (FILENAME !~ /[.]cpp$/) complain(library[i] " belongs into .cpp files, not into a header: " header)
         }
     }
     BEGIN {

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Prints the C++ files that belong to the project, one per line, relative to its root: what git tracks, or, in an
-# unpacked archive, everything outside the build folders. Arguments are file name patterns (default: *.h *.cpp).
+# unpacked archive, everything outside the build folders. Arguments are file name patterns (default: *.h *.inl *.cpp).
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 if (($# == 0)); then
-    set -- '*.h' '*.cpp'
+    set -- '*.h' '*.inl' '*.cpp'
 fi
 
 if [[ -e .git ]]; then

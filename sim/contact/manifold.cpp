@@ -21,8 +21,8 @@ bool saySame(const ManifoldPoint& a, const ManifoldPoint& b) {
     return (a.arm - b.arm).squaredNorm() < kSamePlace * kSamePlace && a.normal.dot(b.normal) > kSameNormal;
 }
 
-/// One for each place and normal; the lowest stands for the others. Into `distinct`, in order, if it has room for them;
-/// returns how many there are.
+/// One for each place and normal; the lowest stands for the others. Into `distinct`, in order, if it has room
+/// for them; returns how many there are.
 int findDistinct(std::span<const ManifoldPoint> points, std::span<int> distinct) {
     int count = 0;
     for (int i = 0; i < static_cast<int>(points.size()); ++i) {
@@ -84,7 +84,8 @@ Indices thinOutPlanes(std::span<const ManifoldPoint> points, const Indices& all,
     // So many planes that three contacts of each are too many: the lowest of all count.
     if (static_cast<int>(kept.size()) > most) {
         std::sort(kept.begin(), kept.end());
-        std::stable_sort(kept.begin(), kept.end(), [&](int a, int b) { return points[a].gap < points[b].gap; });
+        std::stable_sort(kept.begin(), kept.end(),
+                         [&](int a, int b) { return points[a].gap < points[b].gap; });
         kept.resize(static_cast<std::size_t>(most));
     }
     std::sort(kept.begin(), kept.end());

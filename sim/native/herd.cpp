@@ -160,7 +160,8 @@ void thinOutFound(FoundContacts& found) {
     std::array<int, Memory::kMost> kept{};
     const int count = contact::thinOut(points, kept);
     for (int i = 0; i < count; ++i)
-        found[static_cast<std::size_t>(i)] = found[static_cast<std::size_t>(kept[i])];  // in order: kept[i] >= i
+        found[static_cast<std::size_t>(i)] =
+            found[static_cast<std::size_t>(kept[i])];  // in order: kept[i] >= i
     found.shrink(static_cast<std::size_t>(count));
 }
 

@@ -70,8 +70,8 @@ enum Field : int {
 };
 // clang-format on
 
-/// The features of one track that are near one part. A lower bound of the distance between part and feature is
-/// start + normal . way - turned - (path if `blind`): tells without looking at them which can touch.
+/// The features of one track that are near one part. A lower bound of the distance between part and feature
+/// is start + normal . way - turned - (path if `blind`): tells without looking at them which can touch.
 struct Candidates {
     AlignedVector<float> start, normalX, normalY, normalZ, blind;  // padded with a huge start
     std::vector<std::uint32_t> names;                              // kind, piece, feature of the track

@@ -16,18 +16,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace trapwright::native::HWY_NAMESPACE {
 
+// Each part needs those before it: lanes, the formulas over them, the kernel over the formulas.
+// clang-format off
 #include "sim/native/lanes.inl"
-// The formulas over these lanes, and the kernel's parts over the formulas.
 #include "sim/contact/formulas/vectors.inl"
-//
 #include "sim/contact/formulas/features.inl"
 #include "sim/contact/formulas/law.inl"
 #include "sim/contact/formulas/step.inl"
-//
 #include "sim/native/motion.inl"
-//
+#include "sim/native/feature_tests.inl"
 #include "sim/native/detection.inl"
 #include "sim/native/solving.inl"
+// clang-format on
 
 void endLap(Herd& herd, double trial::Costs::*what) {
     if (herd.laps != nullptr) herd.laps->end(what);

@@ -13,7 +13,7 @@ void beginStep(Herd& herd);
 /// Second half: contacts, impulses, new poses.
 void finishStep(Herd& herd);
 
-/// The instruction set in use: "AVX3", "AVX2", "SSE4", "EMU128".
+/// The instruction set in use: "AVX3", "AVX2", "SSE4", "SCALAR".
 std::string instructionSet();
 /// All that this machine has and the kernel was compiled for, the best first.
 std::vector<std::string> instructionSets();

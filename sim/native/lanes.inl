@@ -1,5 +1,5 @@
-// Real and Mask of sim/contact/formulas over a whole vector of floats. Included once per instruction set, inside
-// HWY_NAMESPACE.
+// Real and Mask of sim/contact/formulas over a whole vector of floats. Included once per instruction set,
+// inside HWY_NAMESPACE.
 
 namespace hn = hwy::HWY_NAMESPACE;
 

@@ -1,5 +1,5 @@
-// Free motion, the drive, and new poses: every lane, whole vectors. Included once per instruction set, inside HWY_NAMESPACE.
-// The same scheme as sim/simbody/free_bodies: velocities live at the middles of steps.
+// Free motion, the drive, and new poses: every lane, whole vectors. Included once per instruction set, inside
+// HWY_NAMESPACE. The same scheme as sim/simbody/free_bodies: velocities live at the middles of steps.
 
 /// A vector of lanes beginning with `lane`.
 inline Real get(const Herd& herd, int field, int lane) {
@@ -20,7 +20,8 @@ inline Real norm(const Triple& v) {
     return sqrt(dot(v, v));
 }
 inline Triple multiply(const float (&m)[3][3], const Triple& v) {
-    return Matrix{{{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}}} * v;
+    return Matrix{{{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}}} *
+           v;
 }
 inline Triple multiplyTransposed(const Matrix& m, const Triple& v) {
     return mulAdd(v.x, m.row[0], mulAdd(v.y, m.row[1], v.z * m.row[2]));
@@ -38,8 +39,8 @@ inline Matrix toMatrix(Real w, Real x, Real y, Real z) {
 inline void moveFreely(Herd& herd, int lane) {
     const HerdModel& model = herd.model();
     const Real dt = model.dt;
-    const Matrix axes = toMatrix(get(herd, kRotationW, lane), get(herd, kRotationX, lane), get(herd, kRotationY, lane),
-                                 get(herd, kRotationZ, lane));
+    const Matrix axes = toMatrix(get(herd, kRotationW, lane), get(herd, kRotationX, lane),
+                                 get(herd, kRotationY, lane), get(herd, kRotationZ, lane));
     for (int k = 0; k < 3; ++k)
         setThree(herd, kAxes + 3 * k, lane, axes.row[k]);
 
@@ -112,8 +113,8 @@ inline void moveTrack(Herd& herd, int lane) {
     setThree(herd, kTrackStepX, lane, trackStep);
 }
 
-/// What moves detection on: way of the part's centre relative to the track in the track's axes, its length, and how far any
-/// point of the part can come by turning.
+/// What moves detection on: way of the part's centre relative to the track in the track's axes, its length,
+/// and how far any point of the part can come by turning.
 struct Progress {
     Triple way;
     Real path, turned;
@@ -160,14 +161,15 @@ inline void movePose(Herd& herd, int lane) {
     set(herd, kPath, lane, get(herd, kPath, lane) + step.path);
     set(herd, kTurned, lane, get(herd, kTurned, lane) + step.turned);
 
-    // A rotation whose axis wanders is not the mean angular velocity times the step: the next terms of Magnus' series
-    // (Iserles et al. 2000, section 4).
+    // A rotation whose axis wanders is not the mean angular velocity times the step: the next terms of
+    // Magnus' series (Iserles et al. 2000, section 4).
     const Triple turn = getThree(herd, kTurnX, lane);
     Triple spin = getThree(herd, kAdvanceSpinX, lane);
     spin = spin + (dt * dt * Real(1.0 / 12.0)) * cross(turn, spin) +
            (dt * Real(1.0 / 24.0)) * (turn - getThree(herd, kTurnBeforeX, lane));
 
-    // The rate is tangent to the unit sphere: go along it by the tangent of the angle, then back onto the sphere.
+    // The rate is tangent to the unit sphere: go along it by the tangent of the angle, then back onto the
+    // sphere.
     const Real halfSquare = Real(0.25) * dt * dt * dot(spin, spin);
     const Real half = Real(0.5) * dt * (Real(1.0) + halfSquare * Real(1.0 / 3.0));
     const Real w = get(herd, kRotationW, lane);
@@ -187,7 +189,8 @@ inline void movePose(Herd& herd, int lane) {
     const auto phase = hn::Load(bits, herd.phase.data() + lane);
     set(herd, kDriveBefore, lane, get(herd, kDriveNow, lane));
     set(herd, kDriveNow, lane, get(herd, kDriveNext, lane));
-    const Real angle = Real(hn::ConvertTo(Tag(), hn::BitCast(whole, phase))) * Real(2.0 * base::kPi / 4294967296.0);
+    const Real angle =
+        Real(hn::ConvertTo(Tag(), hn::BitCast(whole, phase))) * Real(2.0 * base::kPi / 4294967296.0);
     set(herd, kDriveNext, lane, sin(angle));
     hn::Store(hn::Add(phase, hn::Load(bits, herd.cycle.data() + lane)), bits, herd.phase.data() + lane);
 }

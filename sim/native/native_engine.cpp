@@ -178,8 +178,9 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
         TrialQueue queue(batches, std::move(members));
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
-        base::parallelFor(threads_, threads_,
-                          [&](std::size_t, unsigned) { runTrials(model, queue, lanes, outcomes, costs_.get(), control); });
+        base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
+            runTrials(model, queue, lanes, outcomes, costs_.get(), control);
+        });
         if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     }
     return outcomes;

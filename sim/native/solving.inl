@@ -1,5 +1,5 @@
-// Impulses: lanes with about equally many contacts are solved together, one lane of the vector each. Included once per
-// instruction set, inside HWY_NAMESPACE. The law itself is sim/contact/formulas/step.inl.
+// Impulses: lanes with about equally many contacts are solved together, one lane of the vector each. Included
+// once per instruction set, inside HWY_NAMESPACE. The law itself is sim/contact/formulas/step.inl.
 
 using Index = hn::Vec<hn::RebindToSigned<Tag>>;
 
@@ -12,7 +12,7 @@ inline Triple gatherThree(const Herd& herd, int field, Index lanes) {
 
 /// What turns scaled quantities (formulas/step.inl) into those of the room's axes, for each lane of a vector.
 struct Scaling {
-    Matrix axes;             // part -> room
+    Matrix axes;  // part -> room
     const HerdModel* model;
 
     /// S^T in room axes.
@@ -60,7 +60,8 @@ struct TrackMotion {
     [[nodiscard]] Triple velocityBefore(const Triple& arm) const {
         const Real px = x + arm.x;
         const Real py = y + arm.y;
-        return {beforeX + cosineLessBefore * px - sineBefore * py, sineBefore * px + cosineLessBefore * py, beforeZ};
+        return {beforeX + cosineLessBefore * px - sineBefore * py, sineBefore * px + cosineLessBefore * py,
+                beforeZ};
     }
 };
 
@@ -165,8 +166,10 @@ inline void solveBatch(Herd& herd, SolveBatch& batch) {
     const Scaling scaling{{{gatherThree(herd, kAxes, lanes), gatherThree(herd, kAxes + 3, lanes),
                             gatherThree(herd, kAxes + 6, lanes)}},
                           &herd.model()};
-    const Motion before = {gatherThree(herd, kVelocityX, lanes), scaling.scale(gatherThree(herd, kSpinX, lanes))};
-    const Motion free = {gatherThree(herd, kAfterX, lanes), scaling.scale(gatherThree(herd, kAfterSpinX, lanes))};
+    const Motion before = {gatherThree(herd, kVelocityX, lanes),
+                           scaling.scale(gatherThree(herd, kSpinX, lanes))};
+    const Motion free = {gatherThree(herd, kAfterX, lanes),
+                         scaling.scale(gatherThree(herd, kAfterSpinX, lanes))};
     const Law law = {gather(herd, kStaticFriction, lanes), gather(herd, kKineticFriction, lanes),
                      gather(herd, kRestitution, lanes)};
     const TrackMotion track = gatherTrackMotion(herd, lanes);

@@ -1,9 +1,11 @@
-// Which features of part and track touch. All in one frame, the part's. `Real` runs over features of the part, the track's are
-// the same in all lanes. See README.md of this folder: included inside a namespace that defines Real.
+// Which features of part and track touch. All in one frame, the part's. `Real` runs over features of the
+// part, the track's are the same in all lanes. See README.md of this folder: included inside a namespace that
+// defines Real.
 
 /// Overlaps deeper than this are not contacts: the part is elsewhere. [m]
 constexpr double kDeepest = 0.5e-3;
-/// Slack of the normal cones: sine of the angle by which a face may lean on an edge and still be held at both ends.
+/// Slack of the normal cones: sine of the angle by which a face may lean on an edge and still be held at both
+/// ends.
 constexpr double kConeSlack = 0.05;
 /// Edges nearer to parallel than this have no contact of their own: their ends do. (square of the sine)
 constexpr double kParallel = 0.026 * 0.026;
@@ -15,7 +17,8 @@ struct Plane {
 };
 
 inline Real distanceBeyond(const Plane& plane, const Triple& p) {
-    return mulAdd(plane.normal.z, p.z, mulAdd(plane.normal.y, p.y, mulAdd(plane.normal.x, p.x, plane.offset)));
+    return mulAdd(plane.normal.z, p.z,
+                  mulAdd(plane.normal.y, p.y, mulAdd(plane.normal.x, p.x, plane.offset)));
 }
 
 /// A part's vertex and a track triangle.
@@ -68,8 +71,8 @@ inline EdgeTest testEdges(const Edge& part, const Edge& track, const Triple& out
     // The nearest points must lie within both edges ...
     const Real alongTrack = dot(cross(between, part.direction), axis) * inverse;
     test.alongPart = dot(cross(between, track.direction), axis) * inverse;
-    const Mask within = alongTrack >= Real(0.0) && alongTrack <= track.length && test.alongPart >= Real(0.0) &&
-                        test.alongPart <= part.length;
+    const Mask within = alongTrack >= Real(0.0) && alongTrack <= track.length &&
+                        test.alongPart >= Real(0.0) && test.alongPart <= part.length;
     // ... and the normal in both edges' cones: the track below it, the part above.
     const Real trackCone = max(dot(test.normal, track.into[0]), dot(test.normal, track.into[1]));
     const Real partCone = min(dot(test.normal, part.into[0]), dot(test.normal, part.into[1]));
@@ -78,7 +81,8 @@ inline EdgeTest testEdges(const Edge& part, const Edge& track, const Triple& out
     return test;
 }
 
-/// How far a segment is beyond a face of the part. The largest over all faces is a lower bound of its distance.
+/// How far a segment is beyond a face of the part. The largest over all faces is a lower bound of its
+/// distance.
 inline Real calcSeparation(const Plane& face, const Triple& a, const Triple& b) {
     return min(dot(face.normal, a), dot(face.normal, b)) + face.offset;
 }

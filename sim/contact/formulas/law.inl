@@ -29,13 +29,13 @@ inline Pair calcMeanDirection(Real from, Real to, Real across) {
     // asinh(to / aside) - asinh(from / aside) = log1p(ratio)
     const Real slope = (Real(1.0) + along) / (from + sizeFrom);
     const Real ratio = (to - from) * slope;
-    const Real mean = select(ratio < Real(1e-4), Real(1.0) - Real(0.5) * ratio,
-                             log1p(ratio) / max(ratio, Real(1e-4)));
+    const Real mean =
+        select(ratio < Real(1e-4), Real(1.0) - Real(0.5) * ratio, log1p(ratio) / max(ratio, Real(1e-4)));
     return {along, aside * slope * mean};
 }
 
-/// What friction changes, over the bound, where the track carries the slip on by `carried`, more than the bound: friction
-/// against the slip at each moment of the step.
+/// What friction changes, over the bound, where the track carries the slip on by `carried`, more than the
+/// bound: friction against the slip at each moment of the step.
 inline Pair calcDirectionOnTheWay(const Pair& slipBefore, const Pair& carried, Real bound) {
     const Real way = max(sqrt(dot(carried, carried)), Real(kNoSpeed));
     const Pair axis = (Real(1.0) / way) * carried;
@@ -55,7 +55,8 @@ inline Pair calcDirectionOnTheWay(const Pair& slipBefore, const Pair& carried, R
     const Mask turns = start < Real(0.0);
     const Real size = max(sqrt(dot(slipBefore, slipBefore)), Real(kNoSpeed));
     const Real pull = select(start > Real(0.0), bound * before / size, bound);
-    const Pair first = calcMeanDirection(before, select(turns, back, max(start + way - pull, Real(0.0))), across);
+    const Pair first =
+        calcMeanDirection(before, select(turns, back, max(start + way - pull, Real(0.0))), across);
     Pair against = {-first.x, -first.y};
     if (any(turns && near)) {
         const Real share = back / (way + bound * first.x);  // of the step until the slip turns
@@ -81,10 +82,10 @@ struct FrictionShape {
     Pair direction;  // then: change of the slip velocity over the bound
 };
 
-/// `slip`: the slip velocity at the step's end without this contact's friction; `slipBefore`: at its begin; `bound`: the
-/// change that the full friction impulse makes. Where the track carries the slip on by more than that, friction turns
-/// with the slip within the step: at 50 Hz and 0.2 ms the direction at the step's end alone would convey up to 30 % too
-/// fast.
+/// `slip`: the slip velocity at the step's end without this contact's friction; `slipBefore`: at its begin;
+/// `bound`: the change that the full friction impulse makes. Where the track carries the slip on by more than
+/// that, friction turns with the slip within the step: at 50 Hz and 0.2 ms the direction at the step's end
+/// alone would convey up to 30 % too fast.
 inline FrictionShape calcFrictionShape(const Pair& slip, const Pair& slipBefore, Real bound) {
     const Pair carried = slip - slipBefore;
     FrictionShape shape = {dot(carried, carried) > bound * bound, {Real(0.0), Real(0.0)}};
@@ -98,8 +99,8 @@ struct Friction {
     Mask sliding;
 };
 
-/// Coulomb's cone over one step: a contact that can hold sticks exactly; one that slides has the full impulse against its
-/// slip.
+/// Coulomb's cone over one step: a contact that can hold sticks exactly; one that slides has the full impulse
+/// against its slip.
 inline Friction calcFriction(const FrictionShape& shape, const Pair& slip, Real bound) {
     const Real square = dot(slip, slip);
     const Mask sliding = shape.onTheWay || square > bound * bound;

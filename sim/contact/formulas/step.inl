@@ -1,14 +1,15 @@
-// The discrete contact law over one time step of one part: impulses at its contacts by projected Gauss-Seidel with
-// warm starting. See README.md of this folder: included inside a namespace that defines Real.
+// The discrete contact law over one time step of one part: impulses at its contacts by projected Gauss-Seidel
+// with warm starting. See README.md of this folder: included inside a namespace that defines Real.
 //
-// Scaled quantities, in which the part has mass 1 and inertia 1: impulses are per mass [m/s], `spin` is S^-1 times the
-// angular velocity, where S S^T is the inverse inertia times the mass, and `turn` is S^T times the torque's arm. [m/s], [1]
+// Scaled quantities, in which the part has mass 1 and inertia 1: impulses are per mass [m/s], `spin` is S^-1
+// times the angular velocity, where S S^T is the inverse inertia times the mass, and `turn` is S^T times the
+// torque's arm. [m/s], [1]
 
 constexpr int kMaxIterations = 30;
 /// After the first, the one that looks again at how friction turns within the step.
 constexpr int kShapingIteration = 2;
-/// Iterations end when no contact's velocity changes by more: this, and this share of the part's speed, so that what
-/// rests stays where it is. [m/s], [1]
+/// Iterations end when no contact's velocity changes by more: this, and this share of the part's speed, so
+/// that what rests stays where it is. [m/s], [1]
 constexpr double kVelocityTolerance = 2e-6;
 constexpr double kRelativeTolerance = 5e-5;
 /// Share of an overlap that is taken back in one step, without giving the part speed.
@@ -64,9 +65,9 @@ struct Row {
 };
 
 inline Real velocityAlong(const Row& row, const Motion& motion, int k) {
-    const Real moving = mulAdd(row.axis[k].x, motion.velocity.x,
-                               mulAdd(row.axis[k].y, motion.velocity.y,
-                                      mulAdd(row.axis[k].z, motion.velocity.z, -row.track[k])));
+    const Real moving = mulAdd(
+        row.axis[k].x, motion.velocity.x,
+        mulAdd(row.axis[k].y, motion.velocity.y, mulAdd(row.axis[k].z, motion.velocity.z, -row.track[k])));
     return mulAdd(row.turn[k].x, motion.spin.x,
                   mulAdd(row.turn[k].y, motion.spin.y, mulAdd(row.turn[k].z, motion.spin.z, moving)));
 }
@@ -76,15 +77,16 @@ inline void push(const Row& row, Motion& motion, int k, Real impulse) {
     motion.spin = mulAdd(impulse, row.turn[k], motion.spin);
 }
 
-/// `scale`: S^T in the axes of the contacts. before: motion in the step before. free: before plus what gravity and
-/// gyroscopic torque add in this step. dt [s].
-inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const Motion& before, const Motion& free,
-                       const Law& law, Real dt) {
+/// `scale`: S^T in the axes of the contacts. before: motion in the step before. free: before plus what
+/// gravity and gyroscopic torque add in this step. dt [s].
+inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const Motion& before,
+                       const Motion& free, const Law& law, Real dt) {
     row.gap = touch.gap;
     row.axis[0] = touch.normal;
     // Any tangents will do, as long as the same normal always gives the same ones.
     const Mask steep = abs(touch.normal.x) < Real(0.7);
-    const Triple aside = {select(steep, Real(1.0), Real(0.0)), select(steep, Real(0.0), Real(1.0)), Real(0.0)};
+    const Triple aside = {select(steep, Real(1.0), Real(0.0)), select(steep, Real(0.0), Real(1.0)),
+                          Real(0.0)};
     const Triple tangent = aside - dot(touch.normal, aside) * touch.normal;
     row.axis[1] = (Real(1.0) / sqrt(dot(tangent, tangent))) * tangent;
     row.axis[2] = cross(touch.normal, row.axis[1]);
@@ -93,7 +95,8 @@ inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const 
         row.turn[k] = scale * cross(touch.arm, row.axis[k]);
         row.track[k] = dot(row.axis[k], touch.trackVelocity);
         row.speed[k] = velocityAlong(row, free, k);
-        speedBefore[k] = dot(row.axis[k], before.velocity - touch.trackVelocityBefore) + dot(row.turn[k], before.spin);
+        speedBefore[k] =
+            dot(row.axis[k], before.velocity - touch.trackVelocityBefore) + dot(row.turn[k], before.spin);
     }
     row.normalInverse = Real(1.0) + dot(row.turn[0], row.turn[0]);
     row.normalMass = Real(1.0) / row.normalInverse;
@@ -119,20 +122,21 @@ inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const 
     const Mask impact = reaches && rebound > Real(0.0);
     row.target = select(impact, rebound, -open / dt);
     row.impactTime = select(impact, share, Real(kNoImpact));
-    // An impact is over in no time: what sticks has the track's velocity of that moment, and no slip has time to turn
-    // round.
+    // An impact is over in no time: what sticks has the track's velocity of that moment, and no slip has time
+    // to turn round.
     const Pair none = {Real(0.0), Real(0.0)};
     row.slipTarget = select(impact, (Real(0.5) - share) * (slip - slipBefore), none);
     row.slipBefore = select(impact, slip - row.slipTarget, slipBefore);
 
     row.normal = select(touch.known, touch.normalImpulse, Real(0.0));
     row.tangential = select(touch.known, touch.tangentialImpulse, none);
-    row.sliding = (touch.known && touch.slid) || (!touch.known && dot(slip, slip) > Real(kStickSpeed * kStickSpeed));
+    row.sliding =
+        (touch.known && touch.slid) || (!touch.known && dot(slip, slip) > Real(kStickSpeed * kStickSpeed));
     row.friction = select(row.sliding, law.kineticFriction, law.staticFriction);
 }
 
-/// Changes the rows' impulses until all targets are met; returns the motion that they lead to from `freeMotion`. Lanes of
-/// `frozen` keep their impulses.
+/// Changes the rows' impulses until all targets are met; returns the motion that they lead to from
+/// `freeMotion`. Lanes of `frozen` keep their impulses.
 inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask frozen) {
     Motion motion = freeMotion;
     for (int i = 0; i < count; ++i) {
@@ -140,8 +144,9 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
         push(rows[i], motion, 1, rows[i].tangential.x);
         push(rows[i], motion, 2, rows[i].tangential.y);
     }
-    const Real tolerance = Real(kVelocityTolerance * kVelocityTolerance) +
-                           Real(kRelativeTolerance * kRelativeTolerance) * dot(motion.velocity, motion.velocity);
+    const Real tolerance =
+        Real(kVelocityTolerance * kVelocityTolerance) +
+        Real(kRelativeTolerance * kRelativeTolerance) * dot(motion.velocity, motion.velocity);
     Mask done = frozen;
     for (int iteration = 0; iteration < kMaxIterations && !all(done); ++iteration) {
         Real change = Real(0.0);  // of velocity, squared
@@ -155,11 +160,14 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
             const Real normalChange = step * row.normalInverse;
             change = max(change, normalChange * normalChange);
 
-            const Pair slip = Pair{velocityAlong(row, motion, 1), velocityAlong(row, motion, 2)} - row.slipTarget;
+            const Pair slip =
+                Pair{velocityAlong(row, motion, 1), velocityAlong(row, motion, 2)} - row.slipTarget;
             const Pair free = slip - row.tangentInverse * row.tangential;
             const Real bound = row.friction * row.normal * row.tangentInverse;
-            // How friction turns on the way hardly changes from one iteration to the next; once it stays, they converge.
-            if (iteration == 0 || iteration == kShapingIteration) row.shape = calcFrictionShape(free, row.slipBefore, bound);
+            // How friction turns on the way hardly changes from one iteration to the next; once it stays,
+            // they converge.
+            if (iteration == 0 || iteration == kShapingIteration)
+                row.shape = calcFrictionShape(free, row.slipBefore, bound);
             const Friction friction = calcFriction(row.shape, free, bound);
             const Pair tangentialStep =
                 select(done, Pair{Real(0.0), Real(0.0)}, row.tangentMass * friction.change - row.tangential);
@@ -202,8 +210,9 @@ inline Motion solve(Row* rows, int count, const Motion& free) {
     return motion;
 }
 
-/// What moves the pose over the step: the free motion up to the earliest impact, the solved one from there on, and
-/// whatever keeps the pose that this leads to from overlapping more than before, without giving the part speed.
+/// What moves the pose over the step: the free motion up to the earliest impact, the solved one from there
+/// on, and whatever keeps the pose that this leads to from overlapping more than before, without giving the
+/// part speed.
 inline Motion advancePose(const Row* rows, int count, const Motion& free, const Motion& after, Real dt) {
     Real impactTime = Real(kNoImpact);
     for (int i = 0; i < count; ++i)

@@ -1,12 +1,12 @@
 #include <QtTest>
 #include <cmath>
 
-#include "engine_scenes.h"
 #include "sim/contact/drive_motion.h"
 #include "sim/simbody/certifying_engine.h"
 #include "sim/simbody/certifying_trial.h"
 #include "sim/simbody/simbody_engine.h"
 #include "sim/simbody/trial_lane.h"
+#include "tests/sim/engines/engine_scenes.h"
 
 using namespace trapwright;
 using base::Quaternion;

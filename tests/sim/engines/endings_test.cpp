@@ -1,8 +1,8 @@
 #include <QtTest>
 #include <cmath>
 
-#include "engine_scenes.h"
-#include "sim/simbody/simbody_engine.h"
+#include "tests/sim/engines/each_engine.h"
+#include "tests/sim/engines/engine_scenes.h"
 
 using namespace trapwright;
 using base::Vec3;
@@ -11,7 +11,7 @@ using trial::Ending;
 namespace {
 
 trial::Outcome simulate(const trial::TrialBatch& batch) {
-    const auto outcomes = simbody::SimbodyEngine({1, 0.0}).run(std::vector{batch}, {});
+    const auto outcomes = testing::makeEngine({1, 0.0})->run(std::vector{batch}, {});
     return outcomes.ok() ? (*outcomes)[0][0] : trial::Outcome{};
 }
 
@@ -29,6 +29,8 @@ class EndingsTest : public QObject {
     Q_OBJECT
 
  private slots:
+    void initTestCase_data() { testing::addEngines(); }
+
     // Sliding without friction at 1 m/s over the 400 mm to the finish.
     void finishes() {
         trial::TrialBatch batch = makeStill(2.0);

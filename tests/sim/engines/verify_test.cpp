@@ -2,7 +2,7 @@
 
 #include <QtTest>
 
-#include "sim/simbody/simbody_engine.h"
+#include "tests/sim/engines/each_engine.h"
 
 using namespace trapwright;
 
@@ -10,12 +10,12 @@ class VerifyTest : public QObject {
     Q_OBJECT
 
     static verify::EngineFactory makeFactory() {
-        return [](const trial::EngineOptions& options) {
-            return std::make_unique<simbody::SimbodyEngine>(options);
-        };
+        return [](const trial::EngineOptions& options) { return testing::makeEngine(options); };
     }
 
  private slots:
+    void initTestCase_data() { testing::addEngines(); }
+
     void everyRowPasses_data() {
         QTest::addColumn<QString>("name");
         for (const verify::Case& test : verify::allCases())
@@ -50,7 +50,7 @@ class VerifyTest : public QObject {
         int failed = 0;
         const verify::EngineFactory factory = [&](const trial::EngineOptions& options) {
             control.cancel();
-            return std::make_unique<simbody::SimbodyEngine>(options);
+            return testing::makeEngine(options);
         };
         QVERIFY(!verify::runCases(factory, "bounce", control, [&](const verify::Row& row) {
             failed += row.passed ? 0 : 1;

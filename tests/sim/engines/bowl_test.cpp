@@ -1,8 +1,8 @@
 #include <QtTest>
 #include <cmath>
 
-#include "engine_scenes.h"
-#include "sim/simbody/simbody_engine.h"
+#include "tests/sim/engines/each_engine.h"
+#include "tests/sim/engines/engine_scenes.h"
 
 using namespace trapwright;
 using base::Quaternion;
@@ -14,7 +14,7 @@ using track::FeederType;
 namespace {
 
 trial::Trajectory replay(const trial::TrialBatch& batch, double interval) {
-    return verify::replayScene(simbody::SimbodyEngine(), batch, interval, {});
+    return verify::replayScene(*testing::makeEngine(), batch, interval, {});
 }
 
 /// Along the track, over whole periods after the first tenth of a second. [m/s]
@@ -32,6 +32,8 @@ class BowlTest : public QObject {
     Q_OBJECT
 
  private slots:
+    void initTestCase_data() { testing::addEngines(); }
+
     void aHugeBowlIsALinearFeeder_data() {
         QTest::addColumn<double>("halfStroke");
         QTest::addColumn<int>("conveying");

@@ -1,16 +1,18 @@
-#include "sim/simbody/simbody_engine.h"
+#include "core/trial/engine.h"
 
 #include <QtTest>
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <map>
+#include <string>
 #include <thread>
 
-#include "engine_scenes.h"
+#include "tests/sim/engines/each_engine.h"
+#include "tests/sim/engines/engine_scenes.h"
 
 using namespace trapwright;
 using base::Vec3;
-using simbody::SimbodyEngine;
 
 namespace {
 
@@ -18,7 +20,7 @@ using Outcomes = std::vector<std::vector<trial::Outcome>>;
 
 Outcomes simulate(const std::vector<trial::TrialBatch>& batches, unsigned threads) {
     base::RunControl control;
-    const auto outcomes = SimbodyEngine({threads, 0.0}).run(batches, control);
+    const auto outcomes = testing::makeEngine({threads, 0.0})->run(batches, control);
     if (!outcomes) return {};
     std::int64_t trials = 0;
     for (const trial::TrialBatch& batch : batches)
@@ -35,19 +37,26 @@ trial::TrialBatch makeEndless(int trials) {
 
 }  // namespace
 
-class SimbodyEngineTest : public QObject {
+class EngineTest : public QObject {
     Q_OBJECT
 
     trial::TrialBatch batch_ = testing::makeRoughBatch(verify::makePaperCuboid(), 1, 40, 0.25);
-    std::vector<trial::Outcome> outcomes_;
+    std::vector<trial::Outcome> outcomes_;              // of batch_ ...
+    std::map<std::string, Outcomes> outcomesByEngine_;  // ... which is simulated once by each
 
  private slots:
-    void initTestCase() {
-        const Outcomes outcomes = simulate({batch_}, 1);
+    void initTestCase_data() { testing::addEngines(); }
+
+    void init() {
+        Outcomes& outcomes = outcomesByEngine_[testing::makeEngine()->name()];
+        if (outcomes.empty()) outcomes = simulate({batch_}, 1);
         QCOMPARE(outcomes.size(), 1U);
-        QCOMPARE(outcomes[0].size(), batch_.trials.size());
         outcomes_ = outcomes[0];
-        // Trials differ: comparing them below means something.
+    }
+
+    // Otherwise comparing them below would mean nothing.
+    void trialsDiffer() {
+        QCOMPARE(outcomes_.size(), batch_.trials.size());
         for (std::size_t i = 1; i < outcomes_.size(); ++i)
             QVERIFY(!(outcomes_[i] == outcomes_[0]));
     }
@@ -86,14 +95,16 @@ class SimbodyEngineTest : public QObject {
         QVERIFY(joined == outcomes_);
     }
 
-    // Batches of several parts and tracks in one call give what each gives alone.
+    // Batches of several parts and tracks, on bowls and linear feeders, in one call give what each gives
+    // alone.
     void batchesDoNotSeeEachOther() {
         const auto brick = verify::makeCuboid(Vec3(3, 6, 7) * base::kMillimetre, 8500.0);
-        trial::TrialBatch flat = testing::makeLyingOn({}, 0.3, 0.2);
+        const trial::TrialBatch flat = testing::makeLyingOn({}, 0.3, 0.2);
+        const trial::TrialBatch bowl = testing::makeLyingOn({track::FeederType::bowl, 0.175}, 0.3, 0.2);
         trial::TrialBatch few = batch_;
         few.trials.resize(5);
         const std::vector<trial::TrialBatch> batches = {few, testing::makeRoughBatch(brick, 2, 6, 0.2), flat,
-                                                        testing::makeRoughBatch(brick, 3, 2, 0.1)};
+                                                        bowl, testing::makeRoughBatch(brick, 3, 2, 0.1)};
         const Outcomes together = simulate(batches, 2);
         QCOMPARE(together.size(), batches.size());
         for (std::size_t b = 0; b < batches.size(); ++b)
@@ -112,7 +123,7 @@ class SimbodyEngineTest : public QObject {
 
     void replayIsTheTrialBitForBit() {
         for (const std::size_t index : {std::size_t{0}, std::size_t{17}, batch_.trials.size() - 1}) {
-            const auto replay = SimbodyEngine().replay(batch_, index, 0.01, {});
+            const auto replay = testing::makeEngine()->replay(batch_, index, 0.01, {});
             QVERIFY(replay.ok());
             QVERIFY(replay->outcome == outcomes_[index]);
             // A sample every 10 ms, the first at the start and the last at the end.
@@ -126,7 +137,7 @@ class SimbodyEngineTest : public QObject {
     }
 
     void aFinerStepIsUsed() {
-        const auto fine = SimbodyEngine({1, 1e-4}).run(std::vector{batch_}, {});
+        const auto fine = testing::makeEngine({1, 1e-4})->run(std::vector{batch_}, {});
         QVERIFY(fine.ok());
         QVERIFY((*fine)[0] != outcomes_);
     }
@@ -136,8 +147,8 @@ class SimbodyEngineTest : public QObject {
         for (const unsigned threads : {1U, 2U}) {
             const std::vector batches = {makeEndless(48)};
             base::RunControl control;
-            const SimbodyEngine engine({threads, 0.0});
-            auto running = std::async(std::launch::async, [&] { return engine.run(batches, control); });
+            const auto engine = testing::makeEngine({threads, 0.0});
+            auto running = std::async(std::launch::async, [&] { return engine->run(batches, control); });
             std::this_thread::sleep_for(std::chrono::milliseconds(150));
             const auto asked = std::chrono::steady_clock::now();
             control.cancel();
@@ -153,8 +164,9 @@ class SimbodyEngineTest : public QObject {
     void aReplayCanBeCancelled() {
         const trial::TrialBatch batch = makeEndless(1);
         base::RunControl control;
-        auto running = std::async(std::launch::async,
-                                  [&] { return SimbodyEngine().replay(batch, 0, 1.0, control).ok(); });
+        const auto engine = testing::makeEngine();
+        auto running =
+            std::async(std::launch::async, [&] { return engine->replay(batch, 0, 1.0, control).ok(); });
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         control.cancel();
         QVERIFY(running.wait_for(std::chrono::seconds(1)) == std::future_status::ready);
@@ -162,9 +174,9 @@ class SimbodyEngineTest : public QObject {
     }
 
     void whatCannotBeSimulatedIsRefused() {
-        const SimbodyEngine engine;
+        const auto engine = testing::makeEngine();
         const auto message = [&](const trial::TrialBatch& batch) {
-            const auto result = engine.run(std::vector{batch_, batch}, {});
+            const auto result = engine->run(std::vector{batch_, batch}, {});
             return result.ok() ? std::string() : result.error().message;
         };
         trial::TrialBatch noPieces = batch_;
@@ -184,11 +196,11 @@ class SimbodyEngineTest : public QObject {
         noTrack.track = nullptr;
         QVERIFY(message(noTrack).find("no track") != std::string::npos);
 
-        const auto beyond = engine.replay(batch_, 40, 0.01, {});
+        const auto beyond = engine->replay(batch_, 40, 0.01, {});
         QVERIFY(!beyond.ok());
         QVERIFY(beyond.error().message.find("There is no trial 40: the batch has 40") != std::string::npos);
     }
 };
 
-QTEST_APPLESS_MAIN(SimbodyEngineTest)
-#include "simbody_engine_test.moc"
+QTEST_APPLESS_MAIN(EngineTest)
+#include "engine_test.moc"
