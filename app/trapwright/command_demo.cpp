@@ -99,12 +99,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     console.print(fmt::format("\nThe track of generation {}, by the pose in which the parts arrive:\n{}\n",
                               picked->generation, study::formatValidation(*validation)));
 
-    const auto track = study::decodeTrack(study->settings.track, picked->record.chromosome);
+    auto track = study::decodeTrack(study->settings.track, picked->record.chromosome);
     if (!track) return Failure{ExitCode::fault, track.error().message};
+    const track::TrackFile design{fmt::format("cuboid, generation {}", picked->generation),
+                                  std::move(track).value(), validation->expectedOrientation};
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (const char* name : {"cuboid.stl", "cuboid.3mf"}) {
-        auto exported =
-            exportTrack(*track, folder / name, fmt::format("cuboid, generation {}", picked->generation));
+        auto exported = exportTrack(design, folder / name);
         if (!exported) return exported.failure();
         console.print(describeExport(*exported));
         files.push_back(exported->path.string());

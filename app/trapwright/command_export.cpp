@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "app/trapwright/command.h"
@@ -27,6 +28,18 @@ std::vector<std::string> defaultFiles(const std::string& study) {
             std::filesystem::path(study).replace_extension(".3mf").string()};
 }
 
+/// How the last selection found this individual's parts to end; none if it is not in there.
+std::optional<base::Quaternion> findExpectedOrientation(const store::StudyFile& file,
+                                                        const study::Winner& individual) {
+    const auto selections = file.loadSelections();
+    if (!selections || selections->empty()) return std::nullopt;
+    for (const study::SelectionEntry& entry : selections->back().entries) {
+        if (entry.generation == individual.generation && entry.individual == individual.individual)
+            return entry.modalOrientation;
+    }
+    return std::nullopt;
+}
+
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto file = store::StudyFile::openReadOnly(options.study);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
@@ -41,8 +54,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         fmt::format("{}, generation {}, individual {}", std::filesystem::path(options.study).stem().string(),
                     individual->generation, individual->individual);
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    const track::TrackFile design{name, *track, findExpectedOrientation(*file, *individual)};
     for (const std::string& path : options.files.empty() ? defaultFiles(options.study) : options.files) {
-        auto exported = exportTrack(*track, path, name);
+        auto exported = exportTrack(design, path);
         if (!exported) return exported.failure();
         console.print(describeExport(*exported));
         files.push_back({{"file", path},
@@ -65,12 +79,13 @@ void addExportCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
     CLI::App& command =
         addCommand(program, invocation, "export",
-                   "Writes a track for printing as binary STL or 3MF in mm, and checks what was written.",
+                   "Writes a track for printing as binary STL or 3MF, or as JSON for `trapwright track`, in mm, and "
+                   "checks what was written.",
                    "trapwright export cuboid.trap track.stl track.3mf",
                    [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();
     command.add_option("FILE", options->files,
-                       "Files to write, .stl or .3mf (default: both, beside the study)");
+                       "Files to write, .stl, .3mf or .json (default: STL and 3MF, beside the study)");
     addIndividualOptions(command, options->choice);
 }
 

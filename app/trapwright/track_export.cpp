@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/mesh_files.h"
@@ -18,8 +19,7 @@ namespace {
 constexpr double kVolumeTolerance = 1e-4;
 
 struct Format {
-    base::Status (*write)(const std::filesystem::path&, const geometry::TriangleMesh&,
-                          const std::string& name);
+    base::Status (*write)(const std::filesystem::path&, const track::TrackFile&);
     base::Result<geometry::TriangleMesh> (*read)(const std::filesystem::path&);
 };
 
@@ -28,30 +28,43 @@ Attempt<Format> findFormat(const std::filesystem::path& path) {
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".stl") {
-        return Format{[](const std::filesystem::path& file, const geometry::TriangleMesh& mesh,
-                         const std::string&) { return geometry::writeStl(file, mesh); },
+        return Format{[](const std::filesystem::path& file, const track::TrackFile& design) {
+                          return geometry::writeStl(file, design.track.solid);
+                      },
                       geometry::readStl};
     }
-    if (extension == ".3mf") return Format{geometry::write3mf, geometry::read3mf};
+    if (extension == ".3mf") {
+        return Format{[](const std::filesystem::path& file, const track::TrackFile& design) {
+                          return geometry::write3mf(file, design.track.solid, design.about);
+                      },
+                      geometry::read3mf};
+    }
+    if (extension == ".json") {
+        return Format{track::writeTrackFile,
+                      [](const std::filesystem::path& file) -> base::Result<geometry::TriangleMesh> {
+                          auto design = track::readTrackFile(file);
+                          if (!design) return design.error();
+                          return std::move(design->track.solid);
+                      }};
+    }
     return Failure{ExitCode::usage,
-                   fmt::format("{}: tracks are exported as .stl or .3mf; end the name with one of them.",
+                   fmt::format("{}: tracks are exported as .stl, .3mf or .json; end the name with one of them.",
                                path.string())};
 }
 
 }  // namespace
 
-Attempt<ExportedFile> exportTrack(const track::Track& track, const std::filesystem::path& path,
-                                  const std::string& name) {
+Attempt<ExportedFile> exportTrack(const track::TrackFile& design, const std::filesystem::path& path) {
     auto format = findFormat(path);
     if (!format) return format.failure();
-    if (const auto written = format->write(path, track.solid, name); !written)
+    if (const auto written = format->write(path, design); !written)
         return Failure{ExitCode::cannotWrite, written.error().message};
     const auto mesh = format->read(path);
     if (!mesh) return Failure{ExitCode::cannotWrite, "Reading the file back: " + mesh.error().message};
 
     ExportedFile file{path, geometry::calcBoundingBox(*mesh).size(), mesh->triangles.size(),
                       geometry::checkMesh(*mesh, true)};
-    const double volume = geometry::calcMassProperties(track.solid, 1.0).volume;
+    const double volume = geometry::calcMassProperties(design.track.solid, 1.0).volume;
     if (file.report.isSolid() && std::abs(file.report.volume - volume) <= kVolumeTolerance * volume)
         return file;
     std::error_code failure;

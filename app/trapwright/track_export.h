@@ -5,7 +5,7 @@
 
 #include "app/trapwright/exit_codes.h"
 #include "core/geometry/mesh_check.h"
-#include "core/track/track.h"
+#include "core/track/track_file.h"
 
 namespace trapwright::app {
 
@@ -17,10 +17,10 @@ struct ExportedFile {
     geometry::MeshReport report;
 };
 
-/// Writes the track's solid as binary STL or 3MF, by the extension, in millimetres; reads it back and checks
-/// that it is closed, manifold and of the same volume. What fails that check is removed again.
-Attempt<ExportedFile> exportTrack(const track::Track& track, const std::filesystem::path& path,
-                                  const std::string& name);
+/// Writes the track's solid as binary STL or 3MF, or the track as JSON (core/track/track_file.h), by the extension,
+/// in millimetres; reads it back and checks that it is closed, manifold and of the same volume. What fails that
+/// check is removed again.
+Attempt<ExportedFile> exportTrack(const track::TrackFile& design, const std::filesystem::path& path);
 
 /// A sentence about the file for people.
 std::string describeExport(const ExportedFile& file);
