@@ -77,12 +77,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addExportCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
-        addCommand(program, invocation, "export",
-                   "Writes a track for printing as binary STL or 3MF, or as JSON for `trapwright track`, in mm, and "
-                   "checks what was written.",
-                   "trapwright export cuboid.trap track.stl track.3mf",
-                   [options](const Console& console) { return run(*options, console); });
+    CLI::App& command = addCommand(
+        program, invocation, "export",
+        "Writes a track for printing as binary STL or 3MF, or as JSON for `trapwright track`, in mm, and "
+        "checks what was written.",
+        "trapwright export cuboid.trap track.stl track.3mf",
+        [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();
     command.add_option("FILE", options->files,
                        "Files to write, .stl, .3mf or .json (default: STL and 3MF, beside the study)");

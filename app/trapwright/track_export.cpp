@@ -47,9 +47,10 @@ Attempt<Format> findFormat(const std::filesystem::path& path) {
                           return std::move(design->track.solid);
                       }};
     }
-    return Failure{ExitCode::usage,
-                   fmt::format("{}: tracks are exported as .stl, .3mf or .json; end the name with one of them.",
-                               path.string())};
+    return Failure{
+        ExitCode::usage,
+        fmt::format("{}: tracks are exported as .stl, .3mf or .json; end the name with one of them.",
+                    path.string())};
 }
 
 }  // namespace

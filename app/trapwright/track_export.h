@@ -17,9 +17,9 @@ struct ExportedFile {
     geometry::MeshReport report;
 };
 
-/// Writes the track's solid as binary STL or 3MF, or the track as JSON (core/track/track_file.h), by the extension,
-/// in millimetres; reads it back and checks that it is closed, manifold and of the same volume. What fails that
-/// check is removed again.
+/// Writes the track's solid as binary STL or 3MF, or the track as JSON (core/track/track_file.h), by the
+/// extension, in millimetres; reads it back and checks that it is closed, manifold and of the same volume.
+/// What fails that check is removed again.
 Attempt<ExportedFile> exportTrack(const track::TrackFile& design, const std::filesystem::path& path);
 
 /// A sentence about the file for people.

@@ -113,10 +113,10 @@ class CommandsTest : public QObject {
         QCOMPARE(validation["total"].toObject()["trials"].toInt(), 18);
         QVERIFY(std::abs(validation["tolerance_deg"].toDouble() - 30.0) < 1e-9);
 
-        const Ran exported = ask({"export", "study.trap", "track.stl", "track.3mf", "--json"});
+        const Ran exported = ask({"export", "study.trap", "track.stl", "track.3mf", "track.json", "--json"});
         QVERIFY2(exported.code == 0, exported.all());
         const QJsonArray files = exported.json()["files"].toArray();
-        QCOMPARE(files.size(), 2);
+        QCOMPARE(files.size(), 3);
         for (const QJsonValue file : files) {
             QVERIFY(file["closed_and_manifold"].toBool());
             QVERIFY(std::abs(file["size_mm"].toArray()[1].toDouble() - 60.0) < 1e-3);
@@ -127,6 +127,10 @@ class CommandsTest : public QObject {
         // The program's own part import finds a solid of that size in it.
         const QJsonObject track = ask({"part", "track.stl", "--units", "mm", "--json"}).json();
         QVERIFY(std::abs(track["volume_mm3"].toDouble() / files[0]["volume_mm3"].toDouble() - 1.0) < 1e-6);
+        // What is written for `track` can be simulated.
+        const Ran simulated = ask({"track", "track.json", "--trials", "2", "--json"});
+        QVERIFY2(simulated.code == 0, simulated.all());
+        QCOMPARE(simulated.json()["trials"].toInt(), 2);
     }
 
     void replayTellsTheTrial() {
