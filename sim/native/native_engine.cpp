@@ -104,25 +104,25 @@ void runTrials(const HerdModel& model, TrialQueue& queue, int lanes,
     trial::CostLaps laps(costs);
     RunningTrials trials(model, lanes);
     if (costs != nullptr) trials.herd().laps = &laps;
+    const auto removeIfEnded = [&](int lane) {
+        if (!trials.hasEnded(lane)) return false;
+        const Run& run = trials.run(lane);
+        outcomes[run.batch][run.trial] = run.progress.outcome();
+        control.advance(1);
+        trials.remove(lane);
+        return true;
+    };
     bool more = true;
     for (long step = 0;; ++step) {
         if (step % kStepsPerLook == 0 && control.cancelled()) return;
-        for (int lane = 0; lane < trials.count();) {
-            if (!trials.hasEnded(lane)) {
-                ++lane;
-                continue;
-            }
-            const Run& run = trials.run(lane);
-            outcomes[run.batch][run.trial] = run.progress.outcome();
-            control.advance(1);
-            trials.remove(lane);
-        }
+        for (int lane = 0; lane < trials.count();)
+            lane += removeIfEnded(lane) ? 0 : 1;
         while (more && trials.count() < lanes) {
             auto job = queue.next();
             more = job.has_value();
             if (!more) break;
             trials.add(std::move(job->scene), job->batch, job->trial);
-            trials.hasEnded(trials.count() - 1);
+            removeIfEnded(trials.count() - 1);  // it may begin past the finish
         }
         if (trials.count() == 0) return;
         trials.step();

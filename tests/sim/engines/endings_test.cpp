@@ -70,6 +70,18 @@ class EndingsTest : public QObject {
         QVERIFY(std::abs(outcome.time - 0.3) < 2.1e-3);
     }
 
+    // Over before the first step, in a run as in a replay.
+    void beginsPastTheFinish() {
+        trial::TrialBatch batch = makeStill(2.0);
+        batch.trials[0].start.pose.position.x() = 0.51;
+        const trial::Outcome outcome = simulate(batch);
+        QCOMPARE(outcome.ending, Ending::finished);
+        QCOMPARE(outcome.time, 0.0);
+        const auto trajectory = testing::makeEngine({1, 0.0})->replay(batch, 0, 1e-3, {});
+        QVERIFY(trajectory.ok());
+        QVERIFY(trajectory->outcome == outcome);
+    }
+
     // Far enough in every stuck time by 1 mm: not stuck until it has stopped.
     void slowProgressIsNotStuck() {
         trial::TrialBatch batch = makeStill(0.3);
