@@ -8,6 +8,7 @@
 
 #include "app/trapwright/bench_report.h"
 #include "app/trapwright/engines.h"
+#include "app/trapwright/study_engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 
@@ -42,7 +43,9 @@ Attempt<std::vector<bench::Contender>> chooseContenders(const std::string& engin
         for (const bench::Contender& contender : known)
             if (contender.name != kCertifying) chosen.push_back(contender);
     }
-    for (const std::string& name : splitAtCommas(engines == "all" ? "" : engines)) {
+    std::vector<std::string> names = splitAtCommas(engines == "all" ? "" : engines);
+    if (engines == "hybrid") names = {engineFor(engines, EngineUse::learning), *referenceFor(engines)};
+    for (const std::string& name : names) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const bench::Contender& contender) {
             return contender.name == name;
         });
@@ -81,9 +84,10 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
     command.add_option("--scene", options.filter, "Only the scenes with this in their name");
     command.add_option("--step", options.step, "Of simulated time in ms (each engine's own)")
         ->check(CLI::Range(1e-4, 2.0));
-    command.add_option(
-        "--engine", options.engines,
-        fmt::format("Engines side by side: A,B or \"all\", which leaves {} out (all)", kCertifying));
+    command.add_option("--engine", options.engines,
+                       fmt::format("Engines side by side: A,B, hybrid for the two that it stands for, or "
+                                   "\"all\", which leaves {} out (all)",
+                                   kCertifying));
 }
 
 std::vector<bench::Contender> listContenders() {

@@ -7,6 +7,7 @@
 #include "app/trapwright/command.h"
 #include "app/trapwright/engine_agreement.h"
 #include "app/trapwright/engines.h"
+#include "app/trapwright/study_engines.h"
 #include "app/trapwright/work_display.h"
 #include "core/verify/verify.h"
 
@@ -50,7 +51,9 @@ Attempt<nlohmann::ordered_json> runCases(const EngineFactory& factory, const std
     return rows;
 }
 
-Attempt<ExitCode> run(const Options& options, const Console& console) {
+Attempt<ExitCode> run(Options options, const Console& console) {
+    // What learns is what has to agree.
+    options.engine = engineFor(options.engine, EngineUse::learning);
     auto factory = findEngine(options.engine);
     if (!factory) return factory.failure();
     std::string names;
@@ -105,7 +108,7 @@ void addVerifyCommand(CLI::App& program, Invocation& invocation) {
                    [options](const Console& console) { return run(*options, console); });
     command.add_option(
         "--engine", options->engine,
-        "simbody (default); native, which is held against simbody as well (case agreement); or "
+        "simbody (default); native or hybrid, which is held against simbody as well (case agreement); or "
         "simbody-certifying: the continuous contact law under an error-controlled integrator, some hundred "
         "times slower");
     command.add_option("--case", options->filter, "Only the cases with this in their name");

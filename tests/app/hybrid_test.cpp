@@ -97,6 +97,16 @@ class HybridTest : public QObject {
         QVERIFY2(again.code == 0 && again.output.contains("engine simbody\n"), again.all());
     }
 
+    void verifyAndBenchTakeHybridToo() {
+        const Ran verified = learn({"verify", "--engine", "hybrid", "--case", "bounce", "--json"});
+        QVERIFY2(verified.code == 0, verified.all());
+        QCOMPARE(verified.json()["engine"].toString(), "native");
+        const Ran timed = learn(
+            {"bench", "--engine", "hybrid", "--scene", "cuboid flat", "--trials", "2", "--repeats", "1"});
+        QVERIFY2(timed.code == 0, timed.all());
+        QVERIFY(timed.output.contains("native") && timed.output.contains("simbody"));
+    }
+
  private:
     [[nodiscard]] static QStringList hybridStudy(const QString& name, int generations) {
         return quickStudy(name, generations) + QStringList{"--engine", "hybrid"};
