@@ -1,11 +1,11 @@
 #include <QMessageBox>
 #include <QPushButton>
 
-#include "core/part/import.h"
 #include "ui/look/file_dialog.h"
 #include "ui/look/message_bar.h"
 #include "ui/look/text.h"
 #include "ui/pages/page.h"
+#include "ui/pages/part_files.h"
 #include "ui/session/part_import.h"
 #include "ui/session/recovery_note.h"
 #include "ui/window/main_window.h"
@@ -41,11 +41,7 @@ QPushButton* addAnswer(QMessageBox* box, const QString& name, const QString& tex
 }  // namespace
 
 void MainWindow::askForPart() {
-    QStringList patterns;
-    for (const std::string& extension : part::supportedExtensions())
-        patterns << "*" + QString::fromStdString(extension) << "*" + QString::fromStdString(extension).toUpper();
-    look::askForFile(this,
-                     {"part", tr("Import a part"), tr("Import"), tr("Parts (%1);;All files (*)").arg(patterns.join(' ')), {}, {}},
+    look::askForFile(this, pages::partQuestion(),
                      [this](const std::filesystem::path& file) { importPart(file, true); });
 }
 
