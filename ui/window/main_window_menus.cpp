@@ -1,6 +1,6 @@
 #include <QActionGroup>
 #include <QApplication>
-#include <QDesktopServices>
+#include <QFile>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>

@@ -1,5 +1,6 @@
 #include "ui/window/welcome.h"
 
+#include <QEvent>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
