@@ -50,7 +50,10 @@ void ImportQuestion::askRepair(const work::PartRequest& request, const geometry:
     begin(tr("Close the holes of %1?").arg(fileName(request)), message);
     work::PartRequest answer = request;
     answer.closeLargeHoles = true;
-    addAnswer("repair", tr("Close %n hole(s) and import it", nullptr, static_cast<int>(found.holes.size())), answer);
+    addAnswer("repair",
+              found.holes.size() == 1 ? tr("Close the hole and import it")
+                                      : tr("Close the %1 holes and import it").arg(found.holes.size()),
+              answer);
     end();
 }
 

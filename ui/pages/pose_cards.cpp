@@ -68,7 +68,7 @@ void PoseCards::rebuild() {
         bold.setBold(true);
         chance->setFont(bold);
         chance->setAlignment(Qt::AlignHCenter);
-        auto* alike = new QLabel(tr("%n face(s)", nullptr, pose.multiplicity), card);
+        auto* alike = new QLabel(pose.multiplicity == 1 ? tr("one face") : tr("%1 alike").arg(pose.multiplicity), card);
         alike->setAlignment(Qt::AlignHCenter);
         alike->setForegroundRole(QPalette::PlaceholderText);
         card->setAccessibleName(tr("Stable pose %1: %2, %3").arg(index + 1).arg(chance->text(), alike->text()));

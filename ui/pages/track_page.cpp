@@ -216,9 +216,9 @@ void TrackPage::showProblems() {
     form_->setProblems(problems, session_->recommendations());
     if (problems.empty()) return problems_->setText({});
     const QColor colour = look::toneColour(look::Tone::bad, palette());
-    problems_->setText(QString("<a href=\"#\" style=\"color: %1\">%2</a>")
-                           .arg(colour.name(), tr("%n value(s) to mend before learning", nullptr,
-                                                  static_cast<int>(problems.size()))));
+    const QString text = problems.size() == 1 ? tr("One value to mend before learning")
+                                              : tr("%1 values to mend before learning").arg(problems.size());
+    problems_->setText(QString("<a href=\"#\" style=\"color: %1\">%2</a>").arg(colour.name(), text));
 }
 
 void TrackPage::showContact() {
