@@ -41,7 +41,7 @@ MainWindow::MainWindow(session::Environment environment)
       docks_(new PageDocks(*this, pages_)),
       status_(new StatusLine(this)) {
     setObjectName("mainWindow");
-    setWindowIcon(QIcon(":/icons/trapwright.svg"));
+    setWindowIcon(look::programIcon());
     setAcceptDrops(true);
     setCentralWidget(frame_);
     addToolBar(Qt::LeftToolBarArea, rail_);
