@@ -36,7 +36,7 @@ QString fromView(std::string_view text) {
 QWidget* labelled(const QString& label, QWidget* editor, QWidget* parent) {
     auto* row = new QWidget(parent);
     auto* layout = new QHBoxLayout(row);
-    layout->setContentsMargins(0, 0, 26, 0);
+    layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(6);
     auto* text = new QLabel(label, row);
     text->setBuddy(editor);

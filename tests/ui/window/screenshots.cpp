@@ -3,9 +3,8 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QDir>
-#include <QElapsedTimer>
-#include <QImage>
+#include <QPixmap>
+#include <QScreen>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTest>
@@ -36,7 +35,9 @@ class Camera {
     void take(QWidget& window, const QString& subject) {
         QTest::qWait(kSettle);
         const QString file = QString("%1/%2-%3.png").arg(folder_, subject, name_);
-        failed_ = !window.grab().save(file) || failed_;
+        // From the screen: what is drawn over the 3D scene and what is open above the window belongs to it.
+        const QPixmap picture = window.screen()->grabWindow(window.winId());
+        failed_ = !picture.save(file) || failed_;
         std::puts(qPrintable(file));
     }
     [[nodiscard]] bool failed() const { return failed_; }
