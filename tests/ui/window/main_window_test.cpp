@@ -47,7 +47,8 @@ struct User {
     User() {
         window.resize(1280, 720);
         window.show();
-        (void)QTest::qWaitForWindowExposed(&window);
+        window.activateWindow();
+        (void)QTest::qWaitForWindowActive(&window);
     }
     ~User() {
         window.desk().close(false);
@@ -210,9 +211,12 @@ class MainWindowTest : public QObject {
         User user;
         QMimeData data;
         data.setUrls({QUrl::fromLocalFile(QString::fromStdString(bundled("pin").string()))});
+        QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(&user.window, &enter);
+        QVERIFY(enter.isAccepted());
         QDropEvent drop({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
         QCoreApplication::sendEvent(&user.window, &drop);
-        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
+        QVERIFY2(QTest::qWaitFor([&] { return user.session() != nullptr; }, kPatience), qPrintable(user.message()));
         QCOMPARE(user.find<QLabel>("part.name")->text(), QString("pin"));
     }
 
