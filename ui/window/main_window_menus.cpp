@@ -73,6 +73,8 @@ void MainWindow::addEditMenu() {
     QAction* redo = undo_->createRedoAction(this, tr("&Redo"));
     undo->setObjectName("edit.undo");
     redo->setObjectName("edit.redo");
+    undo->setProperty(kLastingText, tr("Undo"));
+    redo->setProperty(kLastingText, tr("Redo"));
     undo->setIcon(look::icon("undo"));
     redo->setIcon(look::icon("redo"));
     undo->setShortcut(QKeySequence::Undo);
