@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/study/records.h"
+#include "core/study/settings.h"
+
+namespace trapwright::session {
+
+/// What charts show of a study that is not open here, to be compared with the one that is.
+struct StoredCurves {
+    std::string name;
+    std::vector<study::GenerationSummary> summaries;
+    std::vector<study::CheckRecord> checks;
+    double bestOrientationScore = 0.0;  // that the part can attain
+};
+
+/// Reads them from a study, which may be learning in another process. May be called on any thread.
+base::Result<StoredCurves> loadCurves(const std::filesystem::path& study);
+
+}  // namespace trapwright::session

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <QUndoStack>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/store/study_file.h"
+#include "core/study/records.h"
+#include "core/study/settings.h"
+#include "core/trial/outcome.h"
+#include "core/work/study_trials.h"
+#include "ui/session/environment.h"
+#include "ui/session/part_import.h"
+#include "ui/session/run_state.h"
+
+namespace trapwright::session {
+
+/// Trials that were simulated again, and how each is counted.
+struct SimulatedTrials {
+    work::TrialsRequest request;               // its count is that of the trials
+    std::vector<trial::Outcome> outcomes;      // slot i for trial i
+    std::vector<work::TrialVerdict> verdicts;  // likewise
+    base::Quaternion expected;                 // the orientation that counts as success
+};
+
+/// One open study. Lives in the GUI thread and never makes it wait: a thread of its own learns, selects and
+/// validates and alone writes the file; another simulates trials and replays, also while the first one
+/// learns; what the GUI reads comes through a second, read-only StudyFile or from memory. Everything that is
+/// asked for is done in the background and told by a signal. Deleting a session cancels what goes on, and
+/// takes less than a second.
+class StudySession : public QObject {
+    Q_OBJECT
+
+ public:
+    /// Makes a new study. An error if the path exists or cannot be written, or the part cannot be built.
+    static base::Result<std::unique_ptr<StudySession>> create(const std::filesystem::path& path,
+                                                              const study::Settings& settings,
+                                                              const store::StoredPart& part,
+                                                              const Environment& environment);
+    /// Opens a study to look at it and to go on with it. An error if another process writes it.
+    static base::Result<std::unique_ptr<StudySession>> open(const std::filesystem::path& path,
+                                                            const Environment& environment);
+    ~StudySession() override;
+
+    [[nodiscard]] const std::filesystem::path& path() const;
+    [[nodiscard]] const study::Settings& settings() const;
+    [[nodiscard]] std::shared_ptr<const part::Part> part() const;
+    [[nodiscard]] const store::StoredPart& storedPart() const;
+    /// The best F_O that the part can attain.
+    [[nodiscard]] double bestOrientationScore() const;
+
+    /// Of all generations that are saved, in their order.
+    [[nodiscard]] const std::vector<study::GenerationSummary>& summaries() const;
+    [[nodiscard]] const std::vector<study::Winner>& winners() const;
+    /// In the order of their generations.
+    [[nodiscard]] const std::vector<study::CheckRecord>& checks() const;
+    /// Oldest first.
+    [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
+    [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
+    /// Read from the file.
+    [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
+    [[nodiscard]] base::Result<study::Winner> loadWinner(int generation, int individual) const;
+
+    /// What keeps the study from learning, as sentences (study::findProblems and findPartProblems).
+    [[nodiscard]] const std::vector<std::string>& problems() const;
+    [[nodiscard]] const std::vector<std::string>& recommendations() const;
+
+    /// Whether scores exist or are being made: then only the number of generations and what concerns
+    /// selection and validation may change. For all else the study is forked.
+    [[nodiscard]] bool locked() const;
+    /// Every change of settings and part. Cleared when learning begins, because the scores belong to what was
+    /// set then.
+    [[nodiscard]] QUndoStack* undoStack();
+    /// Changes the settings as one command named `what`, and saves them. Changes with the same `what` that
+    /// follow one another within a second become one command. failed() if it is not allowed.
+    void changeSettings(const study::Settings& settings, const QString& what);
+    /// Changes the part likewise; it is built in the background first.
+    void changePart(const store::StoredPart& part, const study::PartSettings& settings, const QString& what);
+    /// The same with a part that is built already.
+    void changePart(const ImportedPart& part, const QString& what);
+
+    [[nodiscard]] RunState state() const;
+    [[nodiscard]] RunProgress progress() const;
+    /// Threads that the next run uses; 0: all processors.
+    [[nodiscard]] unsigned threads() const;
+    void setThreads(unsigned threads);
+
+    /// Learns on from the last generation. failed() if the study has problems or something else goes on.
+    void startLearning();
+    void pause();
+    void resume();
+    void stopAfterGeneration();
+    /// Ends learning, selection or validation at once.
+    void stopNow();
+
+    /// The highest winners with many trials each, into selections().
+    void startSelection();
+    /// The table of one individual, into validations(). `expected`: the orientation that counts as success,
+    /// if not the most frequent one.
+    void startValidation(const study::Winner& winner,
+                         const std::optional<base::Quaternion>& expected = std::nullopt);
+    /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed().
+    void simulateTrials(const work::TrialsRequest& request);
+    /// Poses of one of these trials every `interval` seconds. Ends with replayed() or failed().
+    void replay(const work::TrialsRequest& request, int trial, double interval);
+    /// Drops what simulateTrials() and replay() were asked for and have not done.
+    void cancelSimulations();
+    /// Times a few individuals, then tells by estimated() what the whole run will take.
+    void requestEstimate();
+    /// The last estimate of the whole run in seconds; 0 if there is none for the present settings.
+    [[nodiscard]] double estimatedSeconds() const;
+
+    /// Copies the study to a new file and goes on with that one. An error if something goes on or the path
+    /// exists.
+    base::Status saveAs(const std::filesystem::path& path);
+    /// A new study with the same part and settings and no generations.
+    [[nodiscard]] base::Result<std::unique_ptr<StudySession>> fork(const std::filesystem::path& path) const;
+
+ signals:
+    void settingsChanged();
+    void partChanged();
+    void pathChanged();
+    void stateChanged(trapwright::session::RunState state);
+    void progressed(const trapwright::session::RunProgress& progress);
+    void generationSaved(int generation);
+    void checkSaved(int generation);
+    void selectionSaved();
+    void validationSaved();
+    void trialsSimulated(const trapwright::session::SimulatedTrials& trials);
+    void replayed(const trapwright::work::TrialsRequest& request, int trial,
+                  const std::shared_ptr<const trapwright::trial::Trajectory>& trajectory);
+    void estimated(double seconds);
+    /// `what` could not be done (a short phrase), and why and what to do.
+    void failed(const QString& what, const QString& message);
+
+ private:
+    struct State;
+    explicit StudySession(std::unique_ptr<State> state);
+
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace trapwright::session

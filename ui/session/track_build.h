@@ -1,0 +1,36 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <memory>
+
+#include "core/evolution/chromosome.h"
+#include "core/study/settings.h"
+#include "core/track/track.h"
+#include "ui/session/newest_task.h"
+
+namespace trapwright::session {
+
+/// Builds tracks in the background, for a picture of them. The newest request wins: of those before it
+/// nothing is heard.
+class TrackBuild : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit TrackBuild(QObject* parent = nullptr);
+
+    /// The empty layout of these settings: a flat trap between lead-in and lead-out (Figure 3).
+    void buildLayout(const study::TrackSettings& settings);
+    /// The track of an individual.
+    void buildIndividual(const study::TrackSettings& settings, const evolution::Chromosome& chromosome);
+    void cancel();
+
+ signals:
+    void built(const std::shared_ptr<const trapwright::track::Track>& track);
+    void failed(const QString& message);
+
+ private:
+    NewestTask task_;
+};
+
+}  // namespace trapwright::session
