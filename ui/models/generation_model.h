@@ -43,6 +43,9 @@ class GenerationModel : public RecordModel<GenerationRow> {
 
  protected:
     [[nodiscard]] QVariant more(const GenerationRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<GenerationRow>> makeColumns();
 };
 
 }  // namespace trapwright::models

@@ -41,6 +41,9 @@ class IndividualModel : public RecordModel<IndividualRow> {
 
  protected:
     [[nodiscard]] QVariant more(const IndividualRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<IndividualRow>> makeColumns();
 };
 
 }  // namespace trapwright::models

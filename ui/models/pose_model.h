@@ -30,6 +30,8 @@ class PoseModel : public RecordModel<PoseRow> {
     [[nodiscard]] QVariant more(const PoseRow& row, int column, int role) const override;
 
  private:
+    static std::vector<Column<PoseRow>> makeColumns();
+
     std::map<int, QPixmap> pictures_;
 };
 

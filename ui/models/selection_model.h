@@ -25,6 +25,9 @@ class SelectionModel : public RecordModel<SelectionRow> {
 
  protected:
     [[nodiscard]] QVariant more(const SelectionRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<SelectionRow>> makeColumns();
 };
 
 }  // namespace trapwright::models

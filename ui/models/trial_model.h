@@ -32,6 +32,9 @@ class TrialModel : public RecordModel<TrialRow> {
 
  protected:
     [[nodiscard]] QVariant more(const TrialRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<TrialRow>> makeColumns();
 };
 
 /// The trials that ended in certain ways; sorts by the numbers behind the texts.

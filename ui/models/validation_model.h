@@ -31,6 +31,9 @@ class ValidationModel : public RecordModel<ValidationTableRow> {
 
  protected:
     [[nodiscard]] QVariant more(const ValidationTableRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<ValidationTableRow>> makeColumns();
 };
 
 }  // namespace trapwright::models
