@@ -1,0 +1,66 @@
+#pragma once
+
+#include <QColor>
+#include <memory>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/part/part.h"
+#include "core/track/track.h"
+#include "ui/scene/theme.h"
+
+namespace trapwright::scene {
+
+/// What is drawn at a track beside its solid (paper, Figure 3).
+struct TrackMarks {
+    bool startPoint = true;
+    bool finishLine = true;
+    bool conveyingArrow = true;
+    bool sectionNames = true;  // lead-in, trap, lead-out with their lengths
+
+    static TrackMarks none() { return {false, false, false, false}; }
+    friend bool operator==(const TrackMarks&, const TrackMarks&) = default;
+};
+
+/// The path of one part's centre of mass.
+struct Trace {
+    std::vector<base::Vec3> points;  // in the room [m]
+    QColor colour;                   // invalid: the theme's
+
+    friend bool operator==(const Trace&, const Trace&) = default;
+};
+
+/// A force that acts on the part. Drawn with a length that grows with the square root of force / weight.
+struct ContactArrow {
+    base::Vec3 point;  // in the room [m]
+    base::Vec3 force;  // [N]
+
+    friend bool operator==(const ContactArrow&, const ContactArrow&) = default;
+};
+
+/// Triangles of what is shown, by index, to be looked at: thin walls, overhangs.
+struct Highlight {
+    std::vector<int> triangles;  // of the track's solid, or of the mesh given to showSolid
+    QColor colour;
+
+    friend bool operator==(const Highlight&, const Highlight&) = default;
+};
+
+/// Everything that a scene shows, as values. At most one of track, solid and stablePoses is set.
+struct SceneContents {
+    SceneTheme theme = SceneTheme::light();
+    std::shared_ptr<const track::Track> track;
+    TrackMarks marks;
+    std::shared_ptr<const geometry::TriangleMesh> solid;
+    std::shared_ptr<const part::Part> stablePoses;  // of this part, side by side on a flat
+    std::shared_ptr<const part::Part> part;
+    std::vector<base::Pose> partPoses;  // part frame to room; the first is solid, the others are ghosts
+    std::vector<QColor> partColours;    // by index; missing or invalid: the theme's
+    std::vector<Trace> traces;
+    std::vector<ContactArrow> contacts;
+    std::vector<Highlight> highlights;
+    bool heightShading = false;
+    bool edges = false;
+};
+
+}  // namespace trapwright::scene

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <QImage>
+#include <QList>
+#include <QOpenGLWidget>
+#include <memory>
+#include <span>
+
+#include "ui/scene/camera.h"
+#include "ui/scene/contents.h"
+
+class QAction;
+
+namespace trapwright::scene {
+
+/// The 3D scene: tracks, parts and what is known of their motion. Everything in it is a value set from
+/// outside; VTK stays behind it. GUI thread only. Left drag turns, right or middle drag moves, the wheel
+/// zooms at the cursor; a click picks.
+class SceneView : public QOpenGLWidget {
+    Q_OBJECT
+
+ public:
+    explicit SceneView(QWidget* parent = nullptr);
+    ~SceneView() override;
+
+    /// Sets what OpenGL contexts of this program are like. Call once, before the QApplication is made.
+    static void prepareApplication();
+
+    [[nodiscard]] const SceneContents& contents() const;
+    [[nodiscard]] const Camera& camera() const;
+    void setTheme(const SceneTheme& theme);
+
+    /// An empty scene, but for the theme and the switches below.
+    void clear();
+    /// Each of these three takes the place of the others. The view is fitted when the kind of subject changes
+    /// or while the user has not moved the camera. Null shows none.
+    void showTrack(std::shared_ptr<const track::Track> track, const TrackMarks& marks = {});
+    void showSolid(std::shared_ptr<const geometry::TriangleMesh> solid);
+    void showStablePoses(std::shared_ptr<const part::Part> part);
+
+    /// The part to be placed by setPartPoses. Null removes it, its poses, traces and contacts.
+    void showPart(std::shared_ptr<const part::Part> part);
+    /// Part frame to room. The first is drawn solid, the others as ghosts. Cheap: made for 60 calls a second.
+    void setPartPoses(std::span<const base::Pose> poses);
+    /// By index of the pose, for instance by outcome; an invalid or missing colour is the theme's.
+    void setPartColours(std::span<const QColor> colours);
+    void setTraces(std::vector<Trace> traces);
+    void setContacts(std::span<const ContactArrow> contacts);
+    void setHighlights(std::vector<Highlight> highlights);
+
+    void setHeightShading(bool on);  // with a legend in mm
+    void setEdges(bool on);          // silhouettes and sharp edges as thin lines
+    void setFollow(bool on);         // the camera goes with the first part
+    void setView(StandardView view);
+    void fitView();
+
+    /// Standard views, fit, height shading, edges, follow: with names, shortcuts and state, for menus.
+    [[nodiscard]] QList<QAction*> viewActions() const;
+
+    /// The scene as it is seen now, drawn off-screen at this size; labels are as large as on a screen of this
+    /// pixel ratio. Null if there is no OpenGL.
+    [[nodiscard]] QImage picture(QSize pixels, double pixelRatio = 1.0) const;
+
+ signals:
+    void trackPicked(int triangle,
+                     trapwright::base::Vec3 point);  // triangle of the solid; point in the room [m]
+    void partPicked(int index);                      // of the pose
+    void stablePosePicked(int index);
+    void failed(const QString& message);  // no OpenGL to draw with
+
+ protected:
+    void initializeGL() override;
+    void paintGL() override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void leaveEvent(QEvent* event) override;
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace trapwright::scene
