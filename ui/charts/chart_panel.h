@@ -11,6 +11,7 @@
 
 class QStackedLayout;
 class QLabel;
+class QToolButton;
 
 namespace trapwright::charts {
 
@@ -58,11 +59,13 @@ class ChartPanel : public QWidget {
     [[nodiscard]] const ChartTheme& theme() const { return theme_; }
     /// Draws everything of the chart in the theme's colours from now on.
     virtual void applyTheme(const ChartTheme& theme) = 0;
-    /// While a picture is drawn there is no cursor.
-    virtual void hideReadOff() {}
+    /// Shown as a button beside the legend.
+    void setFitAction(QAction* action);
 
  private:
+    QAction* addPanelAction(const QString& text, const QKeySequence& key, void (ChartPanel::*act)());
     void paintPicture(QPainter& painter, QSize size);
+    void report(const QString& what, const base::Status& status, const std::filesystem::path& path);
     void askAndSavePicture();
     void askAndSaveCsv();
     void copyPicture();
@@ -72,6 +75,8 @@ class ChartPanel : public QWidget {
     Legend* legend_;
     QLabel* empty_;
     QStackedLayout* stack_;
+    QToolButton* fitButton_;
+    QToolButton* more_;
     QWidget* body_ = nullptr;
     QAction* savePicture_;
     QAction* saveCsv_;

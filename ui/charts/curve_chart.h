@@ -44,7 +44,6 @@ class CurveChart : public ChartPanel {
 
  protected:
     void applyTheme(const ChartTheme& theme) override;
-    void hideReadOff() override;
 
  private:
     void addActions();

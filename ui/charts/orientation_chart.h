@@ -23,7 +23,6 @@ class OrientationChart : public ChartPanel {
 
  protected:
     void applyTheme(const ChartTheme& theme) override;
-    void hideReadOff() override;
 
  private:
     void update();

@@ -41,6 +41,8 @@ struct PlotSheet {
     Scale yScale = Scale::linear;
     int decimals = 3;          // of values that are read off
     double leastHeight = 0.0;  // of the fitted y range; decades on a logarithmic scale
+    std::vector<double> yIncluded{};  // always within the fitted y range
+    double leastWidth = 10.0;  // of the fitted x range
     std::vector<Curve> curves;
 };
 
