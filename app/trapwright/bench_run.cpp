@@ -8,9 +8,9 @@
 
 #include "app/trapwright/bench_report.h"
 #include "app/trapwright/engines.h"
-#include "app/trapwright/study_engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
+#include "core/work/study_engines.h"
 
 namespace trapwright::app {
 
@@ -44,7 +44,8 @@ Attempt<std::vector<bench::Contender>> chooseContenders(const std::string& engin
             if (contender.name != kCertifying) chosen.push_back(contender);
     }
     std::vector<std::string> names = splitAtCommas(engines == "all" ? "" : engines);
-    if (engines == "hybrid") names = {engineFor(engines, EngineUse::learning), *referenceFor(engines)};
+    if (engines == "hybrid")
+        names = {work::engineFor(engines, work::EngineUse::learning), *work::referenceFor(engines)};
     for (const std::string& name : names) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const bench::Contender& contender) {
             return contender.name == name;

@@ -56,7 +56,7 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) 
 
 /// "native, winners checked by simbody"
 std::string describeEngines(const OpenStudy& study, const study::StudyInputs& inputs) {
-    const auto reference = referenceFor(study.settings.simulation.engine);
+    const auto reference = work::referenceFor(study.settings.simulation.engine);
     return inputs.engine->name() + (reference ? ", winners checked by " + *reference : "");
 }
 
@@ -86,7 +86,7 @@ std::string_view endName(study::LearningEnd end) {
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openOrCreate(options, console);
     if (!study) return study.failure();
-    auto inputs = makeInputs(*study, std::nullopt, EngineUse::learning, options.threads);
+    auto inputs = makeInputs(*study, std::nullopt, work::EngineUse::learning, options.threads);
     if (!inputs) return inputs.failure();
     console.print(describeStart(*study, *inputs));
 
@@ -98,7 +98,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     console.print(fmt::format("{}: {} generations in {}, {} trials in {:.1f} s ({:.1f}/s)\n",
                               report->interrupted ? "Stopped" : "Done", summaries->size(), options.study,
                               report->trials, report->seconds, rate));
-    const auto reference = referenceFor(study->settings.simulation.engine);
+    const auto reference = work::referenceFor(study->settings.simulation.engine);
     const auto unchecked = study->file.loadUncheckedWinners();
     if (!unchecked) return Failure{ExitCode::badInput, unchecked.error().message};
     if (reference && !unchecked->empty())

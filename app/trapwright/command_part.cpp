@@ -34,11 +34,12 @@ base::Vec3 downDirection(const part::StablePose& pose) {
 
 /// The centre of mass in the file's coordinates, from where the part was moved to its own origin.
 base::Vec3 findCentre(const LoadedPart& loaded) {
-    return geometry::calcBoundingBox(loaded.mesh).low - geometry::calcBoundingBox(loaded.part.mesh).low;
+    return geometry::calcBoundingBox(loaded.stored.mesh).low -
+           geometry::calcBoundingBox(loaded.part->mesh).low;
 }
 
 std::string describePart(const LoadedPart& loaded) {
-    const part::Part& part = loaded.part;
+    const part::Part& part = *loaded.part;
     const base::Vec3 size = geometry::calcBoundingBox(part.mesh).size() * 1e3;
     const base::Vec3 centre = findCentre(loaded) * 1e3;
     const base::Mat3 inertia = part.massProperties.inertia * kPerGramMm2;
@@ -54,10 +55,10 @@ std::string describePart(const LoadedPart& loaded) {
         "centre\n"
         "Shape         {}\n"
         "Symmetry      {}{}\n",
-        part.name, part.source, loaded.units, part.mesh.triangles.size(), size.x(), size.y(), size.z(),
-        part.massProperties.volume * kPerMm3, part.density, part.massProperties.mass * kPerGram, centre.x(),
-        centre.y(), centre.z(), inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2),
-        inertia(1, 2),
+        part.name, part.source, loaded.settings.units, part.mesh.triangles.size(), size.x(), size.y(),
+        size.z(), part.massProperties.volume * kPerMm3, part.density, part.massProperties.mass * kPerGram,
+        centre.x(), centre.y(), centre.z(), inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1),
+        inertia(0, 2), inertia(1, 2),
         part.pieces.size() == 1 ? "convex" : fmt::format("{} convex pieces", part.pieces.size()),
         part.symmetry.name,
         part.symmetry.continuous ? fmt::format(" about ({:.4f}, {:.4f}, {:.4f})", part.symmetry.axis.x(),
@@ -80,7 +81,7 @@ std::string describePart(const LoadedPart& loaded) {
 }
 
 nlohmann::ordered_json partToJson(const LoadedPart& loaded) {
-    const part::Part& part = loaded.part;
+    const part::Part& part = *loaded.part;
     const base::Mat3 inertia = part.massProperties.inertia * kPerGramMm2;
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (int row = 0; row < 3; ++row)
@@ -98,7 +99,7 @@ nlohmann::ordered_json partToJson(const LoadedPart& loaded) {
     if (part.symmetry.continuous) symmetry["axis"] = toJson(part.symmetry.axis, 1.0);
     return {{"name", part.name},
             {"source", part.source},
-            {"units", loaded.units},
+            {"units", loaded.settings.units},
             {"notes", loaded.notes},
             {"triangles", part.mesh.triangles.size()},
             {"size_mm", toJson(geometry::calcBoundingBox(part.mesh).size(), 1e3)},
@@ -143,14 +144,14 @@ std::string describeDrops(const part::Part& part, const study::DropResult& resul
 }
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
-    auto loaded = loadPart(options.part, study::PartSettings{}.density);
+    auto loaded = loadPart(options.part);
     if (!loaded) return loaded.failure();
     nlohmann::ordered_json json = partToJson(*loaded);
     console.print(describePart(*loaded));
     if (options.drops > 0) {
-        auto dropped = dropPart(loaded->part, options.drops, console);
+        auto dropped = dropPart(*loaded->part, options.drops, console);
         if (!dropped) return dropped.failure();
-        console.print(describeDrops(loaded->part, *dropped, options.drops));
+        console.print(describeDrops(*loaded->part, *dropped, options.drops));
         json["drops"] = {
             {"drops", options.drops}, {"came_to_rest", dropped->counts}, {"in_no_pose", dropped->unsettled}};
     }

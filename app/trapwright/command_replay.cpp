@@ -12,8 +12,7 @@
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 #include "core/base/file.h"
-#include "core/study/track_design.h"
-#include "core/study/trial_batches.h"
+#include "core/work/study_trials.h"
 
 namespace trapwright::app {
 
@@ -39,59 +38,13 @@ Failure refuseTrial(const Options& options, const study::Winner& individual, int
                         individual.generation, individual.individual, options.kind, trials - 1)};
 }
 
-/// Which trials of the individual there are to replay, and the engine that ran them.
-struct StoredTrials {
-    int count = 0;
-    std::string engine;
-};
-
-/// Those of the last selection that the individual was in.
-Attempt<StoredTrials> findSelectionTrials(const store::StudyFile& file, const study::Winner& individual) {
-    const auto selections = file.loadSelections();
-    if (!selections) return Failure{ExitCode::badInput, selections.error().message};
-    StoredTrials trials;
-    for (const study::SelectionRecord& selection : *selections)
-        for (const study::SelectionEntry& entry : selection.entries)
-            if (entry.generation == individual.generation && entry.individual == individual.individual)
-                trials = {entry.trials, selection.engine};
-    return trials;
-}
-
-/// Those of a pose in its last validation, whose trials are numbered by pose.
-Attempt<StoredTrials> findValidationTrials(const store::StudyFile& file, const study::Winner& individual,
-                                           int pose) {
-    const auto validations = file.loadValidations();
-    if (!validations) return Failure{ExitCode::badInput, validations.error().message};
-    StoredTrials trials;
-    for (const study::ValidationRecord& validation : *validations)
-        if (validation.generation == individual.generation && validation.individual == individual.individual)
-            for (const study::ValidationRow& row : validation.rows)
-                if (row.pose == pose) trials = {row.trials, validation.engine};
-    return trials;
-}
-
-Attempt<StoredTrials> findTrials(const Options& options, const OpenStudy& study,
-                                 const study::Winner& individual) {
-    if (options.kind == "selection") return findSelectionTrials(study.file, individual);
-    if (options.kind == "validation") return findValidationTrials(study.file, individual, options.pose - 1);
-    return StoredTrials{individual.record.trials,
-                        engineFor(study.settings.simulation.engine, EngineUse::learning)};
-}
-
-/// The batch that holds the trial, as it was when it was simulated.
-Attempt<trial::TrialBatch> makeBatch(const Options& options, const OpenStudy& study,
-                                     const study::Winner& individual, int trials) {
-    auto track = study::decodeTrack(study.settings.track, individual.record.chromosome);
-    if (!track) return Failure{ExitCode::badInput, track.error().message};
-    const study::TrialScene scene =
-        study::makeScene(study.settings, study.part, std::make_shared<const track::Track>(std::move(*track)));
-    const int pose = options.pose - 1;
-    if (options.trial < 0 || options.trial >= trials) return refuseTrial(options, individual, trials);
-    if (options.kind == "selection")
-        return study::makeSelectionBatch(scene, individual.generation, individual.individual, trials);
-    if (options.kind == "validation")
-        return study::makeValidationBatch(scene, individual.generation, individual.individual, pose, trials);
-    return study::makeLearningBatch(scene, individual.generation, individual.individual, trials);
+work::TrialsRequest makeRequest(const Options& options, study::Winner individual) {
+    work::TrialsRequest request;
+    if (options.kind == "selection") request.kind = work::TrialKind::selection;
+    if (options.kind == "validation") request.kind = work::TrialKind::validation;
+    request.winner = std::move(individual);
+    request.pose = options.pose - 1;
+    return request;
 }
 
 void appendPose(std::string& text, const base::Pose& pose) {
@@ -132,10 +85,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!study) return study.failure();
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.failure();
-    auto trials = findTrials(options, *study, *individual);
-    if (!trials) return trials.failure();
-    auto batch = makeBatch(options, *study, *individual, trials->count);
-    if (!batch) return batch.failure();
+    const work::TrialsRequest request = makeRequest(options, *individual);
+    const auto trials = work::findStoredTrials(study->file, study->settings, request);
+    if (!trials) return Failure{ExitCode::badInput, trials.error().message};
+    if (options.trial < 0 || options.trial >= trials->count)
+        return refuseTrial(options, *individual, trials->count);
+    auto batch = work::makeTrials(study->settings, study->part, request, *trials);
+    if (!batch) return Failure{ExitCode::badInput, batch.error().message};
     auto engine = makeEngine(trials->engine, {1, 0.0});
     if (!engine) return engine.failure();
 

@@ -8,11 +8,11 @@
 #include "app/trapwright/command.h"
 #include "app/trapwright/engines.h"
 #include "app/trapwright/part_source.h"
-#include "app/trapwright/study_engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 #include "core/study/settings.h"
 #include "core/verify/conveying.h"
+#include "core/work/study_engines.h"
 
 namespace trapwright::app {
 
@@ -49,13 +49,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const double rows = std::floor((options.to - options.from) / options.step + kRounding) + 1.0;
     if (rows > kMostRows)
         return Failure{ExitCode::usage, fmt::format("--step {} is too fine.", options.step)};
-    auto loaded = loadPart(options.part, study::PartSettings{}.density);
+    auto loaded = loadPart(options.part);
     if (!loaded) return loaded.failure();
-    auto engine = makeEngine(engineFor(options.engine, EngineUse::judging), {});
+    auto engine = makeEngine(work::engineFor(options.engine, work::EngineUse::judging), {});
     if (!engine) return engine.failure();
 
     verify::ConveyingScene scene;
-    scene.part = std::make_shared<const part::Part>(loaded->part);
+    scene.part = loaded->part;
     scene.contact.staticFriction = options.friction.value_or(scene.contact.staticFriction);
     scene.contact.kineticFriction = options.friction.value_or(scene.contact.kineticFriction);
     scene.contact.restitution = options.restitution.value_or(scene.contact.restitution);

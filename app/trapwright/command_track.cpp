@@ -8,13 +8,13 @@
 #include "app/trapwright/engines.h"
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/part_source.h"
-#include "app/trapwright/study_engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
 #include "core/study/evaluator.h"
 #include "core/study/track_trials.h"
 #include "core/track/track_file.h"
+#include "core/work/study_engines.h"
 
 namespace trapwright::app {
 
@@ -61,12 +61,12 @@ std::string describeShare(const char* what, int count, int trials) {
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto file = track::readTrackFile(options.file);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
-    auto loaded = loadPart(options.part, study::PartSettings{}.density);
+    auto loaded = loadPart(options.part);
     if (!loaded) return loaded.failure();
-    auto engine =
-        makeEngine(engineFor(options.engine, EngineUse::judging), {options.threads, options.step * 1e-3});
+    auto engine = makeEngine(work::engineFor(options.engine, work::EngineUse::judging),
+                             {options.threads, options.step * 1e-3});
     if (!engine) return engine.failure();
-    const auto part = std::make_shared<const part::Part>(loaded->part);
+    const std::shared_ptr<const part::Part> part = loaded->part;
     const study::Settings settings = settingsFor(options, file->track);
     if (const auto checked = study::checkInputs({settings, part, *engine}); !checked)
         return Failure{ExitCode::usage, checked.error().message};

@@ -7,9 +7,9 @@
 #include "app/trapwright/command.h"
 #include "app/trapwright/engine_agreement.h"
 #include "app/trapwright/engines.h"
-#include "app/trapwright/study_engines.h"
 #include "app/trapwright/work_display.h"
 #include "core/verify/verify.h"
+#include "core/work/study_engines.h"
 
 namespace trapwright::app {
 
@@ -53,7 +53,7 @@ Attempt<nlohmann::ordered_json> runCases(const EngineFactory& factory, const std
 
 Attempt<ExitCode> run(Options options, const Console& console) {
     // What learns is what has to agree.
-    options.engine = engineFor(options.engine, EngineUse::learning);
+    options.engine = work::engineFor(options.engine, work::EngineUse::learning);
     auto factory = findEngine(options.engine);
     if (!factory) return factory.failure();
     std::string names;

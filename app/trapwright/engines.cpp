@@ -54,4 +54,11 @@ Attempt<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name
     return std::shared_ptr<const trial::Engine>((*factory)(options));
 }
 
+base::Result<std::shared_ptr<const trial::Engine>> makeWorkEngine(const std::string& name,
+                                                                  const trial::EngineOptions& options) {
+    auto engine = makeEngine(name, options);
+    if (!engine) return base::Error{engine.failure().message};
+    return std::move(*engine);
+}
+
 }  // namespace trapwright::app

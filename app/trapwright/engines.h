@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/trapwright/exit_codes.h"
+#include "core/base/result.h"
 #include "core/trial/engine.h"
 
 namespace trapwright::app {
@@ -21,5 +22,9 @@ Attempt<EngineFactory> findEngine(const std::string& name);
 /// The same, made with these options.
 Attempt<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name,
                                                          const trial::EngineOptions& options);
+
+/// The same as a work::EngineMaker.
+base::Result<std::shared_ptr<const trial::Engine>> makeWorkEngine(const std::string& name,
+                                                                  const trial::EngineOptions& options);
 
 }  // namespace trapwright::app

@@ -5,8 +5,10 @@
 #include <chrono>
 #include <mutex>
 
-#include "app/trapwright/winner_checks.h"
+#include "app/trapwright/engines.h"
 #include "app/trapwright/work_display.h"
+#include "app/trapwright/work_failure.h"
+#include "core/work/learning.h"
 
 namespace trapwright::app {
 
@@ -68,6 +70,23 @@ std::string describeGeneration(const study::GenerationRecord& record) {
         top.orientation, strategy.crossover, strategy.mutation, strategy.smoothing, record.seconds);
 }
 
+/// The reference's scores below those of the generation's line, and how they differ from the learning
+/// engine's on the same trials. Adding 0 makes a -0 a 0.
+std::string describeCheck(const study::CheckRecord& record) {
+    const study::EngineScore& reference = record.reference;
+    const study::EngineScore& learning = record.learning;
+    const double percent = 100.0 / record.trials;
+    return fmt::format(
+        "{:>10} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>9}   {} less {}: F_D {:+.3f}, F_O {:+.3f}, success "
+        "{:.0f} % less {:.0f} %\n",
+        fmt::format("check {}", record.generation), reference.fitness.total(),
+        reference.fitness.collision + 0.0, reference.fitness.distance, reference.fitness.orientation,
+        fmt::format("{}/{}", reference.finished, record.trials), reference.engine, learning.engine,
+        reference.fitness.distance - learning.fitness.distance,
+        reference.fitness.orientation - learning.fitness.orientation, percent * reference.oriented,
+        percent * learning.oriented);
+}
+
 WorkWatch watchLearning(const Situation& situation, Clock::time_point begin, study::LearningControl control,
                         const Console& console) {
     WorkWatch watch;
@@ -83,6 +102,21 @@ WorkWatch watchLearning(const Situation& situation, Clock::time_point begin, stu
     return watch;
 }
 
+/// Makes the checks that are left and shows the progress. False if Ctrl-C ended it; the rest stays to be
+/// done.
+Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inputs,
+                           const std::vector<study::Winner>& left, const Console& console) {
+    if (left.empty()) return true;
+    const base::RunControl control;
+    WorkDisplay display(console, watchTrials("Checking winners", work::countCheckTrials(left), control));
+    const auto checked = work::checkWinners(
+        file, inputs, makeWorkEngine, left,
+        [&](const study::CheckRecord& record) { display.print(describeCheck(record)); }, control);
+    if (checked) return true;
+    if (checked.error().kind == work::FailureKind::cancelled) return false;
+    return toFailure(checked.error());
+}
+
 }  // namespace
 
 const char* const kLearningHeading =
@@ -94,65 +128,34 @@ const char* const kLearningHeading =
 
 Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
                                     const Console& console, std::optional<double> timeLimit) {
-    const auto count = file.generationCount();
-    if (!count) return Failure{ExitCode::badInput, count.error().message};
-    std::optional<study::GenerationRecord> last;
-    if (*count > 0) {
-        auto loaded = file.loadGeneration(*count - 1);
-        if (!loaded) return Failure{ExitCode::badInput, loaded.error().message};
-        last = std::move(*loaded);
-    }
-
-    auto started = WinnerChecks::start(file, inputs);
-    if (!started) return started.failure();
-    WinnerChecks* const checks = started->get();
-
     study::LearningControl control;
     Situation situation(inputs.settings.evolution.generations, control.run);
     const Clock::time_point begin = Clock::now();
-    LearningReport report;
-    bool saved = true;
     bool timeOver = false;
-    auto end = [&]() -> base::Result<study::LearningEnd> {
+    auto learned = [&] {
         WorkDisplay display(console, watchLearning(situation, begin, control, console));
-        study::LearningEvents events;
+        work::LearnEvents events;
         events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
-        events.save = [&](const study::GenerationRecord& record) -> base::Status {
-            if (auto status = file.saveGeneration(record); !status) {
-                saved = false;
-                return status;
-            }
+        events.saved = [&](const study::GenerationRecord& record) {
             display.print(describeGeneration(record));
-            if (checks != nullptr) {
-                checks->add(record);
-                if (auto status = checks->save(display); !status) {
-                    saved = false;
-                    return status;
-                }
-            }
             if (timeLimit && secondsSince(begin) + record.seconds > *timeLimit) {
                 timeOver = true;
                 control.stopAfterGeneration();
             }
-            return base::success();
         };
-        auto ended = study::evolve(inputs, std::move(last), events, control);
-        if (!ended || checks == nullptr) return ended;
-        if (auto status = checks->stop(display); !status) {
-            saved = false;
-            return status.error();
-        }
-        return ended;
+        events.checked = [&](const study::CheckRecord& record) { display.print(describeCheck(record)); };
+        return work::learn(file, inputs, makeWorkEngine, events, control);
     }();
-    if (!end) return Failure{saved ? ExitCode::fault : ExitCode::cannotWrite, end.error().message};
-    report.end = *end;
-    report.interrupted =
-        *end == study::LearningEnd::cancelled || (*end == study::LearningEnd::stopped && !timeOver);
-    report.trials = control.run.done();
-    report.seconds = secondsSince(begin);
+    if (!learned) return toFailure(learned.error());
+    LearningReport report;
+    report.end = learned->end;
+    report.interrupted = learned->end == study::LearningEnd::cancelled ||
+                         (learned->end == study::LearningEnd::stopped && !timeOver);
+    report.trials = learned->trials;
+    report.seconds = learned->seconds;
     // Who asked to stop, or has a time limit, did not ask for this to begin.
-    if (checks != nullptr && *end == study::LearningEnd::completed && !control.stopRequested()) {
-        auto finished = checks->finish(console);
+    if (learned->end == study::LearningEnd::completed && !control.stopRequested()) {
+        auto finished = finishChecks(file, inputs, learned->unchecked, console);
         if (!finished) return finished.failure();
         report.interrupted = !*finished;
     }

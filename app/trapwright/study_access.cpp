@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/store/file_lock.h"
 #include "core/study/selection.h"
+#include "core/work/study_design.h"
 
 namespace trapwright::app {
 
@@ -53,17 +54,9 @@ Attempt<OpenStudy> openStudy(const std::string& path, Access access) {
 }
 
 Attempt<OpenStudy> loadStudy(store::StudyFile file) {
-    auto settings = file.loadSettings();
-    if (!settings) return Failure{ExitCode::badInput, settings.error().message};
-    const auto stored = file.loadPart();
-    if (!stored) return Failure{ExitCode::badInput, stored.error().message};
-    auto built = part::buildPart(stored->mesh, stored->options);
-    if (!built) {
-        return Failure{ExitCode::badInput, fmt::format("The part of the study {}: {}", file.path().string(),
-                                                       built.error().message)};
-    }
-    return OpenStudy{std::move(file), std::move(*settings),
-                     std::make_shared<const part::Part>(std::move(built->part))};
+    auto design = work::loadDesign(file);
+    if (!design) return Failure{ExitCode::badInput, design.error().message};
+    return OpenStudy{std::move(file), std::move(design->settings), std::move(design->part)};
 }
 
 void addIndividualOptions(CLI::App& command, IndividualChoice& choice) {
@@ -120,8 +113,9 @@ Attempt<study::Winner> findIndividual(const store::StudyFile& file, const Indivi
 }
 
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       EngineUse use, unsigned threads) {
-    auto made = makeEngine(engineFor(engine.value_or(study.settings.simulation.engine), use), {threads, 0.0});
+                                       work::EngineUse use, unsigned threads) {
+    auto made =
+        makeEngine(work::engineFor(engine.value_or(study.settings.simulation.engine), use), {threads, 0.0});
     if (!made) return made.failure();
     return study::StudyInputs{study.settings, study.part, *made,
                               threads == 0 ? base::availableThreads() : threads};

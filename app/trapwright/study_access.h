@@ -6,9 +6,9 @@
 #include <string>
 
 #include "app/trapwright/exit_codes.h"
-#include "app/trapwright/study_engines.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
+#include "core/work/study_engines.h"
 
 namespace trapwright::app {
 
@@ -46,6 +46,6 @@ Attempt<study::Winner> findIndividual(const store::StudyFile& file, const Indivi
 /// The engine for this use that the study's setting, or the one named, means; made for these threads (0:
 /// all).
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       EngineUse use, unsigned threads);
+                                       work::EngineUse use, unsigned threads);
 
 }  // namespace trapwright::app

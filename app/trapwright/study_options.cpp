@@ -122,7 +122,8 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
     evolution.trialsPerEvaluation = options.trials.value_or(evolution.trialsPerEvaluation);
     evolution.seed = options.seed.value_or(evolution.seed);
     settings.simulation.engine = options.engine.value_or(settings.simulation.engine);
-    if (auto engine = findEngine(engineFor(settings.simulation.engine, EngineUse::learning)); !engine)
+    if (auto engine = findEngine(work::engineFor(settings.simulation.engine, work::EngineUse::learning));
+        !engine)
         return Failure{engine.failure().code, engine.failure().message + " A study also takes hybrid."};
     return settings;
 }
@@ -143,28 +144,27 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
                                       const SettingOptions& options, const Console& console) {
     auto settings = startingSettings(creation);
     if (!settings) return settings.failure();
-    const PartRequest request = completeRequest(creation.part, *settings, creation);
+    PartRequest request = completeRequest(creation.part, *settings, creation);
     if (request.part.empty()) {
         return Failure{ExitCode::usage, "A new study needs a part: give --preset cuboid or --part FILE."};
     }
     auto applied = applySettings(*settings, options);
     if (!applied) return applied.failure();
-    auto loaded = loadPart(request, applied->part.density);
+    request.defaultDensity = applied->part.density;
+    auto loaded = loadPart(request);
     if (!loaded) return loaded.failure();
-    applied->part = {loaded->file, loaded->units, loaded->options.density, loaded->options.symmetryTolerance};
+    applied->part = loaded->settings;
 
-    const auto part = std::make_shared<const part::Part>(loaded->part);
-    if (const auto checked = study::checkInputs({*applied, part, nullptr}); !checked)
+    if (const auto checked = study::checkInputs({*applied, loaded->part, nullptr}); !checked)
         return Failure{ExitCode::usage, checked.error().message};
     // What had to be done to a bundled part concerns nobody.
     if (!loaded->bundled)
         for (const std::string& note : loaded->notes)
-            console.note(loaded->options.name + ": " + note);
+            console.note(loaded->stored.options.name + ": " + note);
     for (const std::string& recommendation : study::findRecommendations(*applied))
         console.note(recommendation);
 
-    auto file =
-        store::StudyFile::create(path, *applied, {std::move(loaded->mesh), loaded->options}, kProgram);
+    auto file = store::StudyFile::create(path, *applied, loaded->stored, kProgram);
     if (!file) return describeCreateFailure(path, file.error());
     return std::move(*file);
 }

@@ -12,12 +12,12 @@ struct Error {
     std::string message;
 };
 
-/// A value, or the reason why there is none.
-template <class T>
+/// A value, or the reason why there is none: an Error, or what a folder needs to tell instead of one.
+template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:
     Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
-    Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+    Result(E error) : state_(std::in_place_index<1>, std::move(error)) {}
 
     [[nodiscard]] bool ok() const { return state_.index() == 0; }
     explicit operator bool() const { return ok(); }
@@ -41,13 +41,13 @@ class [[nodiscard]] Result {
     T* operator->() { return &value(); }
 
     /// The error; only where not ok().
-    [[nodiscard]] const Error& error() const {
+    [[nodiscard]] const E& error() const {
         assert(!ok());
         return *std::get_if<1>(&state_);
     }
 
  private:
-    std::variant<T, Error> state_;
+    std::variant<T, E> state_;
 };
 
 /// The result of an action that gives no value.

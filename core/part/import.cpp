@@ -138,8 +138,7 @@ base::Result<LengthUnit> chooseUnit(const std::filesystem::path& path, const Fil
     if (!assumed) return Error{fmt::format("{}: {}", path.string(), assumed.error().message)};
     imported.notes.push_back(
         fmt::format("assumed millimetres, as the file does not say its unit: the largest extent is {}. If "
-                    "that is wrong give "
-                    "--units",
+                    "that is wrong, give its unit",
                     lengthText(extent * assumed->metres)));
     return assumed;
 }

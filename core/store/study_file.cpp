@@ -35,6 +35,17 @@ void writeSettings(SQLite::Database& database, const study::Settings& settings) 
     update.exec();
 }
 
+void writePart(SQLite::Database& database, const StoredPart& part) {
+    SQLite::Statement row(database, "INSERT OR REPLACE INTO part VALUES (1, ?, ?, ?, ?, ?, ?)");
+    const std::string vertices = packVertices(part.mesh.vertices);
+    const std::string triangles = packTriangles(part.mesh.triangles);
+    SQLite::bind(row, part.options.name, part.options.source, part.options.density,
+                 part.options.symmetryTolerance);
+    row.bindNoCopy(5, vertices.data(), static_cast<int>(vertices.size()));
+    row.bindNoCopy(6, triangles.data(), static_cast<int>(triangles.size()));
+    row.exec();
+}
+
 void writeNewStudy(SQLite::Database& database, const study::Settings& settings, const StoredPart& part,
                    const std::string& program) {
     database.exec("PRAGMA synchronous = FULL");
@@ -47,14 +58,7 @@ void writeNewStudy(SQLite::Database& database, const study::Settings& settings, 
     origin.exec();
     writeSettings(database, settings);
 
-    SQLite::Statement row(database, "INSERT INTO part VALUES (1, ?, ?, ?, ?, ?, ?)");
-    const std::string vertices = packVertices(part.mesh.vertices);
-    const std::string triangles = packTriangles(part.mesh.triangles);
-    SQLite::bind(row, part.options.name, part.options.source, part.options.density,
-                 part.options.symmetryTolerance);
-    row.bindNoCopy(5, vertices.data(), static_cast<int>(vertices.size()));
-    row.bindNoCopy(6, triangles.data(), static_cast<int>(triangles.size()));
-    row.exec();
+    writePart(database, part);
     transaction.commit();
 }
 
@@ -72,6 +76,53 @@ void syncFolder(const std::filesystem::path& folder) {
     if (descriptor < 0) return;
     ::fsync(descriptor);
     ::close(descriptor);
+}
+
+/// Puts a new study, which `write` writes, where `path` is, and holds its lock. It is written beside and
+/// renamed, so that a study is either whole or not there.
+template <class Write>
+base::Result<FileLock> placeNew(const std::filesystem::path& path, const Write& write) {
+    std::error_code missing;
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    if (!std::filesystem::is_directory(folder, missing)) {
+        return base::Error{"The study " + path.string() + " cannot be made: there is no folder " +
+                           folder.string() + ". Make that first."};
+    }
+    const auto refuseExisting = [&] {
+        return base::Error{
+            path.string() +
+            " exists already. Choose another name for the new study, or go on with the old one."};
+    };
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, missing))) return refuseExisting();
+    auto lock = FileLock::acquire(path);
+    if (!lock) return lock;
+    // SQLite would take the old study's log for that of the new one, and mix the two.
+    if (hasPendingLog(path)) {
+        return base::Error{"The study " + path.string() + " cannot be made: " + path.string() +
+                           "-wal is there, the log of a study of that name that is gone. Delete it, or put "
+                           "that study back and open it once."};
+    }
+
+    std::filesystem::path unfinished = path;
+    unfinished += ".new";
+    removeUnfinished(unfinished);
+    const auto made = guarded(path, "The study could not be made", [&]() -> base::Status {
+        write(unfinished);
+        return base::success();
+    });
+    std::error_code failure;
+    if (made.ok() && std::filesystem::exists(std::filesystem::symlink_status(path, missing))) {
+        removeUnfinished(unfinished);
+        return refuseExisting();
+    }
+    if (made.ok()) std::filesystem::rename(unfinished, path, failure);
+    if (!made.ok() || failure) {
+        removeUnfinished(unfinished);
+        if (!made.ok()) return made.error();
+        return base::Error{"The study " + path.string() + " could not be made (" + failure.message() + ")."};
+    }
+    syncFolder(folder);
+    return lock;
 }
 
 }  // namespace
@@ -116,49 +167,11 @@ StudyFile::~StudyFile() = default;
 
 base::Result<StudyFile> StudyFile::create(const std::filesystem::path& path, const study::Settings& settings,
                                           const StoredPart& part, const std::string& program) {
-    std::error_code missing;
-    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-    if (!std::filesystem::is_directory(folder, missing)) {
-        return base::Error{"The study " + path.string() + " cannot be made: there is no folder " +
-                           folder.string() + ". Make that first."};
-    }
-    const auto refuseExisting = [&] {
-        return base::Error{
-            path.string() +
-            " exists already. Choose another name for the new study, or go on with the old one."};
-    };
-    if (std::filesystem::exists(std::filesystem::symlink_status(path, missing))) return refuseExisting();
-    auto lock = FileLock::acquire(path);
-    if (!lock) return lock.error();
-    // SQLite would take the old study's log for that of the new one, and mix the two.
-    if (hasPendingLog(path)) {
-        return base::Error{"The study " + path.string() + " cannot be made: " + path.string() +
-                           "-wal is there, the log of a study of that name that is gone. Delete it, or put "
-                           "that study back and open it once."};
-    }
-
-    // Written beside and renamed, so that a study is either whole or not there.
-    std::filesystem::path unfinished = path;
-    unfinished += ".new";
-    removeUnfinished(unfinished);
-    const auto made = guarded(path, "The study could not be made", [&]() -> base::Status {
+    auto lock = placeNew(path, [&](const std::filesystem::path& unfinished) {
         SQLite::Database database(unfinished.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
         writeNewStudy(database, settings, part, program);
-        return base::success();
     });
-    std::error_code failure;
-    if (made.ok() && std::filesystem::exists(std::filesystem::symlink_status(path, missing))) {
-        removeUnfinished(unfinished);
-        return refuseExisting();
-    }
-    if (made.ok()) std::filesystem::rename(unfinished, path, failure);
-    if (!made.ok() || failure) {
-        removeUnfinished(unfinished);
-        if (!made.ok()) return made.error();
-        return base::Error{"The study " + path.string() + " could not be made (" + failure.message() + ")."};
-    }
-    syncFolder(folder);
-
+    if (!lock) return lock.error();
     auto database = openForWriting(path);
     if (!database) return database.error();
     auto state = std::make_unique<State>();
@@ -242,10 +255,7 @@ base::Status StudyFile::changeSettings(const study::Settings& settings) {
     const auto present = loadSettings();
     if (!present) return present.error();
     return guarded(path(), "The settings could not be saved", [&]() -> base::Status {
-        study::Settings free = settings;
-        free.evolution.generations = present->evolution.generations;
-        free.validation = present->validation;
-        if (!(free == *present) && state_->countRows("generation") > 0) {
+        if (!study::keepsScores(*present, settings) && state_->countRows("generation") > 0) {
             return base::Error{
                 "The study " + path().string() +
                 " has generations that were made with its settings. Only evolution.generations and the "
@@ -256,6 +266,32 @@ base::Status StudyFile::changeSettings(const study::Settings& settings) {
         transaction.commit();
         return base::success();
     });
+}
+
+base::Status StudyFile::changePart(const StoredPart& part, const study::Settings& settings) {
+    if (auto writable = state_->checkWritable(); !writable) return writable;
+    return guarded(path(), "The part could not be saved", [&]() -> base::Status {
+        if (state_->countRows("generation") > 0) {
+            return base::Error{"The study " + path().string() +
+                               " has generations that were made with its part. Make a new study for another "
+                               "one."};
+        }
+        SQLite::Transaction transaction(*state_->database, SQLite::TransactionBehavior::IMMEDIATE);
+        writePart(*state_->database, part);
+        writeSettings(*state_->database, settings);
+        transaction.commit();
+        return base::success();
+    });
+}
+
+base::Status StudyFile::copyTo(const std::filesystem::path& path) const {
+    const auto placed = placeNew(path, [&](const std::filesystem::path& unfinished) {
+        SQLite::Statement copy(*state_->database, "VACUUM INTO ?");
+        copy.bind(1, unfinished.string());
+        copy.exec();
+    });
+    if (!placed) return placed.error();
+    return base::success();
 }
 
 }  // namespace trapwright::store

@@ -8,8 +8,12 @@
 
 namespace trapwright::study {
 
-BackgroundChecks::BackgroundChecks(StudyInputs inputs, std::shared_ptr<const trial::Engine> reference)
-    : inputs_(std::move(inputs)), reference_(std::move(reference)), thread_([this] { run(); }) {}
+BackgroundChecks::BackgroundChecks(StudyInputs inputs, std::shared_ptr<const trial::Engine> reference,
+                                   base::RunControl control)
+    : inputs_(std::move(inputs)),
+      reference_(std::move(reference)),
+      control_(std::move(control)),
+      thread_([this] { run(); }) {}
 
 BackgroundChecks::~BackgroundChecks() {
     stop();

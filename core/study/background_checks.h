@@ -18,7 +18,9 @@ namespace trapwright::study {
 class BackgroundChecks {
  public:
     /// The engine of the inputs learned. Both engines shall use one thread.
-    BackgroundChecks(StudyInputs inputs, std::shared_ptr<const trial::Engine> reference);
+    /// `control` pauses the work and counts its trials; stop() cancels it.
+    BackgroundChecks(StudyInputs inputs, std::shared_ptr<const trial::Engine> reference,
+                     base::RunControl control);
     BackgroundChecks(const BackgroundChecks&) = delete;
     BackgroundChecks& operator=(const BackgroundChecks&) = delete;
     ~BackgroundChecks();

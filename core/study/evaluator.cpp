@@ -173,7 +173,7 @@ base::Result<std::vector<IndividualRecord>> evaluateGeneration(
     const std::function<void(const GenerationPlan&)>& planned, base::RunControl control) {
     std::vector<Candidate> candidates(population.size());
     base::parallelFor(population.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
-        if (!control.cancelled()) candidates[i] = prepare(inputs, population[i]);
+        if (control.mayGoOn()) candidates[i] = prepare(inputs, population[i]);
     });
     if (control.cancelled()) return base::Error{"The evaluation was cancelled."};
     for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -4,6 +4,21 @@
 
 namespace trapwright::study {
 
+void LearningControl::pause() {
+    run.pause();
+    checks.pause();
+}
+
+void LearningControl::resume() {
+    run.resume();
+    checks.resume();
+}
+
+int LearningControl::generationsOr(int fallback) const {
+    const int count = generations_->load(std::memory_order_relaxed);
+    return count > 0 ? count : fallback;
+}
+
 LearningProgress estimateProgress(const GenerationPlan& plan, int generations, std::int64_t done,
                                   double seconds) {
     LearningProgress progress;

@@ -23,13 +23,25 @@ class LearningControl {
  public:
     /// Ends the run as soon as the engine can stop; the unfinished generation is dropped. Counts the trials.
     base::RunControl run;
+    /// Of what goes on beside the run: checks of winners. Counts their trials.
+    base::RunControl checks;
+
+    /// Has run and checks stand still.
+    void pause();
+    void resume();
 
     /// Ends the run when the present generation is saved.
     void stopAfterGeneration() { stop_->store(true, std::memory_order_relaxed); }
     [[nodiscard]] bool stopRequested() const { return stop_->load(std::memory_order_relaxed); }
 
+    /// Has the run end after this many generations in all, whatever its settings say.
+    void setGenerations(int count) { generations_->store(count, std::memory_order_relaxed); }
+    /// That number, or `fallback` where none was set.
+    [[nodiscard]] int generationsOr(int fallback) const;
+
  private:
     std::shared_ptr<std::atomic<bool>> stop_ = std::make_shared<std::atomic<bool>>(false);
+    std::shared_ptr<std::atomic<int>> generations_ = std::make_shared<std::atomic<int>>(0);
 };
 
 /// How far a learning run has come.

@@ -67,7 +67,8 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, std::optional<Genera
         }
     }
 
-    for (int index = last ? last->index + 1 : 0; index < settings.evolution.generations; ++index) {
+    for (int index = last ? last->index + 1 : 0;
+         index < control.generationsOr(settings.evolution.generations); ++index) {
         if (control.stopRequested()) return LearningEnd::stopped;
         const auto begin = std::chrono::steady_clock::now();
         const std::vector<evolution::Chromosome> population =

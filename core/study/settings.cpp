@@ -28,4 +28,11 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
     return samePose && fields(a) == fields(b);
 }
 
+bool keepsScores(const Settings& before, const Settings& after) {
+    Settings same = after;
+    same.evolution.generations = before.evolution.generations;
+    same.validation = before.validation;
+    return same == before;
+}
+
 }  // namespace trapwright::study

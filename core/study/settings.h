@@ -97,6 +97,10 @@ struct Settings {
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 
+/// Whether scores that were made with `before` still hold with `after`: only the number of generations and
+/// what concerns selection and validation differ.
+bool keepsScores(const Settings& before, const Settings& after);
+
 /// Every violated range, as sentences that name the parameter as its JSON key, its value and what is allowed.
 /// Empty if all is well.
 std::vector<std::string> findProblems(const Settings& settings);

@@ -86,4 +86,19 @@ base::Result<track::Track> decodeTrack(const TrackSettings& settings,
     return track::buildTrack(parametersOf(settings), track::decodeTrap(encoding, points, lengths));
 }
 
+base::Result<track::Track> buildLayout(const TrackSettings& settings) {
+    const track::Encoding encoding = encodingOf(settings);
+    if (const auto checked = track::checkEncoding(encoding); !checked) return checked.error();
+    const double length = 0.5 * (encoding.minLength + encoding.maxLength);
+    std::vector<track::CrossSection> trap;
+    for (int section = 1; section <= encoding.sections; ++section) {
+        track::CrossSection flat{section * length, {}};
+        for (int point = 0; point < encoding.points; ++point)
+            flat.points.emplace_back(encoding.width * (point / (encoding.points - 1.0) - 0.5),
+                                     0.5 * encoding.height);
+        trap.push_back(std::move(flat));
+    }
+    return track::buildTrack(parametersOf(settings), trap);
+}
+
 }  // namespace trapwright::study

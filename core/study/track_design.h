@@ -27,4 +27,8 @@ base::Status checkGenes(const TrackSettings& settings, const evolution::Chromoso
 base::Result<track::Track> decodeTrack(const TrackSettings& settings,
                                        const evolution::Chromosome& chromosome);
 
+/// The track before anything is learned: its trap flat at the lead-in's height, all segments of the mean
+/// length (paper, Figure 3). An error if the settings do not give a track.
+base::Result<track::Track> buildLayout(const TrackSettings& settings);
+
 }  // namespace trapwright::study

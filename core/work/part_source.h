@@ -1,23 +1,27 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/math.h"
-#include "core/base/result.h"
-#include "core/geometry/triangle_mesh.h"
-#include "core/part/part_builder.h"
+#include "core/geometry/mesh_check.h"
+#include "core/store/study_file.h"
+#include "core/study/settings.h"
+#include "core/work/failure.h"
 
 namespace trapwright::work {
 
 /// How the user names a part and tells what its file does not.
 struct PartRequest {
-    std::string part;                    // bundled name or file
-    std::optional<std::string> units{};  // of the file
-    std::optional<double> density{};     // [kg/m^3]; without it a bundled part's own, or the default
-    std::optional<double> tolerance{};   // of the symmetry, as a share of the part's size
+    std::string part;                                       // bundled name or file
+    std::optional<std::string> units{};                     // of the file
+    std::optional<double> density{};                        // [kg/m^3]; goes before the material
+    std::optional<std::string> material;                    // by name (part::listMaterials)
+    std::optional<double> tolerance{};                      // of the symmetry, as a share of the part's size
+    double defaultDensity = study::PartSettings{}.density;  // where none is named, nor the part bundled
+    bool closeLargeHoles = false;  // that importing would otherwise refuse (geometry::kLargestHole)
 };
 
 /// A unit that a file could be in, and the size that the part would have.
@@ -26,13 +30,26 @@ struct UnitCandidate {
     base::Vec3 size = base::Vec3::Zero();  // [m]
 };
 
-/// What was found in a part file and mended.
-struct PartReport {
-    std::string units;           // that the file was taken to be in
-    bool unitsFromFile = false;  // the file or its format says so
+/// A part that was imported, ready to be put into a study.
+struct LoadedPart {
+    store::StoredPart stored;      // the mesh as imported
+    study::PartSettings settings;  // where it comes from
+    std::shared_ptr<const part::Part> part;
     bool bundled = false;
-    std::vector<UnitCandidate> candidates;  // all units with the size under each
-    std::vector<std::string> notes;         // as sentences
+    bool unitsFromFile = false;             // the file or its format says the unit
+    std::vector<UnitCandidate> candidates;  // all units, with the part's size under each
+    geometry::MeshReport found;             // what was wrong with the mesh as imported
+    std::vector<std::string> notes;         // what was found and mended
 };
+
+/// Why a part could not be imported, and what the user can do about it in a window.
+struct PartFailure {
+    Failure failure;
+    std::vector<UnitCandidate> candidates{};         // if only its unit is missing
+    std::optional<geometry::MeshReport> mendable{};  // if closing its large holes would make it a solid
+};
+
+/// Imports and builds a part.
+base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request);
 
 }  // namespace trapwright::work

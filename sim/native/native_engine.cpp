@@ -114,7 +114,7 @@ void runTrials(const HerdModel& model, TrialQueue& queue, int lanes,
     };
     bool more = true;
     for (long step = 0;; ++step) {
-        if (step % kStepsPerLook == 0 && control.cancelled()) return;
+        if (step % kStepsPerLook == 0 && !control.mayGoOn()) return;
         for (int lane = 0; lane < trials.count();)
             lane += removeIfEnded(lane) ? 0 : 1;
         while (more && trials.count() < lanes) {

@@ -30,7 +30,7 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
     long checks = 0;
     double time = 0.0;
     while (true) {
-        if (control.cancelled()) return std::nullopt;
+        if (!control.mayGoOn()) return std::nullopt;
         const double checkTime = static_cast<double>(checks) * checkInterval;
         const double sampleTime = static_cast<double>(trajectory.samples.size()) * interval;
         const bool sampling = interval > 0.0 && sampleTime <= checkTime;

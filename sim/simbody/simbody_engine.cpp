@@ -35,7 +35,7 @@ class Worker {
         for (int slot = 0; slot < static_cast<int>(lanes_.size()); ++slot)
             fill(slot);
         for (long step = 0; shrink(); ++step) {
-            if (step % kStepsPerLook == 0 && control.cancelled()) return;
+            if (step % kStepsPerLook == 0 && !control.mayGoOn()) return;
             bodies_.beginStep(dt_);
             for (int slot = 0; slot < static_cast<int>(lanes_.size()); ++slot) {
                 if (!lanes_[slot]) continue;

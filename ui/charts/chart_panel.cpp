@@ -58,7 +58,8 @@ ChartPanel::ChartPanel(const QString& name, const QString& title, QWidget* paren
     legend_->setTheme(theme_);
 
     savePicture_ = addPanelAction(tr("Save picture …"), QKeySequence::Save, &ChartPanel::askAndSavePicture);
-    saveCsv_ = addPanelAction(tr("Save numbers as CSV …"), QKeySequence("Ctrl+E"), &ChartPanel::askAndSaveCsv);
+    saveCsv_ =
+        addPanelAction(tr("Save numbers as CSV …"), QKeySequence("Ctrl+E"), &ChartPanel::askAndSaveCsv);
     copyPicture_ = addPanelAction(tr("Copy picture"), QKeySequence::Copy, &ChartPanel::copyPicture);
     auto* menu = new QMenu(this);
     menu->addActions({savePicture_, saveCsv_, copyPicture_});
@@ -181,16 +182,18 @@ base::Status ChartPanel::saveCsv(const std::filesystem::path& path) const {
 }
 
 void ChartPanel::askAndSavePicture() {
-    const look::FileQuestion question{
-        "chart", tr("Save picture of %1").arg(title_), tr("Save"), tr("Pictures (*.png *.svg)"), "png", objectName() + ".png"};
+    const look::FileQuestion question{"chart",    tr("Save picture of %1").arg(title_),
+                                      tr("Save"), tr("Pictures (*.png *.svg)"),
+                                      "png",      objectName() + ".png"};
     look::askForNewFile(this, question, [this](const std::filesystem::path& path) {
         report(tr("Saving the picture"), savePicture(path), path);
     });
 }
 
 void ChartPanel::askAndSaveCsv() {
-    const look::FileQuestion question{
-        "chart", tr("Save numbers of %1").arg(title_), tr("Save"), tr("Tables (*.csv)"), "csv", objectName() + ".csv"};
+    const look::FileQuestion question{"chart",    tr("Save numbers of %1").arg(title_),
+                                      tr("Save"), tr("Tables (*.csv)"),
+                                      "csv",      objectName() + ".csv"};
     look::askForNewFile(this, question, [this](const std::filesystem::path& path) {
         report(tr("Saving the numbers"), saveCsv(path), path);
     });

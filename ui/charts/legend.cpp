@@ -74,7 +74,8 @@ int Legend::paint(QPainter& painter, const QRect& rect) const {
             x = rect.left();
             y += lineHeight;
         }
-        const QRectF sample(x, y + (lineHeight - kSampleSize.height()) / 2.0, sampleWidth, kSampleSize.height());
+        const QRectF sample(x, y + (lineHeight - kSampleSize.height()) / 2.0, sampleWidth,
+                            kSampleSize.height());
         paintSample(painter, sample, *entry.sample, theme_);
         painter.setPen(theme_.text);
         painter.drawText(QRectF(x + sampleWidth + kGap, y, width, lineHeight),

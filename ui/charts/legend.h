@@ -26,7 +26,8 @@ class Legend : public QWidget {
     /// As the user would: remembered.
     void setOn(const QString& key, bool on);
 
-    /// Draws the entries that are on, in lines from the top of the rectangle; returns the height that they take.
+    /// Draws the entries that are on, in lines from the top of the rectangle; returns the height that they
+    /// take.
     int paint(QPainter& painter, const QRect& rect) const;
 
  signals:

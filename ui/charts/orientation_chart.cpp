@@ -15,7 +15,7 @@ namespace trapwright::charts {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr int kHalfTurn = 180;        // [deg]
+constexpr int kHalfTurn = 180;         // [deg]
 constexpr std::size_t kOwnColour = 6;  // poses beyond share one
 
 double percentOf(int count, int all) {
@@ -59,8 +59,7 @@ const CurveStyle kFinish{SeriesColour::first, Qt::SolidLine, Marker::circle};
 
 }  // namespace
 
-OrientationChart::OrientationChart(QWidget* parent)
-    : ChartPanel("orientation", tr("Orientation"), parent) {
+OrientationChart::OrientationChart(QWidget* parent) : ChartPanel("orientation", tr("Orientation"), parent) {
     auto* row = new QWidget;
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -99,14 +98,16 @@ void OrientationChart::update() {
         const QString name = isRest ? tr("other poses") : tr("pose %1").arg(i + 1);
         names.append(name);
         colours.push_back(colour);
-        entries.push_back({QStringLiteral("pose%1").arg(i), name, {}, CurveStyle{colour, Qt::NoPen, Marker::square}});
+        entries.push_back(
+            {QStringLiteral("pose%1").arg(i), name, {}, CurveStyle{colour, Qt::NoPen, Marker::square}});
     }
     entries.push_back({"start", tr("start"), tr("As parts are put on the lead-in."), kStart});
     entries.push_back({"finish", tr("finish"), tr("As parts pass the finish line."), kFinish});
     legend()->setEntries(entries);
 
-    bars_->setBars({{tr("start"), piecesOf(shares_.startPoses)}, {tr("finish"), piecesOf(shares_.finalPoses)}},
-                   names, colours);
+    bars_->setBars(
+        {{tr("start"), piecesOf(shares_.startPoses)}, {tr("finish"), piecesOf(shares_.finalPoses)}}, names,
+        colours);
 
     PlotSheet plot;
     plot.xTitle = tr("Angle to the expected orientation [°]");
@@ -114,8 +115,9 @@ void OrientationChart::update() {
     plot.decimals = 1;
     plot.yIncluded = {0.0, kPercent};
     plot.leastWidth = kHalfTurn;
-    plot.curves = {{tr("start"), tr("Start within [%]"), {"start"}, kStart, cumulate(shares_.startAngles)},
-                   {tr("finish"), tr("Finish within [%]"), {"finish"}, kFinish, cumulate(shares_.finalAngles)}};
+    plot.curves = {
+        {tr("start"), tr("Start within [%]"), {"start"}, kStart, cumulate(shares_.startAngles)},
+        {tr("finish"), tr("Finish within [%]"), {"finish"}, kFinish, cumulate(shares_.finalAngles)}};
     angles_->setSheet(plot);
     showEmpty(sumOf(shares_.startPoses) == 0);
 }

@@ -17,12 +17,12 @@ namespace trapwright::charts {
 
 namespace {
 
-constexpr double kPadding = 0.04;       // of a fitted range, at both ends
-constexpr double kWheelFactor = 1.25;   // of one notch
-constexpr double kNotch = 120.0;        // QWheelEvent's unit
-constexpr double kLeastWidth = 4.0;     // that can be zoomed to
-constexpr double kLeastShare = 1e-4;    // of the fitted height that can be zoomed to
-constexpr double kTickSpace = 48.0;     // between labels along x, at least
+constexpr double kPadding = 0.04;      // of a fitted range, at both ends
+constexpr double kWheelFactor = 1.25;  // of one notch
+constexpr double kNotch = 120.0;       // QWheelEvent's unit
+constexpr double kLeastWidth = 4.0;    // that can be zoomed to
+constexpr double kLeastShare = 1e-4;   // of the fitted height that can be zoomed to
+constexpr double kTickSpace = 48.0;    // between labels along x, at least
 
 QCategoryAxis* makeAxis(QChart* chart, Qt::Alignment side) {
     auto* axis = new QCategoryAxis(chart);
@@ -50,7 +50,9 @@ void setTicks(QCategoryAxis* axis, const std::vector<Tick>& ticks, const Range& 
 }  // namespace
 
 Plot::Plot(QWidget* parent)
-    : QChartView(parent), xAxis_(makeAxis(chart(), Qt::AlignBottom)), yAxis_(makeAxis(chart(), Qt::AlignLeft)) {
+    : QChartView(parent),
+      xAxis_(makeAxis(chart(), Qt::AlignBottom)),
+      yAxis_(makeAxis(chart(), Qt::AlignLeft)) {
     setFrameShape(QFrame::NoFrame);
     setRenderHint(QPainter::Antialiasing);
     setViewportUpdateMode(QGraphicsView::FullViewportUpdate);
@@ -226,7 +228,8 @@ void Plot::updateTicks() {
     const auto mostUp = static_cast<int>(area.height() / (1.8 * metrics.height()));
     setTicks(xAxis_, linearTicks(x_, std::max(2, mostAlong), 1.0), x_);
     const int most = std::max(2, mostUp);
-    setTicks(yAxis_, sheet_.yScale == Scale::logarithmic ? logarithmicTicks(y_, most) : linearTicks(y_, most), y_);
+    setTicks(yAxis_, sheet_.yScale == Scale::logarithmic ? logarithmicTicks(y_, most) : linearTicks(y_, most),
+             y_);
 }
 
 void Plot::resizeEvent(QResizeEvent* event) {

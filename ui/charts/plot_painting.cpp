@@ -28,8 +28,9 @@ int strideFor(double pixelsPerUnit) {
 /// The value of a curve at x; nothing where it has no point.
 std::optional<double> valueAt(const Curve& curve, double x) {
     if (curve.level) return curve.level;
-    const auto found = std::lower_bound(curve.points.begin(), curve.points.end(), x,
-                                        [](const QPointF& point, double wanted) { return point.x() < wanted; });
+    const auto found =
+        std::lower_bound(curve.points.begin(), curve.points.end(), x,
+                         [](const QPointF& point, double wanted) { return point.x() < wanted; });
     if (found == curve.points.end() || found->x() != x) return std::nullopt;
     return found->y();
 }
@@ -48,8 +49,8 @@ QStringList Plot::readOff() const {
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         if (!curves_[i].shown) continue;
         const Curve& curve = sheet_.curves[i];
-        lines.append(QStringLiteral("%1: %2").arg(curve.name,
-                                                  valueText(valueAt(curve, *cursor_), sheet_.decimals)));
+        lines.append(
+            QStringLiteral("%1: %2").arg(curve.name, valueText(valueAt(curve, *cursor_), sheet_.decimals)));
     }
     return lines;
 }

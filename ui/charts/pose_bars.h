@@ -24,7 +24,8 @@ class PoseBars : public QChartView {
     explicit PoseBars(QWidget* parent);
 
     /// Top bar first. Slot i of `names` and `colours` is for series i; all bars have a share for each.
-    void setBars(std::vector<PoseBar> bars, const QStringList& names, const std::vector<SeriesColour>& colours);
+    void setBars(std::vector<PoseBar> bars, const QStringList& names,
+                 const std::vector<SeriesColour>& colours);
     void setTheme(const ChartTheme& theme);
 
  protected:

@@ -34,15 +34,16 @@ void paintReadOff(QPainter& painter, const QRectF& plotArea, double x, const QSt
         nameWidth = std::max(nameWidth, metrics.horizontalAdvance(value.name));
         valueWidth = std::max(valueWidth, metrics.horizontalAdvance(value.value));
     }
-    const double lineWidth = std::max(metrics.horizontalAdvance(heading),
-                                      kSampleWidth + kGap + nameWidth + kGap + valueWidth);
+    const double lineWidth =
+        std::max(metrics.horizontalAdvance(heading), kSampleWidth + kGap + nameWidth + kGap + valueWidth);
     const double lineHeight = metrics.height() + 2.0;
     QRectF box(0, 0, lineWidth + 2 * kPadding,
                lineHeight * (1.0 + static_cast<double>(values.size())) + 2 * kPadding);
     // On the side with more room, and inside the plot as far as it fits.
     const bool right = x < plotArea.center().x();
     box.moveLeft(right ? x + kDistance : x - kDistance - box.width());
-    box.moveLeft(std::clamp(box.left(), plotArea.left(), std::max(plotArea.left(), plotArea.right() - box.width())));
+    box.moveLeft(
+        std::clamp(box.left(), plotArea.left(), std::max(plotArea.left(), plotArea.right() - box.width())));
     box.moveTop(plotArea.top() + kPadding);
 
     QColor back = theme.box;
@@ -58,7 +59,8 @@ void paintReadOff(QPainter& painter, const QRectF& plotArea, double x, const QSt
         const QRectF sample(line.left(), line.top() + 2.0, kSampleWidth, line.height() - 4.0);
         paintSample(painter, sample, value.style, theme);
         painter.setPen(theme.text);
-        painter.drawText(line.adjusted(kSampleWidth + kGap, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, value.name);
+        painter.drawText(line.adjusted(kSampleWidth + kGap, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft,
+                         value.name);
         painter.drawText(line, Qt::AlignVCenter | Qt::AlignRight, value.value);
     }
     painter.restore();

@@ -39,10 +39,10 @@ struct PlotSheet {
     QString xTitle;  // HTML
     QString yTitle;  // HTML, with the unit
     Scale yScale = Scale::linear;
-    int decimals = 3;          // of values that are read off
-    double leastHeight = 0.0;  // of the fitted y range; decades on a logarithmic scale
+    int decimals = 3;                 // of values that are read off
+    double leastHeight = 0.0;         // of the fitted y range; decades on a logarithmic scale
     std::vector<double> yIncluded{};  // always within the fitted y range
-    double leastWidth = 10.0;  // of the fitted x range
+    double leastWidth = 10.0;         // of the fitted x range
     std::vector<Curve> curves;
 };
 

@@ -35,7 +35,8 @@ void addCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const Q
                const QString& name, const QString& column, CurveStyle style, const ValueOf& valueOf) {
     for (std::size_t i = 0; i < studies.size(); ++i) {
         style.second = i > 0;
-        Curve curve{withStudy(name, studies, i), withStudy(column, studies, i), {key, studyKey(i)}, style, {}};
+        Curve curve{
+            withStudy(name, studies, i), withStudy(column, studies, i), {key, studyKey(i)}, style, {}};
         for (const study::GenerationSummary& summary : studies[i].summaries)
             curve.points.emplace_back(summary.index, valueOf(summary));
         plot.curves.push_back(std::move(curve));
@@ -47,8 +48,8 @@ void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies) {
     for (std::size_t i = 0; i < studies.size(); ++i) {
         CurveStyle style = kBest;
         style.second = i > 0;
-        sheet.legend.push_back(
-            {studyKey(i), studies[i].name, Text::tr("The curves of the study %1.").arg(studies[i].name), style});
+        sheet.legend.push_back({studyKey(i), studies[i].name,
+                                Text::tr("The curves of the study %1.").arg(studies[i].name), style});
     }
 }
 
@@ -77,18 +78,18 @@ struct Score {
 };
 
 std::vector<Score> scores() {
-    return {{"F_C", Text::tr("Collisions"), Text::tr("Collisions F<sub>C</sub> [triangles]"),
-             Text::tr("F_C [triangles]"),
-             Text::tr("Minus the number of the surface's triangles that overlap. 0 is best."),
-             &trial::Fitness::collision},
-            {"F_D", Text::tr("Distance"), Text::tr("Distance F<sub>D</sub> [segments]"),
-             Text::tr("F_D [segments]"),
-             Text::tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
-             &trial::Fitness::distance},
-            {"F_O", Text::tr("Orientation"), Text::tr("Orientation F<sub>O</sub> [√rad]"),
-             Text::tr("F_O [√rad]"),
-             Text::tr("How much more alike the parts lie at the end than at the start. Higher is better."),
-             &trial::Fitness::orientation}};
+    return {
+        {"F_C", Text::tr("Collisions"), Text::tr("Collisions F<sub>C</sub> [triangles]"),
+         Text::tr("F_C [triangles]"),
+         Text::tr("Minus the number of the surface's triangles that overlap. 0 is best."),
+         &trial::Fitness::collision},
+        {"F_D", Text::tr("Distance"), Text::tr("Distance F<sub>D</sub> [segments]"),
+         Text::tr("F_D [segments]"),
+         Text::tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
+         &trial::Fitness::distance},
+        {"F_O", Text::tr("Orientation"), Text::tr("Orientation F<sub>O</sub> [√rad]"), Text::tr("F_O [√rad]"),
+         Text::tr("How much more alike the parts lie at the end than at the start. Higher is better."),
+         &trial::Fitness::orientation}};
 }
 
 bool everOverlaps(const std::vector<StudyCurves>& studies) {
@@ -109,13 +110,13 @@ void addAttainable(PlotSheet& plot, const std::vector<StudyCurves>& studies) {
         const bool shared = std::all_of(studies.begin(), studies.end(), [&](const StudyCurves& study) {
             return study.bestAttainableOrientation == level;
         });
-        plot.curves.push_back({shared ? Text::tr("best attainable")
-                                      : withStudy(Text::tr("best attainable"), studies, i),
-                               withStudy(Text::tr("F_O best attainable [√rad]"), studies, i),
-                               shared ? QStringList{"attainable"} : QStringList{"attainable", studyKey(i)},
-                               style,
-                               {},
-                               level});
+        plot.curves.push_back(
+            {shared ? Text::tr("best attainable") : withStudy(Text::tr("best attainable"), studies, i),
+             withStudy(Text::tr("F_O best attainable [√rad]"), studies, i),
+             shared ? QStringList{"attainable"} : QStringList{"attainable", studyKey(i)},
+             style,
+             {},
+             level});
     }
 }
 
@@ -197,10 +198,11 @@ ChartSheet strategySheet(const std::vector<StudyCurves>& studies) {
     const std::vector<Value> values{
         {"p_x", Text::tr("crossover p_x"), Text::tr("How often a child changes the parent that it copies."),
          kBest, &evolution::StrategyValues::crossover},
-        {"p_dm", Text::tr("mutation p_dm"), Text::tr("How often points of the surface are changed at random."),
-         kMean, &evolution::StrategyValues::mutation},
-        {"p_s", Text::tr("smoothing p_s"), Text::tr("How often points of the surface are smoothed away."), kThird,
-         &evolution::StrategyValues::smoothing}};
+        {"p_dm", Text::tr("mutation p_dm"),
+         Text::tr("How often points of the surface are changed at random."), kMean,
+         &evolution::StrategyValues::mutation},
+        {"p_s", Text::tr("smoothing p_s"), Text::tr("How often points of the surface are smoothed away."),
+         kThird, &evolution::StrategyValues::smoothing}};
     for (const Value& value : values) {
         sheet.legend.push_back({value.key, value.name, value.help, value.style});
         addCurves(plot, studies, value.key, value.name, value.key, value.style,
@@ -238,17 +240,18 @@ ChartSheet speedSheet(const std::vector<StudyCurves>& studies) {
 
 ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
-    sheet.legend = {{"success", Text::tr("Success"),
-                     Text::tr("Parts of each winner that finished as most of them do.")},
-                    {"F_O", Text::tr("Orientation"), Text::tr("The winner's F_O on these trials.")},
-                    {"F_D", Text::tr("Distance"), Text::tr("The winner's F_D on these trials."), {}, false}};
+    sheet.legend = {
+        {"success", Text::tr("Success"), Text::tr("Parts of each winner that finished as most of them do.")},
+        {"F_O", Text::tr("Orientation"), Text::tr("The winner's F_O on these trials.")},
+        {"F_D", Text::tr("Distance"), Text::tr("The winner's F_D on these trials."), {}, false}};
 
     PlotSheet success = makePlot("success", Text::tr("Winner's success [%]"));
     success.yIncluded = {0.0, kPercent};
     success.decimals = 1;
-    addEngineCurves(success, studies, Text::tr("Success by %1 [%]"), [](const auto& check, const auto& score) {
-        return check.trials > 0 ? kPercent * score.oriented / check.trials : 0.0;
-    });
+    addEngineCurves(success, studies, Text::tr("Success by %1 [%]"),
+                    [](const auto& check, const auto& score) {
+                        return check.trials > 0 ? kPercent * score.oriented / check.trials : 0.0;
+                    });
     PlotSheet orientation = makePlot("F_O", Text::tr("Winner's F<sub>O</sub> [√rad]"));
     orientation.yIncluded = {0.0};
     orientation.leastHeight = 0.1;

@@ -99,8 +99,10 @@ void MessageBar::colour() {
     const QColor tone = kind_ == MessageKind::info ? system.color(QPalette::Highlight)
                         : toneColour(kind_ == MessageKind::warning ? Tone::warning : Tone::bad, system);
     sign_->setPixmap(signPixmap(signOf(kind_), tone, kSign, devicePixelRatioF()));
-    setStyleSheet(QString("#messageBar { border: none; border-left: 4px solid %1; border-bottom: 1px solid %2; }")
-                      .arg(tone.name(), system.color(QPalette::Mid).name()));
+    const QString style =
+        QString("#messageBar { border: none; border-left: 4px solid %1; border-bottom: 1px solid %2; }")
+            .arg(tone.name(), system.color(QPalette::Mid).name());
+    if (style != styleSheet()) setStyleSheet(style);
 }
 
 }  // namespace trapwright::look

@@ -10,6 +10,7 @@ class SceneView;
 }
 namespace trapwright::session {
 class StudySession;
+struct ImportedPart;
 }
 
 namespace trapwright::pages {
@@ -64,6 +65,10 @@ class Page : public QWidget {
     void failed(const QString& what, const QString& message);
     /// Another page shall be shown; its name.
     void pageWanted(const QString& name);
+    /// A new study of this part shall be opened in place of the one that is open, if any.
+    void studyWanted(const trapwright::session::ImportedPart& part);
+    /// A new study with the settings and the part of the open one, and no generations, shall be opened in its place.
+    void forkWanted();
 
  private:
     PageFace face_;

@@ -2,22 +2,14 @@
 
 #include <QObject>
 #include <QString>
-#include <memory>
 
-#include "core/store/study_file.h"
-#include "core/study/settings.h"
 #include "core/work/part_source.h"
 #include "ui/session/newest_task.h"
 
 namespace trapwright::session {
 
-/// A part that is ready to be put into a study.
-struct ImportedPart {
-    store::StoredPart stored;      // as it is kept
-    study::PartSettings settings;  // as its settings tell it
-    std::shared_ptr<const part::Part> part;
-    work::PartReport report;  // what was found and mended, and the units that it could be in
-};
+/// A part that is ready to be put into a study, and what was found and mended.
+using ImportedPart = work::LoadedPart;
 
 /// Imports part files in the background. The newest request wins: of those before it nothing is heard.
 class PartImport : public QObject {
@@ -26,16 +18,20 @@ class PartImport : public QObject {
  public:
     explicit PartImport(QObject* parent = nullptr);
 
-    void import(const work::PartRequest& request);
+    /// Ends with one of the signals below.
+    void start(const work::PartRequest& request);
     /// Nothing is heard of what was asked for so far.
     void cancel();
     [[nodiscard]] bool busy() const;
 
  signals:
     void finished(const trapwright::session::ImportedPart& part);
-    /// The file does not say its unit and no assumption is safe: ask, and import again with one of these.
+    /// The file does not say its unit, and none can be assumed: ask, and start again with one of these.
     void unitNeeded(const trapwright::work::PartRequest& request,
                     const std::vector<trapwright::work::UnitCandidate>& candidates);
+    /// The mesh has holes that are not closed unasked: offer it, and start again with closeLargeHoles.
+    void repairNeeded(const trapwright::work::PartRequest& request,
+                      const trapwright::geometry::MeshReport& found, const QString& message);
     void failed(const trapwright::work::PartRequest& request, const QString& message);
 
  private:

@@ -1,8 +1,8 @@
-#include "app/trapwright/study_engines.h"
+#include "core/work/study_engines.h"
 
 #include <string_view>
 
-namespace trapwright::app {
+namespace trapwright::work {
 
 namespace {
 
@@ -22,4 +22,4 @@ std::optional<std::string> referenceFor(const std::string& setting) {
     return std::string(kReferenceEngine);
 }
 
-}  // namespace trapwright::app
+}  // namespace trapwright::work

@@ -1,0 +1,61 @@
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QFile>
+#include <QStandardPaths>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "app/trapwright/engines.h"
+#include "app/trapwright/program.h"
+#include "ui/scene/scene_view.h"
+#include "ui/window/main_window.h"
+#include "ui/window/shortcut_list.h"
+
+namespace {
+
+using namespace trapwright;
+
+base::Result<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name,
+                                                              const trial::EngineOptions& options) {
+    auto engine = app::makeEngine(name, options);
+    if (!engine) return base::Error{engine.failure().message};
+    return *engine;
+}
+
+std::filesystem::path toPath(const QString& text) {
+    return QFile::encodeName(text).toStdString();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A file that reaches its size limit is an error to report like a full disk, not the end of the process.
+    (void)std::signal(SIGXFSZ, SIG_IGN);
+    scene::SceneView::prepareApplication();
+    QApplication application(argc, argv);
+    QCoreApplication::setOrganizationName("Trapwright");
+    QCoreApplication::setApplicationName("trapwright-studio");
+    QCoreApplication::setApplicationVersion(TRAPWRIGHT_VERSION);
+    QGuiApplication::setDesktopFileName("trapwright-studio");
+
+    QCommandLineParser parser;
+    parser.setApplicationDescription(QApplication::tr("Designs tracks for vibratory part feeders."));
+    parser.addHelpOption();
+    parser.addVersionOption();
+    const QCommandLineOption shortcuts("shortcuts", QApplication::tr("Print the table of keyboard shortcuts and end."));
+    parser.addOption(shortcuts);
+    parser.addPositionalArgument("file", QApplication::tr("A study to open, or a part to import."), "[file]");
+    parser.process(application);
+
+    const std::filesystem::path state =
+        toPath(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)) / "running";
+    window::MainWindow window({makeEngine, app::kProgram, state});
+    if (parser.isSet(shortcuts)) {
+        std::fputs(window::shortcutTable(window::findShortcuts(window)).toUtf8().constData(), stdout);
+        return 0;
+    }
+    window.show();
+    if (!parser.positionalArguments().isEmpty()) window.openFile(toPath(parser.positionalArguments().front()));
+    return QApplication::exec();
+}

@@ -1,0 +1,21 @@
+#include "app/trapwright/work_failure.h"
+
+namespace trapwright::app {
+
+Failure toFailure(const work::Failure& failure) {
+    switch (failure.kind) {
+        case work::FailureKind::settings:
+            return {ExitCode::usage, failure.message};
+        case work::FailureKind::reading:
+            return {ExitCode::badInput, failure.message};
+        case work::FailureKind::saving:
+            return {ExitCode::cannotWrite, failure.message};
+        case work::FailureKind::cancelled:
+            return {ExitCode::interrupted, "Interrupted; nothing of it was kept."};
+        case work::FailureKind::simulation:
+            break;
+    }
+    return {ExitCode::fault, failure.message};
+}
+
+}  // namespace trapwright::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/result.h"
+
+namespace trapwright::work {
+
+/// What a failure is about, for those who answer differently to each.
+enum class FailureKind {
+    settings,    // settings, part or names that cannot be used
+    reading,     // a file that is missing, damaged or holds nothing to work with
+    simulation,  // the engine failed
+    saving,
+    cancelled  // nothing of it was kept
+};
+
+struct Failure {
+    FailureKind kind = FailureKind::simulation;
+    std::string message;  // as in base::Error
+};
+
+template <class T>
+using Result = base::Result<T, Failure>;
+
+}  // namespace trapwright::work

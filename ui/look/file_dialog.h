@@ -1,0 +1,27 @@
+#pragma once
+
+#include <QString>
+#include <filesystem>
+#include <functional>
+
+class QWidget;
+
+namespace trapwright::look {
+
+/// A question for a file. The folder is remembered under `name`.
+struct FileQuestion {
+    QString name;     // "study"
+    QString title;    // "Open study"
+    QString accept;   // the button's verb: "Open"
+    QString filter;   // "Studies (*.trap)"
+    QString suffix;   // added to a name without one
+    QString suggest;  // file name to begin with
+};
+
+using FileAnswer = std::function<void(const std::filesystem::path&)>;
+
+/// Asks for an existing file, or for the name of a new one. Does not wait: `answer` is called if one is chosen.
+void askForFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer);
+void askForNewFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer);
+
+}  // namespace trapwright::look

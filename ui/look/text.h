@@ -1,0 +1,18 @@
+#pragma once
+
+#include <QString>
+#include <filesystem>
+
+namespace trapwright::look {
+
+/// A duration as people say it: "8 s", "14 min", "2 h 5 min", "3 days 4 h". [s]
+QString durationText(double seconds);
+
+/// A number with about this many significant digits, in the user's language, without trailing zeros.
+QString numberText(double value, int digits = 3);
+
+/// A path for people: the home folder is "~".
+QString pathText(const std::filesystem::path& path);
+QString toText(const std::filesystem::path& path);
+
+}  // namespace trapwright::look

@@ -1,0 +1,140 @@
+#include "ui/pages/field_texts.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace trapwright::pages {
+
+namespace {
+
+/// Untranslated: translated where it is asked for, so that a change of language is followed.
+struct RawText {
+    std::string_view key;
+    const char* label;
+    const char* help;
+    std::array<const char*, 3> choices = {};
+};
+
+// Marks the texts for translation.
+#define TEXT(text) QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", text)
+
+// clang-format off
+const RawText kTexts[] = {
+    {"part.file", TEXT("Part"), TEXT("The file or the bundled part that is fed.")},
+    {"part.units", TEXT("Units"), TEXT("The unit of the part's file.")},
+    {"part.density_kg_m3", TEXT("Density"), TEXT("Mass of the part for its volume; sets how hard it hits.")},
+    {"part.symmetryTolerance", TEXT("Symmetry tolerance"), TEXT("How far the turned part may be from itself, as a share of its size, to count as alike.")},
+
+    {"track.feeder", TEXT("Feeder"), TEXT("A straight track that shakes along a line, or one around a bowl that turns back and forth."), {TEXT("Linear"), TEXT("Bowl")}},
+    {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
+    {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
+    {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape the trap; more of them allow more turns of the part and take longer to learn.")},
+    {"track.pointsPerSection", TEXT("Points per section"), TEXT("How many points shape each cross-section, from the inner to the outer edge.")},
+    {"track.minSegmentLength_mm", TEXT("Shortest segment"), TEXT("Least distance between two cross-sections.")},
+    {"track.maxSegmentLength_mm", TEXT("Longest segment"), TEXT("Largest distance between two cross-sections, and the length of each segment after the trap.")},
+    {"track.segmentWidth_mm", TEXT("Width"), TEXT("Of the track, from the inner to the outer edge.")},
+    {"track.segmentHeight_mm", TEXT("Height"), TEXT("Of the hills above the deepest valleys; the lead-in lies in the middle.")},
+    {"track.leadInLength_mm", TEXT("Lead-in"), TEXT("Length of the flat part of the track before the trap.")},
+    {"track.startFromLeadInEnd_mm", TEXT("Start before trap"), TEXT("Where parts are put, measured back from the trap; leave 60 mm of lead-in behind it.")},
+    {"track.leadOutSegments", TEXT("Lead-out segments"), TEXT("How often the last cross-section is repeated; the finish line is in the last one.")},
+    {"track.baseThickness_mm", TEXT("Base thickness"), TEXT("Of the solid below the deepest point.")},
+    {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
+
+    {"evolution.populationSize", TEXT("Population"), TEXT("Individuals in each generation.")},
+    {"evolution.trialsPerEvaluation", TEXT("Trials each"), TEXT("Parts that are simulated to judge one individual.")},
+    {"evolution.tournamentSize", TEXT("Tournament"), TEXT("Individuals that compete to become a parent; more of them press harder.")},
+    {"evolution.staticMutation", TEXT("Static mutation"), TEXT("Chance of each bit of the strategy values to flip.")},
+    {"evolution.smoothingLimit", TEXT("Most smoothing"), TEXT("The share of points that may be smoothed away at most; 1 in the paper.")},
+    {"evolution.mutationFloor", TEXT("Least mutation"), TEXT("The least chance of each bit of the shape to flip; 0 in the paper.")},
+    {"evolution.orientationDistance", TEXT("Alike orientations"), TEXT("Whether orientations that look alike count as the same; the paper does not count them so."), {TEXT("Count as one"), TEXT("Stay apart")}},
+    {"evolution.simulateOverlapping", TEXT("Overlapping tracks"), TEXT("Whether tracks that cross themselves are simulated, as in the paper, or scored worst at once."), {TEXT("Score worst"), TEXT("Simulate")}},
+    {"evolution.racingTrials", TEXT("Racing trials"), TEXT("Trials for every individual before only the best get all; 0 gives all to everybody.")},
+    {"evolution.racingShare", TEXT("Racing share"), TEXT("Share of the population that gets all trials in a race.")},
+    {"evolution.commonRandomNumbers", TEXT("Starts of parts"), TEXT("Whether all individuals of a generation meet the same random starts."), {TEXT("Differ"), TEXT("Same for all")}},
+    {"evolution.generations", TEXT("Generations"), TEXT("When learning ends; it can be raised later.")},
+    {"evolution.seed", TEXT("Seed"), TEXT("Of all random numbers: the same seed and settings give the same tracks.")},
+
+    {"simulation.drive.frequency_Hz", TEXT("Frequency"), TEXT("Of the vibration: mechanical, so twice the mains for most magnets without permanent field.")},
+    {"simulation.drive.halfStroke_mm", TEXT("Half-stroke"), TEXT("From the middle of the vibration to its end, along its line; half of what a wedge on the feeder shows.")},
+    {"simulation.drive.angle_deg", TEXT("Vibration angle"), TEXT("Between the line of vibration and the track.")},
+    {"simulation.contact.staticFriction", TEXT("Static friction"), TEXT("Friction that holds a part at rest, over its normal force.")},
+    {"simulation.contact.kineticFriction", TEXT("Kinetic friction"), TEXT("Friction of a part that slides, over its normal force.")},
+    {"simulation.contact.restitution", TEXT("Restitution"), TEXT("Speed after an impact over the speed before it.")},
+    {"simulation.termination.timeLimit_s", TEXT("Time limit"), TEXT("A part that is not at the finish by then counts as stuck.")},
+    {"simulation.termination.stuckTime_s", TEXT("Stuck after"), TEXT("A part that makes no progress for so long is stuck.")},
+    {"simulation.termination.stuckProgress_mm", TEXT("Progress"), TEXT("What counts as progress along the track.")},
+    {"simulation.start.nearPose", TEXT("Start pose"), TEXT("The orientation near which parts start; any, if it is not set.")},
+    {"simulation.start.tilt_deg", TEXT("Start tilt"), TEXT("How far parts are tilted at the start when one pose is set; the standard deviation.")},
+    {"simulation.start.lateral_mm", TEXT("Start offset"), TEXT("Parts start up to so far beside the middle.")},
+    {"simulation.gravity_m_s2", TEXT("Gravity"), TEXT("9.81 on Earth.")},
+    {"simulation.engine", TEXT("Engine"), TEXT("Hybrid learns with the quick engine and has each winner checked by Simbody."), {TEXT("Hybrid"), TEXT("Native"), TEXT("Simbody")}},
+
+    {"validation.selectionWinners", TEXT("Winners"), TEXT("How many of the best are simulated again to choose the final one.")},
+    {"validation.selectionTrials", TEXT("Trials of each"), TEXT("Parts that are simulated for each of these winners.")},
+    {"validation.trialsPerPose", TEXT("Trials per pose"), TEXT("Parts that are simulated from each stable pose in a validation.")},
+    {"validation.tolerance_deg", TEXT("Tolerance"), TEXT("How far from the expected orientation still counts as success.")},
+};
+// clang-format on
+#undef TEXT
+
+QString translated(const char* text) {
+    return QCoreApplication::translate("trapwright::pages::FieldTexts", text);
+}
+
+}  // namespace
+
+FieldText findFieldText(std::string_view key) {
+    const auto* found =
+        std::find_if(std::begin(kTexts), std::end(kTexts), [&](const RawText& text) { return text.key == key; });
+    assert(found != std::end(kTexts));
+    FieldText text{found->key, translated(found->label), translated(found->help)};
+    for (const char* choice : found->choices)
+        if (choice != nullptr) text.choices.push_back(translated(choice));
+    return text;
+}
+
+QString unitOf(std::string_view key) {
+    static const std::pair<std::string_view, const char*> kUnits[] = {
+        {"_kg_m3", "kg/m³"}, {"_m_s2", "m/s²"}, {"_mm", "mm"}, {"_deg", "°"}, {"_Hz", "Hz"}, {"_s", "s"}};
+    for (const auto& [ending, unit] : kUnits)
+        if (key.ends_with(ending)) return QString::fromUtf8(unit);
+    return {};
+}
+
+std::vector<FieldGroup> trackGroups() {
+    const auto tr = [](const char* text) { return translated(text); };
+    return {
+        {"feeder", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Feeder")),
+         {"track.feeder", "track.bowlRadius_mm", "track.conveying"}},
+        {"drive", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Drive")),
+         {"simulation.drive.frequency_Hz", "simulation.drive.halfStroke_mm", "simulation.drive.angle_deg"}},
+        {"trap", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Trap")),
+         {"track.crossSections", "track.pointsPerSection", "track.minSegmentLength_mm", "track.maxSegmentLength_mm",
+          "track.segmentWidth_mm", "track.segmentHeight_mm", "track.encoding"}},
+        {"ends", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Lead-in and lead-out")),
+         {"track.leadInLength_mm", "track.startFromLeadInEnd_mm", "track.leadOutSegments", "track.baseThickness_mm"}},
+        {"contact", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Contact")),
+         {"simulation.contact.staticFriction", "simulation.contact.kineticFriction",
+          "simulation.contact.restitution"}},
+        {"learning", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
+         {"evolution.generations", "evolution.populationSize", "evolution.trialsPerEvaluation", "simulation.engine",
+          "evolution.seed"}},
+        {"operators", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Genetic operators")),
+         {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
+          "evolution.smoothingLimit", "evolution.orientationDistance", "evolution.simulateOverlapping",
+          "evolution.racingTrials", "evolution.racingShare", "evolution.commonRandomNumbers"},
+         true},
+        {"trial", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Trial")),
+         {"simulation.termination.timeLimit_s", "simulation.termination.stuckTime_s",
+          "simulation.termination.stuckProgress_mm", "simulation.start.lateral_mm", "simulation.gravity_m_s2"},
+         true},
+        {"validation", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Selection and validation")),
+         {"validation.selectionWinners", "validation.selectionTrials", "validation.trialsPerPose",
+          "validation.tolerance_deg"},
+         true},
+    };
+}
+
+}  // namespace trapwright::pages

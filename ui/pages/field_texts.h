@@ -1,0 +1,35 @@
+#pragma once
+
+#include <QString>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trapwright::pages {
+
+/// What people are told of one setting.
+struct FieldText {
+    std::string_view key;              // as in core/study/settings_fields.h
+    QString label;                     // "Segment width"
+    QString help;                      // one sentence
+    std::vector<QString> choices = {};  // labels of a choice, in the order of its names
+};
+
+/// The text of a setting. The key must be one of study::listFields().
+FieldText findFieldText(std::string_view key);
+
+/// The unit for people that a key ends with: "mm", "°", "kg/m³"; empty for a bare number.
+QString unitOf(std::string_view key);
+
+/// Settings that belong together on a form.
+struct FieldGroup {
+    QString name;   // stable
+    QString title;  // for people
+    std::vector<std::string_view> keys;
+    bool foldedAtFirst = false;
+};
+
+/// Table 1 of the paper and the decisions around it, as the Track page shows them.
+std::vector<FieldGroup> trackGroups();
+
+}  // namespace trapwright::pages

@@ -1,0 +1,371 @@
+#include "ui/pages/part_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "core/geometry/mesh_repair.h"
+#include "core/part/materials.h"
+#include "core/study/field_text.h"
+#include "ui/look/icon.h"
+#include "ui/look/text.h"
+#include "ui/pages/part_facts.h"
+#include "ui/pages/part_files.h"
+#include "ui/pages/pose_cards.h"
+#include "ui/pages/problem_text.h"
+#include "ui/pages/settings_form.h"
+#include "ui/pages/unit_question.h"
+#include "ui/scene/scene_view.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+namespace {
+
+constexpr int kOwnDensity = -1;  // of no material of the list
+
+QString fromView(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+/// A row with a label at the left, as those of a form.
+QWidget* labelled(const QString& label, QWidget* editor, QWidget* parent) {
+    auto* row = new QWidget(parent);
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 26, 0);
+    layout->setSpacing(6);
+    auto* text = new QLabel(label, row);
+    text->setBuddy(editor);
+    layout->addWidget(text, 1);
+    layout->addWidget(editor);
+    editor->setAccessibleName(label);
+    editor->setMinimumWidth(128);
+    return row;
+}
+
+}  // namespace
+
+PartPage::PartPage(QWidget* parent)
+    : Page({"part", tr("Part"), "part", tr("The part that is fed: import, material, symmetry, stable poses")}, parent) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(12, 12, 12, 12);
+    layout->setSpacing(8);
+    addHead();
+    addForm();
+    layout->addStretch(1);
+
+    auto* importAction = new QAction(look::icon("import"), tr("&Import a part..."), this);
+    importAction->setObjectName("part.import");
+    importAction->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_I));
+    connect(importAction, &QAction::triggered, this, &PartPage::askForFile);
+    addAction(importAction);
+
+    connect(&import_, &session::PartImport::finished, this, &PartPage::take);
+    connect(&import_, &session::PartImport::unitNeeded, this,
+            [this](const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates) {
+                setBusy({});
+                units_->ask(request, candidates);
+            });
+    connect(&import_, &session::PartImport::failed, this,
+            [this](const work::PartRequest& request, const QString& message) {
+                setBusy({});
+                showUnits();
+                emit failed(tr("%1 cannot be imported")
+                                .arg(look::toText(std::filesystem::path(request.part).filename())),
+                            message);
+            });
+    refresh();
+}
+
+PartPage::~PartPage() = default;
+
+void PartPage::addHead() {
+    name_ = new QLabel(this);
+    name_->setObjectName("part.name");
+    QFont font = name_->font();
+    font.setPointSizeF(font.pointSizeF() * 1.3);
+    font.setBold(true);
+    name_->setFont(font);
+    size_ = new QLabel(this);
+    size_->setObjectName("part.size");
+    size_->setForegroundRole(QPalette::PlaceholderText);
+    importButton_ = new QPushButton(look::icon("import"), tr("Import a part..."), this);
+    importButton_->setObjectName("part.importButton");
+    connect(importButton_, &QPushButton::clicked, this, &PartPage::askForFile);
+
+    auto* titles = new QVBoxLayout;
+    titles->setSpacing(0);
+    titles->addWidget(name_);
+    titles->addWidget(size_);
+    auto* head = new QHBoxLayout;
+    head->addLayout(titles, 1);
+    head->addWidget(importButton_, 0, Qt::AlignTop);
+
+    busy_ = new QWidget(this);
+    busyText_ = new QLabel(busy_);
+    auto* bar = new QProgressBar(busy_);
+    bar->setRange(0, 0);
+    bar->setTextVisible(false);
+    bar->setFixedHeight(6);
+    auto* stop = new QPushButton(tr("Stop"), busy_);
+    stop->setObjectName("part.stopImport");
+    connect(stop, &QPushButton::clicked, this, [this] {
+        import_.cancel();
+        setBusy({});
+    });
+    auto* busyLayout = new QVBoxLayout(busy_);
+    busyLayout->setContentsMargins(0, 0, 0, 0);
+    busyLayout->addWidget(busyText_);
+    busyLayout->addWidget(bar);
+    busyLayout->addWidget(stop, 0, Qt::AlignRight);
+    busy_->hide();
+
+    units_ = new UnitQuestion(this);
+    connect(units_, &UnitQuestion::answered, this, [this](const work::PartRequest& request) {
+        units_->hide();
+        import(request);
+    });
+    connect(units_, &UnitQuestion::cancelled, units_, &QWidget::hide);
+
+    misfit_ = new QLabel(this);
+    misfit_->setObjectName("part.misfit");
+    misfit_->setWordWrap(true);
+    connect(misfit_, &QLabel::linkActivated, this, &Page::pageWanted);
+
+    auto* layout = static_cast<QVBoxLayout*>(this->layout());
+    layout->addLayout(head);
+    layout->addWidget(busy_);
+    layout->addWidget(units_);
+    layout->addWidget(misfit_);
+}
+
+void PartPage::addForm() {
+    form_ = new SettingsForm({{"part.poses", tr("Stable poses"), {}},
+                              {"part.material", tr("Material"), {"part.density_kg_m3"}},
+                              {"part.symmetry", tr("Symmetry"), {"part.symmetryTolerance", "evolution.orientationDistance"}},
+                              {"part.mass", tr("Mass properties"), {}},
+                              {"part.mesh", tr("Mesh"), {}}},
+                             {}, this);
+    connect(form_, &SettingsForm::edited, this, &PartPage::edit);
+
+    poses_ = new PoseCards(form_);
+    form_->addToGroup("part.poses", poses_);
+
+    material_ = new QComboBox(form_);
+    material_->setObjectName("part.material");
+    for (const part::Material& material : part::listMaterials()) {
+        material_->addItem(fromView(material.name), material.density);
+        material_->setItemData(material_->count() - 1, fromView(material.source), Qt::ToolTipRole);
+    }
+    connect(material_, &QComboBox::activated, this, &PartPage::changeMaterial);
+    form_->addToGroup("part.material", labelled(tr("Material"), material_, form_), true);
+
+    symmetry_ = new QLabel(form_);
+    symmetry_->setObjectName("part.symmetry");
+    symmetry_->setWordWrap(true);
+    form_->addToGroup("part.symmetry", symmetry_, true);
+
+    mass_ = new FactList(form_);
+    form_->addToGroup("part.mass", mass_);
+
+    unit_ = new QComboBox(form_);
+    unit_->setObjectName("part.unit");
+    connect(unit_, &QComboBox::activated, this, &PartPage::changeUnits);
+    mesh_ = new FactList(form_);
+    notes_ = new QLabel(form_);
+    notes_->setObjectName("part.notes");
+    notes_->setWordWrap(true);
+    notes_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    form_->addToGroup("part.mesh", labelled(tr("Unit of the file"), unit_, form_));
+    form_->addToGroup("part.mesh", mesh_);
+    form_->addToGroup("part.mesh", notes_);
+    layout()->addWidget(form_);
+}
+
+void PartPage::setSession(session::StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    shownMesh_.reset();
+    if (session_) {
+        using session::StudySession;
+        connect(session_, &StudySession::settingsChanged, this, &PartPage::refresh);
+        connect(session_, &StudySession::partChanged, this, &PartPage::refresh);
+        connect(session_, &StudySession::stateChanged, this, &PartPage::refresh);
+    }
+    refresh();
+}
+
+void PartPage::activate(scene::SceneView& scene) {
+    scene_ = &scene;
+    showScene();
+}
+
+void PartPage::deactivate() {
+    scene_ = nullptr;
+}
+
+bool PartPage::takeFile(const std::filesystem::path& file) {
+    work::PartRequest request;
+    request.part = file.string();
+    import(request);
+    return true;
+}
+
+void PartPage::askForFile() {
+    look::askForFile(this, partQuestion(), [this](const std::filesystem::path& file) { takeFile(file); });
+}
+
+void PartPage::import(const work::PartRequest& request) {
+    units_->hide();
+    setBusy(tr("Reading %1 ...").arg(look::toText(std::filesystem::path(request.part).filename())));
+    import_.import(request);
+}
+
+void PartPage::take(const session::ImportedPart& part) {
+    setBusy({});
+    imported_ = part;
+    // The scores of a study belong to its part.
+    if (!session_ || session_->locked()) {
+        emit studyWanted(part);
+    } else {
+        session_->changePart(part, tr("Import of %1").arg(QString::fromStdString(part.part->name)));
+    }
+}
+
+void PartPage::setBusy(const QString& what) {
+    busy_->setVisible(!what.isEmpty());
+    busyText_->setText(what);
+}
+
+void PartPage::refresh() {
+    form_->setVisible(session_ != nullptr);
+    misfit_->hide();
+    if (!session_) {
+        name_->setText(tr("No part yet"));
+        size_->setText(tr("Import one, or drop its file here"));
+        return;
+    }
+    const std::shared_ptr<const part::Part> part = session_->part();
+    name_->setText(QString::fromStdString(part->name));
+    size_->setText(sizeText(geometry::calcBoundingBox(part->mesh).size()));
+    form_->show(session_->settings());
+    form_->setLocked([this](const std::string&) { return !session_->locked(); });
+    material_->setEnabled(!session_->locked());
+    unit_->setEnabled(!session_->locked());
+
+    QStringList misfits;
+    for (const std::string& problem : study::findPartProblems(session_->settings(), *part))
+        misfits << describeProblem(problem).text.toHtmlEscaped();
+    misfit_->setVisible(!misfits.isEmpty());
+    misfit_->setText(misfits.join("<br>") + "<br><a href=\"track\">" + tr("Go to the track's settings") + "</a>");
+
+    symmetry_->setText(symmetryText(part->symmetry));
+    mass_->show(massFacts(*part));
+    poses_->show(part);
+    showMaterial();
+    showUnits();
+    showMesh();
+    showScene();
+}
+
+void PartPage::showMesh() {
+    if (session_->part() == shownMesh_) return;
+    shownMesh_ = session_->part();
+    mesh_->show({});
+    notes_->clear();
+    const std::shared_ptr<const part::Part> part = shownMesh_;
+    const geometry::TriangleMesh mesh = session_->storedPart().mesh;
+    QStringList known;
+    if (imported_ && imported_->part == part)
+        for (const std::string& note : imported_->report.notes)
+            known << QString::fromStdString(note);
+    meshCheck_.start([this, part, mesh, known]() -> session::NewestTask::Deliver {
+        const geometry::MeshReport report = geometry::checkMesh(mesh);
+        QStringList notes = known;
+        // A study that was opened does not keep what was mended when its part came in.
+        if (const auto repaired = known.isEmpty() ? geometry::repairMesh(mesh) : base::Error{}) {
+            for (const std::string& note : repaired->notes)
+                notes << QString::fromStdString(note);
+        }
+        return [this, part, report, notes, triangles = mesh.triangles.size()] {
+            if (!session_ || session_->part() != part) return;
+            Facts facts = meshFacts(report, triangles);
+            facts.emplace_back(tr("Convex pieces"), QString::number(part->pieces.size()));
+            mesh_->show(facts);
+            notes_->setText(notes.join("\n"));
+            notes_->setVisible(!notes.isEmpty());
+        };
+    });
+}
+
+void PartPage::showUnits() {
+    unit_->clear();
+    if (!session_) return;
+    const QString present = QString::fromStdString(session_->settings().part.units);
+    const bool known = imported_ && imported_->settings.file == session_->settings().part.file;
+    if (known) {
+        for (const work::UnitCandidate& candidate : imported_->report.candidates) {
+            const QString name = QString::fromStdString(candidate.name);
+            unit_->addItem(name, name);
+            unit_->setItemData(unit_->count() - 1, sizeText(candidate.size), Qt::ToolTipRole);
+        }
+    }
+    if (unit_->findData(present) < 0) unit_->addItem(present, present);
+    unit_->setCurrentIndex(unit_->findData(present));
+}
+
+void PartPage::showMaterial() {
+    const double density = session_->settings().part.density;
+    const int own = material_->findData(kOwnDensity);
+    const int known = material_->findData(density);
+    if (known >= 0) {
+        if (own >= 0) material_->removeItem(own);
+        material_->setCurrentIndex(material_->findData(density));
+        return;
+    }
+    if (own < 0) material_->addItem(tr("other"), kOwnDensity);
+    material_->setCurrentIndex(material_->findData(kOwnDensity));
+}
+
+void PartPage::changeUnits(int index) {
+    const study::PartSettings& settings = session_->settings().part;
+    if (unit_->itemData(index).toString().toStdString() == settings.units) return;
+    work::PartRequest request;
+    request.part = settings.file;
+    request.units = unit_->itemData(index).toString().toStdString();
+    request.density = settings.density;
+    request.tolerance = settings.symmetryTolerance;
+    import(request);
+}
+
+void PartPage::changeMaterial(int index) {
+    const double density = material_->itemData(index).toDouble();
+    if (density <= 0.0) return;
+    study::Settings settings = session_->settings();
+    settings.part.density = density;
+    edit(settings, tr("Material"));
+}
+
+void PartPage::edit(const study::Settings& settings, const QString& what) {
+    if (settings.part == session_->settings().part) return session_->changeSettings(settings, what);
+    // The part is built anew of these.
+    store::StoredPart stored = session_->storedPart();
+    stored.options.density = settings.part.density;
+    stored.options.symmetryTolerance = settings.part.symmetryTolerance;
+    session_->changePart(stored, settings.part, what);
+}
+
+void PartPage::showScene() {
+    if (scene_ == nullptr) return;
+    if (session_) {
+        scene_->showStablePoses(session_->part());
+    } else {
+        scene_->clear();
+    }
+}
+
+}  // namespace trapwright::pages

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <QPointer>
+#include <memory>
+#include <optional>
+
+#include "ui/pages/page.h"
+#include "ui/session/newest_task.h"
+#include "ui/session/part_import.h"
+
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace trapwright::pages {
+
+class FactList;
+class PoseCards;
+class SettingsForm;
+class UnitQuestion;
+
+/// Step 1: the part. Import with its unit, what was found in the mesh and mended, material, symmetry, stable poses.
+class PartPage : public Page {
+    Q_OBJECT
+ public:
+    explicit PartPage(QWidget* parent = nullptr);
+    ~PartPage() override;
+
+    void setSession(session::StudySession* session) override;
+    void activate(scene::SceneView& scene) override;
+    void deactivate() override;
+    bool takeFile(const std::filesystem::path& file) override;
+
+ private:
+    void addHead();
+    void addForm();
+    void askForFile();
+    void import(const work::PartRequest& request);
+    void take(const session::ImportedPart& part);
+    void setBusy(const QString& what);
+
+    void refresh();
+    void showMesh();
+    void showUnits();
+    void showMaterial();
+    void changeUnits(int index);
+    void changeMaterial(int index);
+    void edit(const study::Settings& settings, const QString& what);
+    void showScene();
+
+    QPointer<session::StudySession> session_;
+    scene::SceneView* scene_ = nullptr;  // while the page is shown
+    session::PartImport import_;
+    session::NewestTask meshCheck_;
+    std::optional<session::ImportedPart> imported_;  // the last one, for its report
+    std::shared_ptr<const part::Part> shownMesh_;    // whose mesh was checked
+
+    QLabel* name_;
+    QLabel* size_;
+    QPushButton* importButton_;
+    QWidget* busy_;
+    QLabel* busyText_;
+    UnitQuestion* units_;
+    QLabel* misfit_;
+    SettingsForm* form_;
+    QComboBox* unit_;
+    QComboBox* material_;
+    QLabel* notes_;
+    QLabel* symmetry_;
+    FactList* mesh_;
+    FactList* mass_;
+    PoseCards* poses_;
+};
+
+}  // namespace trapwright::pages

@@ -1,0 +1,268 @@
+#include "ui/pages/track_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "core/study/presets.h"
+#include "core/trial/start.h"
+#include "ui/look/icon.h"
+#include "ui/look/theme.h"
+#include "ui/pages/drive_card.h"
+#include "ui/pages/problem_text.h"
+#include "ui/pages/settings_form.h"
+#include "ui/scene/scene_view.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+namespace {
+
+QString fromView(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+/// What may still change when a study has scores (store::StudyFile::changeSettings).
+bool staysFree(const std::string& key) {
+    return key == "evolution.generations" || key.starts_with("validation.");
+}
+
+/// "abs-on-printed-plastic" -> "ABS on printed plastic"
+QString contactTitle(std::string_view name) {
+    QString title = fromView(name).replace('-', ' ');
+    if (title.startsWith("abs ")) return "ABS" + title.mid(3);
+    title[0] = title[0].toUpper();
+    return title;
+}
+
+}  // namespace
+
+TrackPage::TrackPage(QWidget* parent)
+    : Page({"track", tr("Track"), "track", tr("What the track is made of, how it vibrates and how it is learned")}, parent),
+      form_(new SettingsForm(trackGroups(), {}, this)),
+      drive_(new DriveCard(form_)),
+      contact_(new QComboBox(form_)),
+      help_(new QLabel(this)) {
+    auto* contents = new QWidget(this);
+    auto* column = new QVBoxLayout(contents);
+    column->setContentsMargins(12, 12, 12, 12);
+    column->setSpacing(8);
+    column->addWidget(makeHead());
+    column->addWidget(form_);
+    column->addStretch(1);
+    auto* scroll = new QScrollArea(this);
+    scroll->setWidget(contents);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+
+    // Always as high, so that the form does not move while the mouse passes over it.
+    constexpr int kHelpLines = 4;
+    help_->setObjectName("track.help");
+    help_->setWordWrap(true);
+    help_->setTextFormat(Qt::RichText);
+    help_->setAlignment(Qt::AlignTop);
+    help_->setContentsMargins(12, 8, 12, 8);
+    help_->setFixedHeight(kHelpLines * help_->fontMetrics().lineSpacing() + 16);
+    help_->setStyleSheet("#track\\.help { border-top: 1px solid palette(mid); }");
+
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(scroll, 1);
+    layout->addWidget(help_);
+
+    form_->addToGroup("drive", drive_);
+    addContactChoice();
+    connect(form_, &SettingsForm::edited, this, &TrackPage::edit);
+    connect(form_, &SettingsForm::attended, this, [this](const QString& label, const QString& help) {
+        help_->setText("<b>" + label.toHtmlEscaped() + "</b>&nbsp; " + help.toHtmlEscaped());
+    });
+    connect(&build_, &session::TrackBuild::built, this, [this](const std::shared_ptr<const track::Track>& track) {
+        track_ = track;
+        showTrack();
+    });
+    refresh();
+}
+
+QWidget* TrackPage::makeHead() {
+    auto* head = new QWidget(this);
+    auto* presets = new QToolButton(head);
+    presets->setObjectName("track.presets");
+    presets->setText(tr("Presets"));
+    presets->setPopupMode(QToolButton::InstantPopup);
+    presets->setToolTip(tr("Sets of values that are known to work"));
+    auto* menu = new QMenu(presets);
+    const auto addPreset = [&](const QString& name, const QString& title) {
+        QAction* action = menu->addAction(title);
+        action->setObjectName("preset." + name);
+        connect(action, &QAction::triggered, this, [this, name, title] { usePreset(name, title); });
+    };
+    addPreset("cuboid", tr("The paper's Table 1, cuboid"));
+    addPreset("cone", tr("The paper's Table 1, cone-like part"));
+    menu->addSeparator();
+    QAction* paper = menu->addAction(tr("The paper's own choices throughout"));
+    paper->setObjectName("preset.paper");
+    connect(paper, &QAction::triggered, this, &TrackPage::usePaperMode);
+    presets->setMenu(menu);
+
+    problems_ = new QLabel(head);
+    problems_->setObjectName("track.problems");
+    problems_->setWordWrap(true);
+    connect(problems_, &QLabel::linkActivated, this, [this] { form_->goToProblem(); });
+
+    locked_ = new QWidget(head);
+    locked_->setObjectName("track.locked");
+    auto* reason = new QLabel(tr("The study has scores that belong to these settings."), locked_);
+    reason->setWordWrap(true);
+    auto* fork = new QPushButton(tr("Change in a new study"), locked_);
+    fork->setObjectName("track.fork");
+    fork->setToolTip(tr("A new study with the same part and settings, and no generations"));
+    connect(fork, &QPushButton::clicked, this, &Page::forkWanted);
+    auto* lockedLayout = new QHBoxLayout(locked_);
+    lockedLayout->setContentsMargins(0, 0, 0, 0);
+    lockedLayout->addWidget(reason, 1);
+    lockedLayout->addWidget(fork);
+
+    auto* row = new QHBoxLayout;
+    row->addWidget(problems_, 1);
+    row->addWidget(presets, 0, Qt::AlignTop);
+    auto* layout = new QVBoxLayout(head);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addLayout(row);
+    layout->addWidget(locked_);
+    return head;
+}
+
+void TrackPage::addContactChoice() {
+    contact_->setObjectName("track.contact");
+    contact_->setAccessibleName(tr("Pair of materials"));
+    for (const study::ContactPreset& preset : study::contactPresets()) {
+        contact_->addItem(contactTitle(preset.name), fromView(preset.name));
+        contact_->setItemData(contact_->count() - 1, fromView(preset.source), Qt::ToolTipRole);
+    }
+    contact_->addItem(tr("Own values"), QString());
+    connect(contact_, &QComboBox::activated, this, [this](int index) {
+        const auto preset = study::findContactPreset(contact_->itemData(index).toString().toStdString());
+        if (!preset || !session_) return showContact();
+        study::Settings settings = session_->settings();
+        settings.simulation.contact = preset->contact;
+        edit(settings, tr("Pair of materials"));
+    });
+    auto* row = new QWidget(form_);
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 26, 0);
+    layout->addWidget(contact_);
+    form_->addToGroup("contact", row, true);
+}
+
+void TrackPage::setSession(session::StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    built_.reset();
+    track_.reset();
+    build_.cancel();
+    if (session_) {
+        using session::StudySession;
+        connect(session_, &StudySession::settingsChanged, this, &TrackPage::refresh);
+        connect(session_, &StudySession::partChanged, this, &TrackPage::refresh);
+        connect(session_, &StudySession::stateChanged, this, &TrackPage::refresh);
+        connect(session_, &StudySession::generationSaved, this, &TrackPage::refresh);
+    }
+    refresh();
+}
+
+void TrackPage::activate(scene::SceneView& scene) {
+    scene_ = &scene;
+    showTrack();
+}
+
+void TrackPage::deactivate() {
+    scene_ = nullptr;
+}
+
+void TrackPage::refresh() {
+    form_->QWidget::setVisible(session_ != nullptr);
+    locked_->setVisible(session_ && session_->locked());
+    problems_->clear();
+    help_->setText(tr("What a field means is told here."));
+    if (!session_) return;
+
+    const study::Settings& settings = session_->settings();
+    form_->show(settings);
+    const bool bowl = settings.track.shape.type == track::FeederType::bowl;
+    form_->setVisible("track.bowlRadius_mm", bowl);
+    form_->setVisible("track.conveying", bowl);
+    const bool locked = session_->locked();
+    form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });
+    contact_->setEnabled(!locked);
+    showContact();
+    showProblems();
+    if (study::findProblems(settings).empty()) drive_->show(settings);
+    if (!built_ || !(*built_ == settings.track)) {
+        built_ = settings.track;
+        build_.buildLayout(settings.track);
+    }
+    if (scene_ != nullptr) showTrack();
+}
+
+void TrackPage::showProblems() {
+    const std::vector<std::string>& problems = session_->problems();
+    form_->setProblems(problems, session_->recommendations());
+    if (problems.empty()) return problems_->setText({});
+    const QColor colour = look::toneColour(look::Tone::bad, palette());
+    problems_->setText(QString("<a href=\"#\" style=\"color: %1\">%2</a>")
+                           .arg(colour.name(), tr("%n value(s) to mend before learning", nullptr,
+                                                  static_cast<int>(problems.size()))));
+}
+
+void TrackPage::showContact() {
+    const trial::ContactParameters& contact = session_->settings().simulation.contact;
+    int index = contact_->count() - 1;
+    for (int i = 0; i < contact_->count() - 1; ++i) {
+        const auto preset = study::findContactPreset(contact_->itemData(i).toString().toStdString());
+        if (preset && preset->contact.staticFriction == contact.staticFriction &&
+            preset->contact.kineticFriction == contact.kineticFriction &&
+            preset->contact.restitution == contact.restitution) {
+            index = i;
+        }
+    }
+    contact_->setCurrentIndex(index);
+}
+
+void TrackPage::edit(const study::Settings& settings, const QString& what) {
+    if (session_) session_->changeSettings(settings, what);
+}
+
+void TrackPage::usePreset(const QString& name, const QString& title) {
+    if (!session_) return;
+    auto settings = study::presetSettings(name.toStdString());
+    if (!settings) return;
+    settings->part = session_->settings().part;
+    edit(*settings, title);
+}
+
+void TrackPage::usePaperMode() {
+    if (session_) edit(study::paperMode(session_->settings()), tr("The paper's own choices"));
+}
+
+void TrackPage::showTrack() {
+    if (scene_ == nullptr) return;
+    scene_->showTrack(track_);
+    if (!track_ || !session_) return;
+    const std::shared_ptr<const part::Part> part = session_->part();
+    scene_->showPart(part);
+    if (part->stablePoses.empty()) return;
+    // At the start point as it lies most often, which shows how large it is beside the track.
+    base::Random random({});
+    const trial::StartPolicy lying{part->stablePoses.front().rotation, 0.0, 0.0};
+    const base::Pose pose = trial::drawStart(*track_, *part, lying, random).pose;
+    scene_->setPartPoses({&pose, 1});
+}
+
+}  // namespace trapwright::pages

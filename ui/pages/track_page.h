@@ -1,0 +1,54 @@
+#pragma once
+
+#include <QPointer>
+#include <memory>
+#include <optional>
+
+#include "core/study/settings.h"
+#include "core/track/track.h"
+#include "ui/pages/page.h"
+#include "ui/session/track_build.h"
+
+class QComboBox;
+class QLabel;
+
+namespace trapwright::pages {
+
+class DriveCard;
+class SettingsForm;
+
+/// Step 2: what the track is made of, how it vibrates and how it is learned; the scene follows every edit.
+class TrackPage : public Page {
+    Q_OBJECT
+ public:
+    explicit TrackPage(QWidget* parent = nullptr);
+
+    void setSession(session::StudySession* session) override;
+    void activate(scene::SceneView& scene) override;
+    void deactivate() override;
+
+ private:
+    QWidget* makeHead();
+    void addContactChoice();
+    void refresh();
+    void showProblems();
+    void showContact();
+    void edit(const study::Settings& settings, const QString& what);
+    void usePreset(const QString& name, const QString& title);
+    void usePaperMode();
+    void showTrack();
+
+    QPointer<session::StudySession> session_;
+    scene::SceneView* scene_ = nullptr;  // while the page is shown
+    session::TrackBuild build_;
+    std::optional<study::TrackSettings> built_;  // what is shown, or being built
+    std::shared_ptr<const track::Track> track_;
+    SettingsForm* form_;
+    DriveCard* drive_;
+    QComboBox* contact_;
+    QWidget* locked_;
+    QLabel* problems_;
+    QLabel* help_;
+};
+
+}  // namespace trapwright::pages

@@ -1,0 +1,196 @@
+#include "ui/window/main_window.h"
+
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QMimeData>
+#include <QSettings>
+#include <QTimer>
+#include <QUndoGroup>
+
+#include "ui/look/icon.h"
+#include "ui/look/message_bar.h"
+#include "ui/look/text.h"
+#include "ui/pages/page.h"
+#include "ui/session/part_import.h"
+#include "ui/window/page_docks.h"
+#include "ui/window/page_list.h"
+#include "ui/window/rail.h"
+#include "ui/window/scene_frame.h"
+#include "ui/window/status_line.h"
+#include "ui/window/welcome.h"
+
+namespace trapwright::window {
+
+namespace {
+
+constexpr QSize kFirstSize(1280, 800);
+
+bool isStudy(const std::filesystem::path& file) {
+    return file.extension() == ".trap";
+}
+
+}  // namespace
+
+MainWindow::MainWindow(session::Environment environment)
+    : desk_(std::move(environment), nullptr),
+      undo_(new QUndoGroup(this)),
+      pages_(makePages(run_)),
+      frame_(new SceneFrame(this)),
+      rail_(new Rail(pages_, this)),
+      docks_(new PageDocks(*this, pages_)),
+      status_(new StatusLine(this)) {
+    setObjectName("mainWindow");
+    setWindowIcon(QIcon(":/icons/trapwright.svg"));
+    setAcceptDrops(true);
+    setCentralWidget(frame_);
+    addToolBar(Qt::LeftToolBarArea, rail_);
+    setStatusBar(status_);
+    for (pages::Page* page : pages_)
+        connectPage(*page);
+    connect(rail_, &Rail::chosen, this, &MainWindow::setPage);
+    connect(&desk_, &StudyDesk::sessionChanged, this, &MainWindow::setSession);
+    connect(&desk_, &StudyDesk::nameChanged, this, &MainWindow::updateTitle);
+    connect(&desk_.recent(), &RecentFiles::changed, this, &MainWindow::showRecent);
+    connect(&frame_->scene(), &scene::SceneView::failed, this,
+            [this](const QString& message) { fail(tr("The 3D scene cannot be drawn"), message); });
+
+    Welcome& welcome = frame_->welcome();
+    connect(&welcome, &Welcome::importWanted, this, &MainWindow::askForPart);
+    connect(&welcome, &Welcome::openWanted, this, &MainWindow::askForStudy);
+    connect(&welcome, &Welcome::exampleWanted, this, [this] { openExample("cuboid", true); });
+    connect(&welcome, &Welcome::studyWanted, this,
+            [this](const QString& path) { openStudy(QFile::encodeName(path).toStdString()); });
+
+    addFileMenu();
+    addEditMenu();
+    addViewMenu();
+    addRunMenu();
+    addHelpMenu();
+    addCorner();
+
+    resize(kFirstSize);
+    restoreGeometry(QSettings().value("window/geometry").toByteArray());
+    setSession(nullptr);
+    showRecent();
+    // After the window is seen: it reads the disk.
+    QTimer::singleShot(0, this, &MainWindow::offerRecovery);
+}
+
+MainWindow::~MainWindow() {
+    // The pages look at the study until they are gone.
+    setSession(nullptr);
+}
+
+void MainWindow::openFile(const std::filesystem::path& file) {
+    if (isStudy(file)) {
+        openStudy(file);
+    } else {
+        importPart(file, false);
+    }
+}
+
+void MainWindow::showPage(const QString& name) {
+    for (std::size_t i = 0; i < pages_.size(); ++i)
+        if (pages_[i]->face().name == name && desk_.session() != nullptr) setPage(i);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (!mayClose_ && desk_.session() != nullptr) {
+        event->ignore();
+        whenClosable([this] {
+            mayClose_ = true;
+            close();
+        });
+        return;
+    }
+    docks_->remember();
+    QSettings().setValue("window/geometry", saveGeometry());
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (event->mimeData()->hasUrls() && event->mimeData()->urls().front().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    const QList<QUrl> urls = event->mimeData()->urls();
+    if (urls.isEmpty()) return;
+    event->acceptProposedAction();
+    openFile(QFile::encodeName(urls.front().toLocalFile()).toStdString());
+}
+
+void MainWindow::connectPage(pages::Page& page) {
+    connect(&page, &pages::Page::failed, this, &MainWindow::fail);
+    connect(&page, &pages::Page::pageWanted, this, &MainWindow::showPage);
+    connect(&page, &pages::Page::studyWanted, this, [this](const session::ImportedPart& part) {
+        whenClosable([this, part] {
+            report(tr("No study can be made"), desk_.createDraft(part));
+            showPage("part");
+        });
+    });
+    connect(&page, &pages::Page::forkWanted, this, [this] {
+        whenClosable([this] { report(tr("No new study can be made"), desk_.forkToDraft()); });
+    });
+    if (QWidget* bar = page.sceneBar()) frame_->addBar(page.face().name, bar);
+}
+
+void MainWindow::setSession(session::StudySession* session) {
+    if (desk_.session() != nullptr) desk_.session()->disconnect(this);
+    for (pages::Page* page : pages_)
+        page->setSession(session);
+    run_.setSession(session);
+    status_->setSession(session);
+    for (QUndoStack* stack : undo_->stacks())
+        undo_->removeStack(stack);
+    for (QAction* action : studyActions_)
+        action->setEnabled(session != nullptr);
+    if (session == nullptr) {
+        docks_->hideAll();
+        frame_->showBar({});
+        frame_->scene().clear();
+        page_ = 0;
+    } else {
+        connect(session, &session::StudySession::failed, this, &MainWindow::fail);
+        undo_->addStack(session->undoStack());
+        undo_->setActiveStack(session->undoStack());
+        frame_->messages().clear();
+        setPage(page_);
+    }
+    rail_->setVisible(session != nullptr);
+    status_->setVisible(session != nullptr);
+    frame_->showWelcome(session == nullptr);
+    showDocks();
+}
+
+void MainWindow::updateTitle() {
+    const QString program = tr("Trapwright");
+    setWindowTitle(desk_.session() == nullptr ? program : QString("%1 - %2").arg(desk_.name(), program));
+    if (desk_.session() == nullptr) showRecent();
+}
+
+void MainWindow::setPage(std::size_t page) {
+    if (page != page_) pages_[page_]->deactivate();
+    page_ = page;
+    rail_->setCurrent(page);
+    docks_->show(page);
+    frame_->showBar(pages_[page]->face().name);
+    pages_[page]->activate(frame_->scene());
+    showDocks();
+}
+
+pages::Page* MainWindow::findPage(const QString& name) const {
+    for (pages::Page* page : pages_)
+        if (page->face().name == name) return page;
+    return nullptr;
+}
+
+void MainWindow::report(const QString& what, const base::Status& status) {
+    if (!status) fail(what, QString::fromStdString(status.error().message));
+}
+
+void MainWindow::fail(const QString& what, const QString& message) {
+    frame_->messages().show(look::MessageKind::error, what, message);
+}
+
+}  // namespace trapwright::window

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <QMainWindow>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "ui/look/theme.h"
+#include "ui/pages/run_actions.h"
+#include "ui/window/study_desk.h"
+
+class QMenu;
+class QUndoGroup;
+
+namespace trapwright::pages {
+class Page;
+}
+
+namespace trapwright::window {
+
+class PageDocks;
+class Rail;
+class SceneFrame;
+class StatusLine;
+
+/// The studio's window: rail, scene, docks, menus. What is shown of a study is its pages' matter; this opens and
+/// closes studies and gives every page its place.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+ public:
+    explicit MainWindow(session::Environment environment);
+    ~MainWindow() override;
+
+    /// Opens a study, or imports a part, by the file's name. Asks first if something would be lost.
+    void openFile(const std::filesystem::path& file);
+    /// Shows a page by its name, as "track". Nothing happens without a study: there is nothing to show.
+    void showPage(const QString& name);
+
+    [[nodiscard]] StudyDesk& desk() { return desk_; }
+
+ protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+
+ private:
+    void addFileMenu();
+    void addEditMenu();
+    void addViewMenu();
+    void addRunMenu();
+    void addHelpMenu();
+    void addCorner();
+    void showRecent();
+    void showDocks();
+
+    void connectPage(pages::Page& page);
+    void setSession(session::StudySession* session);
+    void updateTitle();
+    void setPage(std::size_t page);
+    [[nodiscard]] pages::Page* findPage(const QString& name) const;
+
+    void askForPart();
+    void askForStudy();
+    void askForSaveAs(const std::function<void()>& afterwards);
+    void importPart(const std::filesystem::path& file, bool asNewStudy);
+    void openStudy(const std::filesystem::path& file);
+    void openExample(const QString& name, bool learn);
+    void offerRecovery();
+    /// Calls `afterwards` once nothing would be lost any more: asks about a run and about a draft.
+    void whenClosable(const std::function<void()>& afterwards);
+    void whenSaved(const std::function<void()>& afterwards);
+    void report(const QString& what, const base::Status& status);
+    void fail(const QString& what, const QString& message);
+
+    look::Theme theme_;
+    StudyDesk desk_;
+    pages::RunActions run_;
+    QUndoGroup* undo_;
+    std::vector<pages::Page*> pages_;
+    std::size_t page_ = 0;
+    SceneFrame* frame_;
+    Rail* rail_;
+    PageDocks* docks_;
+    StatusLine* status_;
+    QMenu* recentMenu_ = nullptr;
+    QMenu* docksMenu_ = nullptr;
+    QList<QAction*> studyActions_;  // that need an open study
+    bool mayClose_ = false;
+};
+
+}  // namespace trapwright::window

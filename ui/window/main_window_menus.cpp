@@ -1,0 +1,181 @@
+#include <QActionGroup>
+#include <QApplication>
+#include <QDesktopServices>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QSettings>
+#include <QToolBar>
+#include <QToolButton>
+#include <QUndoGroup>
+
+#include "core/part/bundled.h"
+#include "ui/look/icon.h"
+#include "ui/look/text.h"
+#include "ui/window/main_window.h"
+#include "ui/window/page_docks.h"
+#include "ui/window/rail.h"
+#include "ui/window/scene_frame.h"
+#include "ui/window/shortcut_list.h"
+#include "ui/window/welcome.h"
+
+namespace trapwright::window {
+
+namespace {
+
+template <class Target, class Slot>
+QAction* addItem(QMenu& menu, const QString& name, const QString& icon, const QString& text, const QKeySequence& key,
+                 Target* target, Slot slot) {
+    QAction* action = menu.addAction(icon.isEmpty() ? QIcon() : look::icon(icon), text);
+    action->setObjectName(name);
+    action->setShortcut(key);
+    QObject::connect(action, &QAction::triggered, target, slot);
+    return action;
+}
+
+QString choiceName(look::ThemeChoice choice) {
+    switch (choice) {
+        case look::ThemeChoice::system: return "system";
+        case look::ThemeChoice::light: return "light";
+        case look::ThemeChoice::dark: return "dark";
+    }
+    return {};
+}
+
+}  // namespace
+
+void MainWindow::addFileMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&File"));
+    addItem(menu, "file.new", "new", tr("&New study..."), QKeySequence::New, this, &MainWindow::askForPart);
+    addItem(menu, "file.open", "open", tr("&Open study..."), QKeySequence::Open, this, &MainWindow::askForStudy);
+    recentMenu_ = menu.addMenu(look::icon("recent"), tr("Open &recent"));
+    recentMenu_->setObjectName("menu.recent");
+    QMenu& examples = *menu.addMenu(look::icon("example"), tr("Open &example"));
+    examples.setObjectName("menu.examples");
+    for (const part::BundledPart& part : part::listBundledParts()) {
+        const QString name = QString::fromUtf8(part.name.data(), static_cast<qsizetype>(part.name.size()));
+        const QString text = QString::fromUtf8(part.description.data(), static_cast<qsizetype>(part.description.size()));
+        addItem(examples, "example." + name, {}, text, {}, this, [this, name] { openExample(name, false); });
+    }
+    menu.addSeparator();
+    studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."), QKeySequence::SaveAs, this,
+                             [this] { askForSaveAs([] {}); });
+    studyActions_ << addItem(menu, "file.close", "close", tr("&Close study"), QKeySequence(Qt::CTRL | Qt::Key_W), this,
+                             [this] { whenClosable([this] { desk_.close(true); }); });
+    menu.addSeparator();
+    addItem(menu, "file.quit", {}, tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), this, &MainWindow::close);
+}
+
+void MainWindow::addEditMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&Edit"));
+    QAction* undo = undo_->createUndoAction(this, tr("&Undo"));
+    QAction* redo = undo_->createRedoAction(this, tr("&Redo"));
+    undo->setObjectName("edit.undo");
+    redo->setObjectName("edit.redo");
+    undo->setIcon(look::icon("undo"));
+    redo->setIcon(look::icon("redo"));
+    undo->setShortcut(QKeySequence::Undo);
+    redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), QKeySequence(Qt::CTRL | Qt::Key_Y)});
+    menu.addAction(undo);
+    menu.addAction(redo);
+}
+
+void MainWindow::addViewMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&View"));
+    for (QAction* action : rail_->actions()) {
+        menu.addAction(action);
+        studyActions_ << action;
+    }
+    menu.addSeparator();
+    QMenu& scene = *menu.addMenu(look::icon("view-iso"), tr("&Scene"));
+    scene.addActions(frame_->scene().viewActions());
+    docksMenu_ = menu.addMenu(look::icon("table"), tr("&Docks"));
+    menu.addSeparator();
+
+    QMenu& themes = *menu.addMenu(look::icon("theme"), tr("&Theme"));
+    auto* group = new QActionGroup(this);
+    const QString stored = QSettings().value("theme").toString();
+    const std::vector<std::pair<look::ThemeChoice, QString>> choices = {{look::ThemeChoice::system, tr("&System")},
+                                                                        {look::ThemeChoice::light, tr("&Light")},
+                                                                        {look::ThemeChoice::dark, tr("&Dark")}};
+    for (const auto& [choice, text] : choices) {
+        QAction* action = addItem(themes, "theme." + choiceName(choice), {}, text, {}, this, [this, choice = choice] {
+            theme_.choose(choice);
+            QSettings().setValue("theme", choiceName(choice));
+        });
+        action->setCheckable(true);
+        group->addAction(action);
+        if (choiceName(choice) == stored) theme_.choose(choice);
+        action->setChecked(choice == theme_.choice());
+    }
+    QAction* full = addItem(menu, "view.fullScreen", {}, tr("&Full screen"), Qt::Key_F11, this,
+                            [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
+    full->setCheckable(true);
+    connect(&menu, &QMenu::aboutToShow, full, [this, full] { full->setChecked(isFullScreen()); });
+}
+
+void MainWindow::addRunMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&Run"));
+    menu.addActions({run_.start(), run_.pause(), run_.stopAfterGeneration(), run_.stopNow()});
+}
+
+void MainWindow::addHelpMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&Help"));
+    addItem(menu, "help.shortcuts", "keyboard", tr("&Keyboard shortcuts"), Qt::Key_F1, this,
+            [this] { showShortcuts(this, findShortcuts(*this)); });
+    addItem(menu, "help.about", "info", tr("&About Trapwright"), {}, this, [this] {
+        auto* box = new QMessageBox(this);
+        box->setObjectName("dialog.about");
+        box->setAttribute(Qt::WA_DeleteOnClose);
+        box->setWindowTitle(tr("About Trapwright"));
+        box->setIconPixmap(QIcon(":/icons/trapwright.svg").pixmap(64, 64));
+        box->setText(tr("<b>%1</b><p>Designs tracks for vibratory part feeders: a genetic algorithm grows them, "
+                        "rigid-body contact simulation judges them.</p><p>Free software under the GNU General Public "
+                        "License, version 3 or later. Without any warranty.</p>")
+                         .arg(QString::fromStdString(desk_.environment().program)));
+        box->setStandardButtons(QMessageBox::Close);
+        box->open();
+    });
+}
+
+void MainWindow::addCorner() {
+    auto* bar = new QToolBar(this);
+    bar->setObjectName("corner");
+    bar->setIconSize({18, 18});
+    bar->setStyleSheet("#corner { border: none; padding: 1px 4px; }");
+    for (const char* name : {"edit.undo", "edit.redo"})
+        bar->addAction(findChild<QAction*>(name));
+    bar->addSeparator();
+    bar->addActions({run_.start(), run_.pause(), run_.stopAfterGeneration()});
+    for (QAction* action : bar->actions()) {
+        auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
+        if (button == nullptr) continue;
+        button->setFocusPolicy(Qt::TabFocus);
+        button->setAccessibleName(action->text().remove('&'));
+        if (action == run_.start()) button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    }
+    menuBar()->setCornerWidget(bar);
+}
+
+void MainWindow::showRecent() {
+    const QStringList studies = desk_.recent().list();
+    frame_->welcome().setRecent(studies, desk_.forgottenDrafts());
+    recentMenu_->clear();
+    for (const QString& study : studies) {
+        addItem(*recentMenu_, "recent." + study, {}, look::pathText(study.toStdString()).replace('&', "&&"), {}, this,
+                [this, study] { openStudy(QFile::encodeName(study).toStdString()); });
+    }
+    recentMenu_->addSeparator();
+    addItem(*recentMenu_, "recent.clear", {}, tr("&Forget these"), {}, &desk_.recent(), &RecentFiles::clear);
+    recentMenu_->setEnabled(!studies.isEmpty());
+}
+
+void MainWindow::showDocks() {
+    docksMenu_->clear();
+    docksMenu_->addActions(docks_->toggles());
+    docksMenu_->addSeparator();
+    addItem(*docksMenu_, "docks.reset", "reset", tr("&Put back as at first"), {}, docks_, &PageDocks::reset);
+    docksMenu_->setEnabled(desk_.session() != nullptr);
+}
+
+}  // namespace trapwright::window

@@ -1,0 +1,172 @@
+#include <QMessageBox>
+#include <QPushButton>
+
+#include "ui/look/file_dialog.h"
+#include "ui/look/message_bar.h"
+#include "ui/look/text.h"
+#include "ui/pages/page.h"
+#include "ui/pages/part_files.h"
+#include "ui/session/part_import.h"
+#include "ui/session/recovery_note.h"
+#include "ui/window/main_window.h"
+#include "ui/window/scene_frame.h"
+
+namespace trapwright::window {
+
+using session::RunState;
+
+namespace {
+
+QString studyFilter() {
+    return MainWindow::tr("Studies (*.trap)");
+}
+
+QMessageBox* question(QWidget* parent, const QString& name, const QString& text, const QString& detail) {
+    auto* box = new QMessageBox(QMessageBox::Question, MainWindow::tr("Trapwright"), text, QMessageBox::NoButton, parent);
+    box->setObjectName(name);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setInformativeText(detail);
+    return box;
+}
+
+QPushButton* addAnswer(QMessageBox* box, const QString& name, const QString& text, QMessageBox::ButtonRole role,
+                       QObject* context, const std::function<void()>& act) {
+    QPushButton* button = box->addButton(text, role);
+    button->setObjectName(name);
+    // Another question may follow: this one has to be gone by then.
+    QObject::connect(button, &QPushButton::clicked, context, act, Qt::QueuedConnection);
+    return button;
+}
+
+}  // namespace
+
+void MainWindow::askForPart() {
+    look::askForFile(this, pages::partQuestion(),
+                     [this](const std::filesystem::path& file) { importPart(file, true); });
+}
+
+void MainWindow::askForStudy() {
+    look::askForFile(this, {"study", tr("Open a study"), tr("Open"), studyFilter(), {}, {}},
+                     [this](const std::filesystem::path& file) { openStudy(file); });
+}
+
+void MainWindow::askForSaveAs(const std::function<void()>& afterwards) {
+    const QString name = QString::fromStdString(desk_.session()->part()->name) + ".trap";
+    look::askForNewFile(this, {"study", tr("Save the study as"), tr("Save"), studyFilter(), "trap", name},
+                        [this, afterwards](const std::filesystem::path& file) {
+                            const base::Status saved = desk_.saveAs(file);
+                            report(tr("The study cannot be saved there"), saved);
+                            if (saved) afterwards();
+                        });
+}
+
+void MainWindow::importPart(const std::filesystem::path& file, bool asNewStudy) {
+    const auto import = [this, file] {
+        frame_->messages().clear();
+        pages::Page* page = findPage("part");
+        if (!page->takeFile(file)) fail(tr("The file cannot be used"), look::toText(file));
+        showPage("part");
+    };
+    if (!asNewStudy || desk_.session() == nullptr) return import();
+    whenClosable([this, import] {
+        desk_.close(true);
+        import();
+    });
+}
+
+void MainWindow::openStudy(const std::filesystem::path& file) {
+    if (desk_.session() != nullptr && desk_.session()->path() == file) return;
+    whenClosable([this, file] {
+        const base::Status opened = desk_.open(file);
+        if (!opened && !std::filesystem::exists(file)) desk_.recent().remove(file);
+        report(tr("The study cannot be opened"), opened);
+    });
+}
+
+void MainWindow::openExample(const QString& name, bool learn) {
+    whenClosable([this, name, learn] {
+        auto* import = new session::PartImport(this);
+        connect(import, &session::PartImport::failed, this,
+                [this, import](const work::PartRequest&, const QString& message) {
+                    import->deleteLater();
+                    fail(tr("The example cannot be opened"), message);
+                });
+        connect(import, &session::PartImport::finished, this, [this, import, learn](const session::ImportedPart& part) {
+            import->deleteLater();
+            const base::Status created = desk_.createDraft(part);
+            report(tr("The example cannot be opened"), created);
+            if (!created || !learn) return;
+            showPage("evolve");
+            desk_.session()->startLearning();
+        });
+        import->import({name.toStdString()});
+    });
+}
+
+void MainWindow::offerRecovery() {
+    const auto interrupted = session::takeInterruptedStudies(desk_.environment().stateFolder);
+    if (interrupted.empty() || desk_.session() != nullptr) return;
+    const std::filesystem::path study = interrupted.front();
+    frame_->messages().show(look::MessageKind::warning, tr("%1 was learning when the program ended").arg(look::toText(study.stem())),
+                            tr("Every generation that was complete is saved. Learning can go on where it stopped."),
+                            {{tr("Go on learning"),
+                              [this, study] {
+                                  openStudy(study);
+                                  if (desk_.session() == nullptr) return;
+                                  showPage("evolve");
+                                  desk_.session()->startLearning();
+                              }},
+                             {tr("Only open it"), [this, study] { openStudy(study); }}});
+}
+
+void MainWindow::whenClosable(const std::function<void()>& afterwards) {
+    const session::StudySession* session = desk_.session();
+    const RunState state = session == nullptr ? RunState::idle : session->state();
+    if (state == RunState::idle || state == RunState::simulating) return whenSaved(afterwards);
+
+    const bool learns = state != RunState::selecting && state != RunState::validating;
+    QMessageBox* box =
+        question(this, "dialog.running", learns ? tr("The study is learning.") : tr("The study is simulating."),
+                 learns ? tr("All complete generations are saved. What is done of the present one is lost if it stops now.")
+                        : tr("What is not complete is lost if it stops now."));
+    if (learns) {
+        addAnswer(box, "answer.stopAfter", tr("Stop after this generation"), QMessageBox::AcceptRole, this,
+                  [this, afterwards] {
+                      auto* waiting = new QObject(this);
+                      connect(desk_.session(), &session::StudySession::stateChanged, waiting,
+                              [this, waiting, afterwards](RunState now) {
+                                  if (now != RunState::idle) return;
+                                  waiting->deleteLater();
+                                  QMetaObject::invokeMethod(
+                                      this, [this, afterwards] { whenClosable(afterwards); }, Qt::QueuedConnection);
+                              });
+                      desk_.session()->stopAfterGeneration();
+                  });
+    }
+    addAnswer(box, "answer.stopNow", tr("Stop now"), QMessageBox::DestructiveRole, this,
+              [this, afterwards] { whenSaved(afterwards); });
+    box->setDefaultButton(addAnswer(box, "answer.goOn", tr("Keep it running"), QMessageBox::RejectRole, this, [] {}));
+    box->open();
+}
+
+void MainWindow::whenSaved(const std::function<void()>& afterwards) {
+    if (!desk_.isDraft()) return afterwards();
+    // What was only looked at asks no question.
+    const session::StudySession& session = *desk_.session();
+    if (session.summaries().empty() && session.state() == RunState::idle && session.undoStack()->isClean()) {
+        desk_.close(false);
+        return afterwards();
+    }
+    QMessageBox* box = question(this, "dialog.draft", tr("Save the study of %1?").arg(QString::fromStdString(session.part()->name)),
+                                tr("It has no file of its own yet."));
+    box->setDefaultButton(addAnswer(box, "answer.save", tr("Save as..."), QMessageBox::AcceptRole, this,
+                                    [this, afterwards] { askForSaveAs(afterwards); }));
+    addAnswer(box, "answer.discard", tr("Discard it"), QMessageBox::DestructiveRole, this, [this, afterwards] {
+        desk_.close(false);
+        afterwards();
+    });
+    addAnswer(box, "answer.cancel", tr("Cancel"), QMessageBox::RejectRole, this, [] {});
+    box->open();
+}
+
+}  // namespace trapwright::window

@@ -1,0 +1,129 @@
+#include "ui/window/page_docks.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QScrollArea>
+#include <QSettings>
+#include <QStackedWidget>
+
+#include "ui/pages/page.h"
+
+namespace trapwright::window {
+
+namespace {
+
+// Raised when docks are added or renamed, so that an old arrangement is not laid over them.
+constexpr int kLayoutVersion = 1;
+constexpr int kInspectorWidth = 368;
+constexpr int kPanelHeight = 240;
+constexpr int kPanelWidth = 280;
+
+QScrollArea* scrolled(pages::Page* page) {
+    auto* area = new QScrollArea;
+    area->setWidget(page);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setFocusPolicy(Qt::NoFocus);
+    return area;
+}
+
+}  // namespace
+
+PageDocks::PageDocks(QMainWindow& window, const std::vector<pages::Page*>& pages)
+    : QObject(&window),
+      window_(window),
+      pages_(pages),
+      inspector_(new QDockWidget(tr("Inspector"), &window)),
+      stack_(new QStackedWidget(inspector_)) {
+    window.setDockNestingEnabled(true);
+    window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+    window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    inspector_->setObjectName("dock.inspector");
+    inspector_->setWidget(stack_);
+    inspector_->toggleViewAction()->setText(tr("Inspector"));
+    window.addDockWidget(Qt::RightDockWidgetArea, inspector_);
+    for (pages::Page* page : pages_) {
+        stack_->addWidget(scrolled(page));
+        std::vector<PanelDock> docks;
+        for (const pages::Panel& panel : page->panels()) {
+            auto* dock = new QDockWidget(panel.title, &window);
+            dock->setObjectName("dock." + page->face().name + "." + panel.name);
+            dock->setWidget(panel.widget);
+            window.addDockWidget(panel.area, dock);
+            docks.push_back({dock, panel.area});
+        }
+        panels_.push_back(std::move(docks));
+    }
+    hideAll();
+}
+
+void PageDocks::show(std::size_t page) {
+    if (shown_ == static_cast<int>(page)) return;
+    remember();
+    shown_ = static_cast<int>(page);
+    inspector_->setWindowTitle(pages_[page]->face().title);
+    stack_->setCurrentIndex(shown_);
+    if (!window_.restoreState(QSettings().value(setting()).toByteArray(), kLayoutVersion)) arrange();
+}
+
+void PageDocks::hideAll() {
+    remember();
+    shown_ = kNoPage;
+    inspector_->hide();
+    for (const auto& docks : panels_)
+        for (const PanelDock& panel : docks)
+            panel.dock->hide();
+}
+
+void PageDocks::remember() {
+    if (shown_ != kNoPage) QSettings().setValue(setting(), window_.saveState(kLayoutVersion));
+}
+
+void PageDocks::reset() {
+    if (shown_ == kNoPage) return;
+    QSettings().remove(setting());
+    arrange();
+}
+
+QList<QAction*> PageDocks::toggles() const {
+    QList<QAction*> toggles;
+    if (shown_ == kNoPage) return toggles;
+    toggles.push_back(inspector_->toggleViewAction());
+    for (const PanelDock& panel : panels_[static_cast<std::size_t>(shown_)])
+        toggles.push_back(panel.dock->toggleViewAction());
+    return toggles;
+}
+
+void PageDocks::arrange() {
+    inspector_->setFloating(false);
+    window_.addDockWidget(Qt::RightDockWidgetArea, inspector_);
+    inspector_->show();
+    QHash<Qt::DockWidgetArea, QDockWidget*> front;  // of each area's tabs
+    for (std::size_t page = 0; page < panels_.size(); ++page) {
+        for (const auto& [dock, area] : panels_[page]) {
+            dock->setFloating(false);
+            dock->setVisible(static_cast<int>(page) == shown_);
+            if (dock->isHidden()) continue;
+            window_.addDockWidget(area, dock);
+            if (QDockWidget* first = front.value(area)) {
+                window_.tabifyDockWidget(first, dock);
+            } else {
+                front.insert(area, dock);
+            }
+        }
+    }
+    for (auto first = front.cbegin(); first != front.cend(); ++first) {
+        first.value()->raise();
+        const bool wide = first.key() == Qt::BottomDockWidgetArea || first.key() == Qt::TopDockWidgetArea;
+        window_.resizeDocks({first.value()}, {wide ? kPanelHeight : kPanelWidth}, wide ? Qt::Vertical : Qt::Horizontal);
+    }
+    window_.resizeDocks({inspector_}, {kInspectorWidth}, Qt::Horizontal);
+}
+
+QString PageDocks::setting() const {
+    return "layout/" + pages_[static_cast<std::size_t>(shown_)]->face().name;
+}
+
+}  // namespace trapwright::window

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <QHash>
+#include <QList>
+#include <QObject>
+#include <vector>
+
+class QAction;
+class QDockWidget;
+class QMainWindow;
+class QStackedWidget;
+
+namespace trapwright::pages {
+class Page;
+}
+
+namespace trapwright::window {
+
+/// The docks around the scene: the inspector with the page that is shown, and one for each panel of a page. Docks
+/// move, float and close; every page has an arrangement of its own, which is remembered between starts.
+class PageDocks : public QObject {
+    Q_OBJECT
+ public:
+    PageDocks(QMainWindow& window, const std::vector<pages::Page*>& pages);
+
+    /// Puts the page into the inspector and its panels where they were when it was shown last.
+    void show(std::size_t page);
+    /// No docks at all, as long as no study is open.
+    void hideAll();
+    /// Writes the arrangement that is seen.
+    void remember();
+    /// The arrangement that the program comes with, of the page that is shown.
+    void reset();
+    /// Actions that show and hide the docks of the page that is shown.
+    [[nodiscard]] QList<QAction*> toggles() const;
+
+ private:
+    struct PanelDock {
+        QDockWidget* dock;
+        Qt::DockWidgetArea area;  // at first
+    };
+
+    void arrange();
+    [[nodiscard]] QString setting() const;
+
+    static constexpr int kNoPage = -1;
+
+    QMainWindow& window_;
+    const std::vector<pages::Page*> pages_;
+    QDockWidget* inspector_;
+    QStackedWidget* stack_;
+    std::vector<std::vector<PanelDock>> panels_;  // by page
+    int shown_ = kNoPage;
+};
+
+}  // namespace trapwright::window

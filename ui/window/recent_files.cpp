@@ -1,0 +1,49 @@
+#include "ui/window/recent_files.h"
+
+#include <QFile>
+#include <QSettings>
+#include <algorithm>
+
+#include "ui/look/text.h"
+
+namespace trapwright::window {
+
+namespace {
+
+const QString kSetting = QStringLiteral("recentStudies");
+
+QStringList stored() {
+    return QSettings().value(kSetting).toStringList();
+}
+
+}  // namespace
+
+void RecentFiles::add(const std::filesystem::path& file) {
+    QStringList files = stored();
+    const QString path = look::toText(std::filesystem::absolute(file).lexically_normal());
+    files.removeAll(path);
+    files.prepend(path);
+    QSettings().setValue(kSetting, QStringList(files.mid(0, kMost)));
+    emit changed();
+}
+
+void RecentFiles::remove(const std::filesystem::path& file) {
+    QStringList files = stored();
+    files.removeAll(look::toText(file));
+    QSettings().setValue(kSetting, files);
+    emit changed();
+}
+
+void RecentFiles::clear() {
+    QSettings().remove(kSetting);
+    emit changed();
+}
+
+QStringList RecentFiles::list() const {
+    QStringList files = stored();
+    files.erase(std::remove_if(files.begin(), files.end(), [](const QString& file) { return !QFile::exists(file); }),
+                files.end());
+    return files;
+}
+
+}  // namespace trapwright::window

@@ -1,0 +1,90 @@
+#include "ui/window/scene_frame.h"
+
+#include <QEvent>
+#include <QStackedWidget>
+#include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/look/message_bar.h"
+#include "ui/look/theme.h"
+#include "ui/window/welcome.h"
+
+namespace trapwright::window {
+
+namespace {
+
+constexpr int kToolIcon = 18;
+
+}  // namespace
+
+SceneFrame::SceneFrame(QWidget* parent)
+    : QWidget(parent),
+      messages_(new look::MessageBar(this)),
+      stack_(new QStackedWidget(this)),
+      welcome_(new Welcome(this)),
+      scene_(new scene::SceneView(this)),
+      layout_(new QVBoxLayout(this)) {
+    setObjectName("sceneFrame");
+    scene_->setObjectName("scene");
+    scene_->setAccessibleName(tr("3D scene"));
+    scene_->setMinimumSize(320, 200);
+
+    auto* withTools = new QWidget(this);
+    auto* tools = new QVBoxLayout(withTools);
+    tools->setContentsMargins(0, 0, 0, 0);
+    tools->setSpacing(0);
+    tools->addWidget(makeTools());
+    tools->addWidget(scene_, 1);
+    stack_->addWidget(welcome_);
+    stack_->addWidget(withTools);
+
+    layout_->setContentsMargins(0, 0, 0, 0);
+    layout_->setSpacing(0);
+    layout_->addWidget(messages_);
+    layout_->addWidget(stack_, 1);
+    colour();
+}
+
+void SceneFrame::showWelcome(bool welcome) {
+    stack_->setCurrentIndex(welcome ? 0 : 1);
+}
+
+void SceneFrame::addBar(const QString& page, QWidget* bar) {
+    layout_->addWidget(bar);
+    bar->hide();
+    bars_.insert(page, bar);
+}
+
+void SceneFrame::showBar(const QString& page) {
+    for (auto bar = bars_.cbegin(); bar != bars_.cend(); ++bar)
+        bar.value()->setVisible(bar.key() == page);
+}
+
+void SceneFrame::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) colour();
+}
+
+QWidget* SceneFrame::makeTools() {
+    auto* bar = new QToolBar(tr("Views"), this);
+    bar->setObjectName("sceneTools");
+    bar->setIconSize({kToolIcon, kToolIcon});
+    bar->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    bar->setStyleSheet("#sceneTools { border: none; border-bottom: 1px solid palette(mid); padding: 2px 6px; }");
+    for (QAction* action : scene_->viewActions()) {
+        bar->addAction(action);
+        if (auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action))) {
+            button->setFocusPolicy(Qt::TabFocus);
+            button->setAccessibleName(action->text().remove('&'));
+        }
+    }
+    return bar;
+}
+
+void SceneFrame::colour() {
+    const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
+    scene_->setTheme(dark ? scene::SceneTheme::dark() : scene::SceneTheme::light());
+}
+
+}  // namespace trapwright::window

@@ -1,0 +1,159 @@
+#include "ui/window/status_line.h"
+
+#include <QEvent>
+#include <QLabel>
+#include <QProgressBar>
+#include <algorithm>
+
+#include "ui/look/icon.h"
+#include "ui/look/text.h"
+#include "ui/look/theme.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::window {
+
+using session::RunProgress;
+using session::RunState;
+
+namespace {
+
+constexpr int kSign = 14;
+
+struct StateFace {
+    QString text;
+    const char* icon;
+    bool active;
+};
+
+StateFace faceOf(RunState state, bool problems) {
+    switch (state) {
+        case RunState::idle:
+            return problems ? StateFace{StatusLine::tr("Not ready to learn"), "warning", false}
+                            : StateFace{StatusLine::tr("Ready"), "good", false};
+        case RunState::learning: return {StatusLine::tr("Learning"), "start", true};
+        case RunState::paused: return {StatusLine::tr("Paused"), "pause", true};
+        case RunState::stoppingAfterGeneration:
+            return {StatusLine::tr("Stopping after this generation"), "stop-after", true};
+        case RunState::stopping: return {StatusLine::tr("Stopping"), "stop", true};
+        case RunState::selecting: return {StatusLine::tr("Simulating the best winners"), "start", true};
+        case RunState::validating: return {StatusLine::tr("Validating"), "start", true};
+        case RunState::simulating: return {StatusLine::tr("Simulating"), "start", false};
+    }
+    return {};
+}
+
+}  // namespace
+
+StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent), sign_(new QLabel(this)), bar_(new QProgressBar(this)) {
+    setObjectName("statusLine");
+    setSizeGripEnabled(false);
+    setStyleSheet("QStatusBar { border-top: 1px solid palette(mid); } QStatusBar::item { border: none; }");
+    sign_->setContentsMargins(8, 0, 0, 0);
+    addWidget(sign_);
+    state_ = addField("state", tr("What the study is doing"));
+    bar_->setObjectName("status.progress");
+    bar_->setAccessibleName(tr("Progress"));
+    bar_->setTextVisible(false);
+    bar_->setFixedSize(120, 8);
+    addWidget(bar_);
+    generation_ = addField("generation", tr("Generation"));
+    individual_ = addField("individual", tr("Individual of the generation"));
+    speed_ = addField("speed", tr("Trials per second"));
+    left_ = addField("left", tr("Time left"));
+    engines_ = new QLabel(this);
+    engines_->setObjectName("status.engines");
+    engines_->setAccessibleName(tr("Engines"));
+    engines_->setContentsMargins(0, 0, 8, 0);
+    addPermanentWidget(engines_);
+    update();
+}
+
+QLabel* StatusLine::addField(const QString& name, const QString& meaning) {
+    auto* label = new QLabel(this);
+    label->setObjectName("status." + name);
+    label->setAccessibleName(meaning);
+    label->setToolTip(meaning);
+    label->setContentsMargins(0, 2, 12, 2);
+    addWidget(label);
+    return label;
+}
+
+void StatusLine::setSession(session::StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    if (session_) {
+        using session::StudySession;
+        connect(session_, &StudySession::stateChanged, this, &StatusLine::update);
+        connect(session_, &StudySession::progressed, this, &StatusLine::update);
+        connect(session_, &StudySession::settingsChanged, this, &StatusLine::update);
+        connect(session_, &StudySession::partChanged, this, &StatusLine::update);
+        connect(session_, &StudySession::generationSaved, this, &StatusLine::update);
+        connect(session_, &StudySession::checkSaved, this, &StatusLine::updateEngines);
+    }
+    update();
+    updateEngines();
+}
+
+void StatusLine::changeEvent(QEvent* event) {
+    QStatusBar::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) update();
+}
+
+void StatusLine::update() {
+    const RunState runState = session_ ? session_->state() : RunState::idle;
+    const bool problems = session_ && !session_->problems().empty();
+    const StateFace face = faceOf(runState, problems);
+    for (QWidget* widget : std::initializer_list<QWidget*>{sign_, state_})
+        widget->setVisible(session_ != nullptr);
+    for (QWidget* widget : std::initializer_list<QWidget*>{bar_, individual_, speed_, left_})
+        widget->setVisible(face.active);
+    generation_->setVisible(session_ && !session_->summaries().empty());
+    if (!session_) return;
+
+    const QColor colour = problems ? look::toneColour(look::Tone::warning, QPalette())
+                          : face.active ? QPalette().color(QPalette::Highlight)
+                                        : look::toneColour(look::Tone::good, QPalette());
+    sign_->setPixmap(look::signPixmap(face.icon, colour, kSign, devicePixelRatioF()));
+    state_->setText(face.text);
+
+    const int known = static_cast<int>(session_->summaries().size());
+    const int generations = session_->settings().evolution.generations;
+    generation_->setText(tr("generation %1 of %2").arg(known).arg(generations));
+    if (!face.active) return;
+
+    const RunProgress progress = session_->progress();
+    if (progress.generations > 0) {
+        generation_->setVisible(true);
+        generation_->setText(tr("generation %1 of %2").arg(progress.generation + 1).arg(progress.generations));
+    }
+    individual_->setText(tr("individual %1 of %2").arg(progress.individualsDone).arg(progress.individuals));
+    individual_->setVisible(progress.individuals > 0);
+    speed_->setText(tr("%L1 trials/s").arg(qRound(progress.trialsPerSecond)));
+    speed_->setVisible(progress.trialsPerSecond > 0);
+    left_->setText(tr("%1 left").arg(look::durationText(progress.secondsLeft)));
+    left_->setVisible(progress.secondsLeft > 0);
+    const double done = progress.trials > 0 ? double(progress.trialsDone) / double(progress.trials) : 0.0;
+    const double whole = progress.generations > 0 ? (progress.generation + done) / progress.generations : done;
+    constexpr int kSteps = 1000;
+    bar_->setMaximum(kSteps);
+    bar_->setValue(qRound(std::clamp(whole, 0.0, 1.0) * kSteps));
+}
+
+void StatusLine::updateEngines() {
+    if (!session_ || session_->checks().empty()) {
+        engines_->clear();
+        return;
+    }
+    const study::CheckRecord& check = session_->checks().back();
+    if (check.trials <= 0) return;
+    const double difference = 100.0 * std::abs(check.learning.oriented - check.reference.oriented) / check.trials;
+    engines_->setText(tr("%1, %2 within %3 %")
+                          .arg(QString::fromStdString(check.learning.engine),
+                               QString::fromStdString(check.reference.engine), look::numberText(difference, 2)));
+    engines_->setToolTip(tr("Generation %1's winner on the same %2 trials in both engines: how many parts end oriented "
+                            "differs by this much")
+                             .arg(check.generation + 1)
+                             .arg(check.trials));
+}
+
+}  // namespace trapwright::window

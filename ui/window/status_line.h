@@ -1,0 +1,43 @@
+#pragma once
+
+#include <QPointer>
+#include <QStatusBar>
+
+class QLabel;
+class QProgressBar;
+
+namespace trapwright::session {
+class StudySession;
+}
+
+namespace trapwright::window {
+
+/// What the open study is doing, at the bottom of the window: state, generation, individual, trials per second,
+/// time left, and what the reference engine says of the last winner that it checked.
+class StatusLine : public QStatusBar {
+    Q_OBJECT
+ public:
+    explicit StatusLine(QWidget* parent);
+
+    void setSession(session::StudySession* session);
+
+ protected:
+    void changeEvent(QEvent* event) override;
+
+ private:
+    QLabel* addField(const QString& name, const QString& meaning);
+    void update();
+    void updateEngines();
+
+    QPointer<session::StudySession> session_;
+    QLabel* sign_;
+    QLabel* state_;
+    QProgressBar* bar_;
+    QLabel* generation_;
+    QLabel* individual_;
+    QLabel* speed_;
+    QLabel* left_;
+    QLabel* engines_;
+};
+
+}  // namespace trapwright::window

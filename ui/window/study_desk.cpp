@@ -1,0 +1,134 @@
+#include "ui/window/study_desk.h"
+
+#include <QDir>
+#include <QStandardPaths>
+
+#include "core/study/presets.h"
+#include "ui/look/text.h"
+
+namespace trapwright::window {
+
+namespace {
+
+std::filesystem::path draftFolder() {
+    return std::filesystem::path(
+               QFile::encodeName(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)).toStdString()) /
+           "drafts";
+}
+
+bool isInDrafts(const std::filesystem::path& file) {
+    return file.parent_path() == draftFolder();
+}
+
+/// What a new study of this part begins with: Table 1, of the column that is the part's own if it has one.
+base::Result<study::Settings> firstSettings(const session::ImportedPart& part) {
+    auto settings = study::presetSettings(part.settings.file == "cone" ? "cone" : "cuboid");
+    if (settings) settings->part = part.settings;
+    return settings;
+}
+
+void removeStudy(const std::filesystem::path& file) {
+    // SQLite's own files beside it go with it.
+    for (const char* suffix : {"", "-wal", "-shm"}) {
+        std::error_code ignored;
+        std::filesystem::remove(file.string() + suffix, ignored);
+    }
+}
+
+}  // namespace
+
+StudyDesk::StudyDesk(session::Environment environment, QObject* parent)
+    : QObject(parent), environment_(std::move(environment)) {}
+
+StudyDesk::~StudyDesk() = default;
+
+bool StudyDesk::isDraft() const {
+    return session_ && isInDrafts(session_->path());
+}
+
+QString StudyDesk::name() const {
+    if (!session_) return {};
+    if (isDraft()) return tr("%1 (not saved yet)").arg(QString::fromStdString(session_->part()->name));
+    return look::toText(session_->path().filename());
+}
+
+QStringList StudyDesk::forgottenDrafts() const {
+    QStringList drafts;
+    const QDir folder(look::toText(draftFolder()));
+    for (const QFileInfo& file : folder.entryInfoList({"*.trap"}, QDir::Files, QDir::Time)) {
+        if (session_ && file.absoluteFilePath() == look::toText(session_->path())) continue;
+        drafts.push_back(file.absoluteFilePath());
+    }
+    return drafts;
+}
+
+base::Status StudyDesk::createDraft(const session::ImportedPart& part) {
+    auto settings = firstSettings(part);
+    if (!settings) return settings.error();
+    const auto path = newDraftPath(part.part->name);
+    if (!path) return path.error();
+    auto created = session::StudySession::create(*path, *settings, part.stored, environment_);
+    if (!created) return created.error();
+    adopt(std::move(*created));
+    return base::success();
+}
+
+base::Status StudyDesk::forkToDraft() {
+    const auto path = newDraftPath(session_->part()->name);
+    if (!path) return path.error();
+    auto forked = session_->fork(*path);
+    if (!forked) return forked.error();
+    adopt(std::move(*forked));
+    return base::success();
+}
+
+base::Status StudyDesk::open(const std::filesystem::path& file) {
+    const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+    if (session_ && session_->path() == path) return base::success();
+    auto opened = session::StudySession::open(path, environment_);
+    if (!opened) return opened.error();
+    adopt(std::move(*opened));
+    if (!isDraft()) recent_.add(path);
+    return base::success();
+}
+
+void StudyDesk::close(bool keepDraft) {
+    if (!session_) return;
+    const std::filesystem::path path = session_->path();
+    const bool remove = isDraft() && !keepDraft;
+    adopt(nullptr);
+    if (remove) removeStudy(path);
+}
+
+base::Status StudyDesk::saveAs(const std::filesystem::path& file) {
+    const std::filesystem::path before = session_->path();
+    const bool wasDraft = isDraft();
+    auto saved = session_->saveAs(file);
+    if (!saved) return saved;
+    if (wasDraft) removeStudy(before);
+    recent_.add(session_->path());
+    emit nameChanged();
+    return base::success();
+}
+
+void StudyDesk::adopt(std::unique_ptr<session::StudySession> session) {
+    emit sessionChanged(session.get());
+    session_ = std::move(session);
+    emit nameChanged();
+}
+
+base::Result<std::filesystem::path> StudyDesk::newDraftPath(const std::string& part) const {
+    const std::filesystem::path folder = draftFolder();
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) {
+        return base::Error{"The folder " + folder.string() + " for unsaved studies cannot be made: " +
+                           failure.message() + ". Give the program a home folder that it can write."};
+    }
+    for (int number = 1;; ++number) {
+        const std::filesystem::path path = folder / (part + "-" + std::to_string(number) + ".trap");
+        if (!std::filesystem::exists(path)) return path;
+    }
+}
+
+}  // namespace trapwright::window

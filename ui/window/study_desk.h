@@ -1,0 +1,53 @@
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <filesystem>
+#include <memory>
+
+#include "ui/session/study_session.h"
+#include "ui/window/recent_files.h"
+
+namespace trapwright::window {
+
+/// The one study that is open in a window. A study that was never given a file is a draft: it is saved as it
+/// happens like any other, in the program's own folder, until the user saves or discards it.
+class StudyDesk : public QObject {
+    Q_OBJECT
+ public:
+    StudyDesk(session::Environment environment, QObject* parent);
+    ~StudyDesk() override;
+
+    [[nodiscard]] session::StudySession* session() const { return session_.get(); }
+    [[nodiscard]] const session::Environment& environment() const { return environment_; }
+    [[nodiscard]] bool isDraft() const;
+    /// For the title: the file's name, or the part's for a draft.
+    [[nodiscard]] QString name() const;
+    RecentFiles& recent() { return recent_; }
+    /// Drafts that were left behind when the program ended badly.
+    [[nodiscard]] QStringList forgottenDrafts() const;
+
+    // Each closes what is open without a question: ask before.
+    base::Status createDraft(const session::ImportedPart& part);
+    base::Status forkToDraft();
+    base::Status open(const std::filesystem::path& file);
+    /// Deletes a draft's file if `keepDraft` is false.
+    void close(bool keepDraft);
+
+    base::Status saveAs(const std::filesystem::path& file);
+
+ signals:
+    /// Before the one that was open is deleted. Null: none is open.
+    void sessionChanged(trapwright::session::StudySession* session);
+    void nameChanged();
+
+ private:
+    void adopt(std::unique_ptr<session::StudySession> session);
+    base::Result<std::filesystem::path> newDraftPath(const std::string& part) const;
+
+    session::Environment environment_;
+    RecentFiles recent_;
+    std::unique_ptr<session::StudySession> session_;
+};
+
+}  // namespace trapwright::window
