@@ -8,15 +8,20 @@
 
 namespace trapwright::study {
 
-/// How parts lie at the start and at the end of their trials.
+/// Parts that lie in one stable pose, or in one that looks the same because the part is symmetric.
+struct PoseShare {
+    std::vector<int> poses;  // indices into the part's stable poses, rising
+    int start = 0;           // of all parts
+    int finish = 0;          // of those that finished
+};
+
+/// How parts lie at the start and at the finish of their trials.
 struct OrientationShares {
-    /// Parts by the stable pose that they are nearest to, slot p for pose p: all at the start, those that
-    /// finished at the end.
-    std::vector<int> startPoses;
-    std::vector<int> finalPoses;
+    /// By the stable pose that is nearest; in the order of their first poses.
+    std::vector<PoseShare> poses;
     /// Angles to the expected orientation modulo the part's symmetry, rising. [rad]
     std::vector<double> startAngles;
-    std::vector<double> finalAngles;
+    std::vector<double> finishAngles;
 };
 
 /// Counts the start and final orientations of these trials. The part has stable poses, as buildPart gives

@@ -116,7 +116,8 @@ void ChartPanel::showEmpty(bool empty) {
 
 void ChartPanel::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
-    if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
+    const bool looksOther = event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange;
+    if (!looksOther || body_ == nullptr) return;
     theme_ = ChartTheme::from(palette());
     legend_->setTheme(theme_);
     applyTheme(theme_);
@@ -137,7 +138,15 @@ void ChartPanel::paintPicture(QPainter& painter, QSize size) {
     legend_->setTheme(paper);
     applyTheme(paper);
     painter.setRenderHint(QPainter::Antialiasing);
-    const int top = kMargin + legend_->paint(painter, QRect(kMargin, kMargin, size.width() - 2 * kMargin, 0));
+    QFont titleFont = font();
+    titleFont.setBold(true);
+    painter.setFont(titleFont);
+    painter.setPen(paper.text);
+    const int titleHeight = QFontMetrics(titleFont).height();
+    const QRect line(kMargin, kMargin, size.width() - 2 * kMargin, titleHeight);
+    painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, title_);
+    const int top =
+        line.bottom() + kMargin / 2 + legend_->paint(painter, line.translated(0, titleHeight + kMargin / 2));
 
     body_->resize(size.width(), size.height() - top);
     body_->layout()->activate();

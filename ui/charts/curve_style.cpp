@@ -1,7 +1,6 @@
 #include "ui/charts/curve_style.h"
 
-#include <QIconEngine>
-#include <cmath>
+#include <algorithm>
 
 namespace trapwright::charts {
 
@@ -23,31 +22,6 @@ QList<qreal> dashesOf(const CurveStyle& style) {
             return style.second ? QList<qreal>{9, 2.5} : QList<qreal>{};
     }
 }
-
-class SampleEngine : public QIconEngine {
- public:
-    SampleEngine(const CurveStyle& style, const ChartTheme& theme) : style_(style), theme_(theme) {}
-
-    void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override {
-        painter->save();
-        painter->setRenderHint(QPainter::Antialiasing);
-        if (mode == QIcon::Disabled || state == QIcon::Off) painter->setOpacity(0.35);
-        paintSample(*painter, rect, style_, theme_);
-        painter->restore();
-    }
-    [[nodiscard]] QIconEngine* clone() const override { return new SampleEngine(*this); }
-    QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
-        QPixmap pixmap(size);
-        pixmap.fill(Qt::transparent);
-        QPainter painter(&pixmap);
-        paint(&painter, QRect(QPoint(0, 0), size), mode, state);
-        return pixmap;
-    }
-
- private:
-    CurveStyle style_;
-    ChartTheme theme_;
-};
 
 /// The piece of a segment inside the rectangle, as shares of its length (Liang and Barsky 1984).
 bool clipSegment(const QPointF& from, const QPointF& to, const QRectF& rect, double& begin, double& end) {
@@ -123,10 +97,6 @@ void paintSample(QPainter& painter, const QRectF& rect, const CurveStyle& style,
         paintMarker(painter, rect.center(), style, theme);
     }
     painter.restore();
-}
-
-QIcon sampleIcon(const CurveStyle& style, const ChartTheme& theme) {
-    return QIcon(new SampleEngine(style, theme));
 }
 
 std::vector<QPolygonF> clipPolyline(const QPolygonF& line, const QRectF& rect) {

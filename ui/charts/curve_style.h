@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QIcon>
 #include <QPainter>
 #include <QPen>
 #include <QPolygonF>
@@ -19,7 +18,6 @@ void paintMarker(QPainter& painter, const QPointF& centre, const CurveStyle& sty
 
 /// A short piece of the curve with its marker; a filled square for a style without a line.
 void paintSample(QPainter& painter, const QRectF& rect, const CurveStyle& style, const ChartTheme& theme);
-QIcon sampleIcon(const CurveStyle& style, const ChartTheme& theme);
 
 /// The parts of a polyline that are inside the rectangle. (A painter's own clipping does not reach SVG.)
 std::vector<QPolygonF> clipPolyline(const QPolygonF& line, const QRectF& rect);

@@ -1,37 +1,39 @@
 #include "ui/charts/legend.h"
 
 #include <QPainter>
-#include <QToolButton>
 #include <algorithm>
 
 #include "ui/charts/curve_style.h"
 #include "ui/charts/flow_layout.h"
+#include "ui/charts/legend_item.h"
 
 namespace trapwright::charts {
 
 namespace {
 
 constexpr QSize kSampleSize{28, 12};
+constexpr int kSpacing = 2;  // between entries on the screen
 constexpr int kGap = 6;
 constexpr int kEntryGap = 16;
 
-bool sameButtons(const std::vector<LegendEntry>& a, const std::vector<LegendEntry>& b) {
+bool sameItems(const std::vector<LegendEntry>& a, const std::vector<LegendEntry>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LegendEntry& x, const LegendEntry& y) {
-        return x.key == y.key && x.text == y.text && x.help == y.help && x.sample == y.sample;
+        return x.key == y.key && x.text == y.text && x.help == y.help && x.sample == y.sample &&
+               x.fixed == y.fixed;
     });
 }
 
 }  // namespace
 
 Legend::Legend(QWidget* parent) : QWidget(parent) {
-    setLayout(new FlowLayout(nullptr, 2));
+    setLayout(new FlowLayout(nullptr, kSpacing));
     QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Minimum);
     policy.setHeightForWidth(true);
     setSizePolicy(policy);
 }
 
 void Legend::setEntries(const std::vector<LegendEntry>& entries) {
-    const bool same = sameButtons(entries, entries_);
+    const bool same = sameItems(entries, entries_);
     entries_ = entries;
     if (!same) rebuild();
     refresh();
@@ -87,33 +89,22 @@ int Legend::paint(QPainter& painter, const QRect& rect) const {
 }
 
 void Legend::rebuild() {
-    qDeleteAll(buttons_);
-    buttons_.clear();
+    qDeleteAll(items_);
+    items_.clear();
     for (const LegendEntry& entry : entries_) {
-        auto* button = new QToolButton(this);
-        button->setObjectName("legend." + entry.key);
-        button->setText(entry.text);
-        button->setAccessibleName(entry.text);
-        button->setToolTip(entry.help);
-        button->setAccessibleDescription(entry.help);
-        button->setCheckable(true);
-        button->setAutoRaise(entry.sample.has_value());
-        button->setToolButtonStyle(entry.sample ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonTextOnly);
-        button->setIconSize(entry.sample && entry.sample->line == Qt::NoPen
-                                ? QSize(kSampleSize.height(), kSampleSize.height())
-                                : kSampleSize);
+        auto* item = new LegendItem(entry, this);
         const QString key = entry.key;
-        connect(button, &QToolButton::clicked, this, [this, key](bool on) { setOn(key, on); });
-        layout()->addWidget(button);
-        buttons_.push_back(button);
+        connect(item, &LegendItem::clicked, this, [this, key](bool on) { setOn(key, on); });
+        layout()->addWidget(item);
+        items_.push_back(item);
     }
     updateGeometry();
 }
 
 void Legend::refresh() {
-    for (std::size_t i = 0; i < buttons_.size(); ++i) {
-        buttons_[i]->setChecked(isOn(entries_[i]));
-        if (entries_[i].sample) buttons_[i]->setIcon(sampleIcon(*entries_[i].sample, theme_));
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        items_[i]->setChecked(isOn(entries_[i]));
+        items_[i]->setTheme(theme_);
     }
 }
 

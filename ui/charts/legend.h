@@ -7,11 +7,11 @@
 #include "ui/charts/chart_theme.h"
 #include "ui/charts/sheet.h"
 
-class QToolButton;
-
 namespace trapwright::charts {
 
-/// The entries of a chart as buttons that switch what they stand for on and off. What the user switched stays
+class LegendItem;
+
+/// The entries of a chart that switch what they stand for on and off. What the user switched stays
 /// so when the entries are set again.
 class Legend : public QWidget {
     Q_OBJECT
@@ -39,7 +39,7 @@ class Legend : public QWidget {
     void refresh();
 
     std::vector<LegendEntry> entries_;
-    std::vector<QToolButton*> buttons_;  // slot i for entry i
+    std::vector<LegendItem*> items_;  // slot i for entry i
     QMap<QString, bool> chosen_;
     ChartTheme theme_;
 };

@@ -2,7 +2,6 @@
 
 #include <QHBoxLayout>
 #include <algorithm>
-#include <numeric>
 
 #include "core/base/math.h"
 #include "ui/charts/legend.h"
@@ -16,21 +15,28 @@ namespace {
 
 constexpr double kPercent = 100.0;
 constexpr int kHalfTurn = 180;         // [deg]
-constexpr std::size_t kOwnColour = 6;  // poses beyond share one
+constexpr std::size_t kOwnColour = 6;  // kinds of poses beyond share one
 
-double percentOf(int count, int all) {
-    return all > 0 ? kPercent * count / all : 0.0;
-}
+/// A piece of the bars: alike poses, or all that have no colour of their own.
+struct Piece {
+    QString name;
+    SeriesColour colour = SeriesColour::neutral;
+    int start = 0;
+    int finish = 0;
+};
 
-int sumOf(const std::vector<int>& counts) {
-    return std::accumulate(counts.begin(), counts.end(), 0);
+/// "1, 4", counted from 1.
+QString numbersOf(const study::PoseShare& share) {
+    QStringList numbers;
+    for (const int pose : share.poses)
+        numbers.append(QString::number(pose + 1));
+    return numbers.join(", ");
 }
 
 /// The share of all angles that are not greater than each whole degree. [%]
 std::vector<QPointF> cumulate(const std::vector<double>& angles) {
     std::vector<QPointF> points;
     if (angles.empty()) return points;
-    // Beyond the largest angle there is nothing to see but for the line at 100 %.
     for (int degree = 0; degree <= kHalfTurn; ++degree) {
         const auto within = std::upper_bound(angles.begin(), angles.end(), (degree + 1e-9) * base::kDegree);
         points.emplace_back(degree, kPercent * static_cast<double>(within - angles.begin()) /
@@ -39,19 +45,19 @@ std::vector<QPointF> cumulate(const std::vector<double>& angles) {
     return points;
 }
 
-/// What is shown of each pose: its own piece, or all rare ones as one.
-std::vector<double> piecesOf(const std::vector<int>& counts) {
-    const int all = sumOf(counts);
-    std::vector<double> pieces;
-    for (std::size_t pose = 0; pose < counts.size(); ++pose) {
-        const double share = percentOf(counts[pose], all);
-        if (pose <= kOwnColour) {
-            pieces.push_back(share);
-        } else {
-            pieces.back() += share;
-        }
-    }
-    return pieces;
+QString nameOf(const study::PoseShare& share) {
+    return (share.poses.size() > 1 ? OrientationChart::tr("poses %1") : OrientationChart::tr("pose %1"))
+        .arg(numbersOf(share));
+}
+
+std::vector<double> percentages(const std::vector<Piece>& pieces, int Piece::*count) {
+    int all = 0;
+    for (const Piece& piece : pieces)
+        all += piece.*count;
+    std::vector<double> shares;
+    for (const Piece& piece : pieces)
+        shares.push_back(all > 0 ? kPercent * piece.*count / all : 0.0);
+    return shares;
 }
 
 const CurveStyle kStart{SeriesColour::neutral, Qt::DashLine, Marker::square};
@@ -87,27 +93,32 @@ void OrientationChart::clear() {
 }
 
 void OrientationChart::update() {
-    const std::size_t pieces = std::min(shares_.startPoses.size(), kOwnColour + 1);
-    const bool rest = shares_.startPoses.size() > pieces;
+    std::vector<Piece> pieces;
+    for (const study::PoseShare& share : shares_.poses) {
+        if (pieces.size() < kOwnColour) {
+            pieces.push_back(
+                {nameOf(share), static_cast<SeriesColour>(pieces.size()), share.start, share.finish});
+            continue;
+        }
+        if (pieces.size() == kOwnColour) pieces.push_back({tr("other poses")});
+        pieces.back().start += share.start;
+        pieces.back().finish += share.finish;
+    }
     std::vector<LegendEntry> entries;
     QStringList names;
     std::vector<SeriesColour> colours;
-    for (std::size_t i = 0; i < pieces; ++i) {
-        const bool isRest = rest && i + 1 == pieces;
-        const auto colour = i < kOwnColour ? static_cast<SeriesColour>(i) : SeriesColour::neutral;
-        const QString name = isRest ? tr("other poses") : tr("pose %1").arg(i + 1);
-        names.append(name);
-        colours.push_back(colour);
-        entries.push_back(
-            {QStringLiteral("pose%1").arg(i), name, {}, CurveStyle{colour, Qt::NoPen, Marker::square}});
+    for (const Piece& piece : pieces) {
+        names.append(piece.name);
+        colours.push_back(piece.colour);
+        entries.push_back({piece.name, piece.name, tr("Poses that look the same are one."),
+                           CurveStyle{piece.colour, Qt::NoPen}, true, true});
     }
-    entries.push_back({"start", tr("start"), tr("As parts are put on the lead-in."), kStart});
-    entries.push_back({"finish", tr("finish"), tr("As parts pass the finish line."), kFinish});
+    entries.push_back({"start", tr("start"), tr("As parts are put on the lead-in."), kStart, true, true});
+    entries.push_back({"finish", tr("finish"), tr("As parts pass the finish line."), kFinish, true, true});
     legend()->setEntries(entries);
-
-    bars_->setBars(
-        {{tr("start"), piecesOf(shares_.startPoses)}, {tr("finish"), piecesOf(shares_.finalPoses)}}, names,
-        colours);
+    bars_->setBars({{tr("start"), percentages(pieces, &Piece::start)},
+                    {tr("finish"), percentages(pieces, &Piece::finish)}},
+                   names, colours);
 
     PlotSheet plot;
     plot.xTitle = tr("Angle to the expected orientation [°]");
@@ -115,21 +126,22 @@ void OrientationChart::update() {
     plot.decimals = 1;
     plot.yIncluded = {0.0, kPercent};
     plot.leastWidth = kHalfTurn;
+    plot.mark = XMark{tolerance_ / base::kDegree,
+                      tr("tolerance %1°").arg(QString::number(tolerance_ / base::kDegree, 'g', 3))};
     plot.curves = {
         {tr("start"), tr("Start within [%]"), {"start"}, kStart, cumulate(shares_.startAngles)},
-        {tr("finish"), tr("Finish within [%]"), {"finish"}, kFinish, cumulate(shares_.finalAngles)}};
+        {tr("finish"), tr("Finish within [%]"), {"finish"}, kFinish, cumulate(shares_.finishAngles)}};
     angles_->setSheet(plot);
-    showEmpty(sumOf(shares_.startPoses) == 0);
+    showEmpty(shares_.startAngles.empty());
 }
 
 QString OrientationChart::csv() const {
-    QString text = tr("Pose") + u',' + tr("Start") + u',' + tr("Finish") + u'\n';
-    for (std::size_t pose = 0; pose < shares_.startPoses.size(); ++pose) {
-        text += QStringLiteral("%1,%2,%3\n")
-                    .arg(pose + 1)
-                    .arg(shares_.startPoses[pose])
-                    .arg(shares_.finalPoses[pose]);
-    }
+    QString text =
+        QStringList{tr("Stable poses"), tr("Parts at the start"), tr("Parts at the finish")}.join(u',') +
+        u'\n';
+    for (const study::PoseShare& share : shares_.poses)
+        text +=
+            QStringLiteral("%1,%2,%3\n").arg(csvField(numbersOf(share))).arg(share.start).arg(share.finish);
     return text;
 }
 

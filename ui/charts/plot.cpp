@@ -23,6 +23,7 @@ constexpr double kNotch = 120.0;       // QWheelEvent's unit
 constexpr double kLeastWidth = 4.0;    // that can be zoomed to
 constexpr double kLeastShare = 1e-4;   // of the fitted height that can be zoomed to
 constexpr double kTickSpace = 48.0;    // between labels along x, at least
+constexpr int kMostUp = 8;             // labels along y
 
 QCategoryAxis* makeAxis(QChart* chart, Qt::Alignment side) {
     auto* axis = new QCategoryAxis(chart);
@@ -225,7 +226,7 @@ void Plot::updateTicks() {
     const QRectF area = plotArea();
     const QFontMetricsF metrics(font());
     const auto mostAlong = static_cast<int>(area.width() / kTickSpace);
-    const auto mostUp = static_cast<int>(area.height() / (1.8 * metrics.height()));
+    const auto mostUp = std::min(kMostUp, static_cast<int>(area.height() / (1.8 * metrics.height())));
     setTicks(xAxis_, linearTicks(x_, std::max(2, mostAlong), 1.0), x_);
     const int most = std::max(2, mostUp);
     setTicks(yAxis_, sheet_.yScale == Scale::logarithmic ? logarithmicTicks(y_, most) : linearTicks(y_, most),
@@ -302,12 +303,12 @@ void Plot::moveCursorTo(const QPointF& position) {
         for (const QPointF& point : curve.points)
             extent.add(point.x());
     }
-    const std::optional<Range> data = extent.range(0.0, 0.0);
-    if (!data || !plotArea().contains(position)) {
+    const std::optional<Range> known = extent.range(0.0, 0.0);
+    if (!known || !plotArea().contains(position)) {
         emit cursorMoved(std::nullopt);
         return;
     }
-    emit cursorMoved(std::clamp(std::round(fromWidget(position).x()), data->low, data->high));
+    emit cursorMoved(std::clamp(std::round(fromWidget(position).x()), known->low, known->high));
 }
 
 }  // namespace trapwright::charts

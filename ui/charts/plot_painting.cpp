@@ -58,6 +58,7 @@ QStringList Plot::readOff() const {
 void Plot::drawForeground(QPainter* painter, const QRectF&) {
     painter->save();
     painter->setFont(font());
+    paintMark(*painter);
     if (picturing_) paintCurves(*painter);
     for (std::size_t i = 0; i < curves_.size(); ++i)
         if (curves_[i].shown) paintMarkers(*painter, i);
@@ -77,6 +78,17 @@ void Plot::drawForeground(QPainter* painter, const QRectF&) {
                      QStringLiteral("%1 %2").arg(sheet_.xTitle).arg(*cursor_), values, theme_);
     }
     painter->restore();
+}
+
+void Plot::paintMark(QPainter& painter) const {
+    if (!sheet_.mark || !x_.contains(sheet_.mark->x)) return;
+    const QRectF area = plotArea();
+    const double x = area.left() + (sheet_.mark->x - x_.low) / x_.size() * area.width();
+    painter.setPen(QPen(theme_.faintText, 1.0, Qt::DashLine));
+    painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+    painter.setPen(theme_.faintText);
+    painter.drawText(QRectF(x + 4.0, area.top(), area.right() - x - 4.0, area.height()),
+                     Qt::AlignLeft | Qt::AlignVCenter, sheet_.mark->text);
 }
 
 void Plot::paintMarkers(QPainter& painter, std::size_t curve) const {

@@ -40,6 +40,7 @@ PoseBars::PoseBars(QWidget* parent)
     shareAxis_->setLabelsPosition(QCategoryAxis::AxisLabelsPositionOnValue);
     shareAxis_->setTitleText(tr("Parts by nearest stable pose [%]"));
     barAxis_->setGridLineVisible(false);
+    barAxis_->setLineVisible(false);
     chart()->addAxis(barAxis_, Qt::AlignLeft);
     chart()->addAxis(shareAxis_, Qt::AlignBottom);
     series_->attachAxis(barAxis_);

@@ -11,7 +11,8 @@ namespace {
 constexpr double kPadding = 6.0;
 constexpr double kSampleWidth = 20.0;
 constexpr double kGap = 8.0;
-constexpr double kDistance = 10.0;  // of the box from the line
+constexpr double kDistance = 10.0;   // of the box from the line
+constexpr double kMostShare = 0.33;  // of the plot's width, for names and values
 
 }  // namespace
 
@@ -31,11 +32,14 @@ void paintReadOff(QPainter& painter, const QRectF& plotArea, double x, const QSt
     double nameWidth = 0.0;
     double valueWidth = 0.0;
     for (const ReadValue& value : values) {
-        nameWidth = std::max(nameWidth, metrics.horizontalAdvance(value.name));
+        nameWidth = std::max(nameWidth, metrics.horizontalAdvance(value.name) + kGap);
         valueWidth = std::max(valueWidth, metrics.horizontalAdvance(value.value));
     }
+    // In a narrow plot the samples must do: the legend says what they are.
+    const bool named = nameWidth + valueWidth < kMostShare * plotArea.width();
+    if (!named) nameWidth = 0.0;
     const double lineWidth =
-        std::max(metrics.horizontalAdvance(heading), kSampleWidth + kGap + nameWidth + kGap + valueWidth);
+        std::max(metrics.horizontalAdvance(heading), kSampleWidth + kGap + nameWidth + valueWidth);
     const double lineHeight = metrics.height() + 2.0;
     QRectF box(0, 0, lineWidth + 2 * kPadding,
                lineHeight * (1.0 + static_cast<double>(values.size())) + 2 * kPadding);
@@ -59,8 +63,10 @@ void paintReadOff(QPainter& painter, const QRectF& plotArea, double x, const QSt
         const QRectF sample(line.left(), line.top() + 2.0, kSampleWidth, line.height() - 4.0);
         paintSample(painter, sample, value.style, theme);
         painter.setPen(theme.text);
-        painter.drawText(line.adjusted(kSampleWidth + kGap, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft,
-                         value.name);
+        if (named) {
+            painter.drawText(line.adjusted(kSampleWidth + kGap, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft,
+                             value.name);
+        }
         painter.drawText(line, Qt::AlignVCenter | Qt::AlignRight, value.value);
     }
     painter.restore();

@@ -34,6 +34,12 @@ struct Curve {
     std::optional<double> level{};  // instead of points: a horizontal line
 };
 
+/// A place on the x axis that means something.
+struct XMark {
+    double x = 0.0;
+    QString text;
+};
+
 struct PlotSheet {
     QString key;     // shown while the legend entry with this key, if there is one, is on
     QString xTitle;  // HTML
@@ -43,15 +49,17 @@ struct PlotSheet {
     double leastHeight = 0.0;         // of the fitted y range; decades on a logarithmic scale
     std::vector<double> yIncluded{};  // always within the fitted y range
     double leastWidth = 10.0;         // of the fitted x range
+    std::optional<XMark> mark{};
     std::vector<Curve> curves;
 };
 
 struct LegendEntry {
     QString key;
     QString text;
-    QString help;                      // one sentence
-    std::optional<CurveStyle> sample;  // none: chooses a plot
-    bool on = true;                    // until the user switches it
+    QString help;                        // one sentence
+    std::optional<CurveStyle> sample{};  // none: chooses a plot
+    bool on = true;                      // until the user switches it
+    bool fixed = false;                  // tells what something is and cannot be switched
 };
 
 /// Plots side by side that share their x axis.

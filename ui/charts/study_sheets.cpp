@@ -175,9 +175,11 @@ ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
     sheet.legend.push_back({"best", Text::tr("best"), Text::tr("The winner of each generation."), kBest});
     sheet.legend.push_back({"mean", Text::tr("mean of top 30 %"),
                             Text::tr("The mean of the best 30 % of each generation."), kMean});
-    sheet.legend.push_back({"attainable", Text::tr("best attainable"),
-                            Text::tr("The F_O of a track that turns every part to one orientation."),
-                            kAttainable});
+    sheet.legend.push_back(
+        {"attainable", Text::tr("attainable"),
+         Text::tr("The F_O of a track that turns every part to one orientation. With few trials a track can "
+                  "exceed it by chance."),
+         kAttainable});
     addStudies(sheet, studies);
     return sheet;
 }
