@@ -174,6 +174,7 @@ base::Status ChartPanel::savePicture(const std::filesystem::path& path) {
         QSvgGenerator generator;
         generator.setOutputDevice(&buffer);
         generator.setSize(area);
+        generator.setResolution(logicalDpiX());  // letters as large as on the screen
         generator.setViewBox(QRect(QPoint(0, 0), area));
         generator.setTitle(title_);
         QPainter painter(&generator);

@@ -2,6 +2,8 @@
 /// chart_pictures FOLDER STUDY [STUDY]
 #include <QApplication>
 #include <QDir>
+#include <QPainter>
+#include <QSvgRenderer>
 #include <cstdio>
 
 #include "core/part/part_builder.h"
@@ -101,15 +103,25 @@ class Photographer {
         strategy.zoom(0.3);
         take(fitness, suffix + "-zoomed", size);
         take(strategy, suffix + "-zoomed", size);
-        if (const auto status =
-                fitness.savePicture((folder_ + "/fitness-" + suffix + "-saved.svg").toStdString());
-            !status)
-            std::fprintf(stderr, "%s\n", status.error().message.c_str());
-        (void)strategy.savePicture((folder_ + "/strategy-" + suffix + "-saved.png").toStdString());
-        (void)orientation.savePicture((folder_ + "/orientation-" + suffix + "-saved.png").toStdString());
+        saveAll(fitness, suffix);
+        saveAll(strategy, suffix);
+        saveAll(orientation, suffix);
     }
 
  private:
+    /// As its user saves it, and the SVG as a viewer draws it.
+    void saveAll(charts::ChartPanel& chart, const QString& suffix) {
+        const QString name = folder_ + "/" + chart.objectName() + "-" + suffix + "-saved";
+        for (const char* ending : {".png", ".svg"})
+            ::take(chart.savePicture((name + ending).toStdString()));
+        QSvgRenderer svg(name + ".svg");
+        QImage image(chart.size() * 2, QImage::Format_RGB32);
+        QPainter painter(&image);
+        svg.render(&painter);
+        painter.end();
+        image.save(name + "-svg.png");
+    }
+
     void take(QWidget& chart, const QString& suffix, QSize size) {
         chart.resize(size);
         chart.show();
