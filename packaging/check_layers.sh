@@ -22,6 +22,12 @@ sim/contact     core/base core/geometry core/part core/track core/trial sim/cont
 sim/native      core/base core/geometry core/part core/track core/trial sim/contact sim/native
 sim/simbody     core/base core/geometry core/part core/track core/trial sim/contact sim/simbody
 ui              core ui
+ui/charts       core ui/charts ui/look
+ui/look         ui/look
+ui/models       core ui/look ui/models
+ui/pages        core ui/charts ui/look ui/models ui/pages ui/scene ui/session
+ui/scene        core ui/look ui/scene
+ui/session      core ui/session
 app             core sim ui app
 resources       core resources
 tests           core sim ui app tests

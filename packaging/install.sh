@@ -16,8 +16,10 @@ packages=(
     libhwy-dev libsimbody-dev
     # studies and the command line
     libcli11-dev libfmt-dev libspdlog-dev libsqlite3-dev libsqlitecpp-dev nlohmann-json3-dev
-    # tests
-    qt6-base-dev
+    # the studio: window, charts, icons, 3D scene, films
+    ffmpeg fonts-dejavu-core libgl1-mesa-dri libvtk9-dev qt6-base-dev qt6-charts-dev qt6-svg-dev
+    # tests, those with windows on a screen of their own
+    xauth xvfb
 )
 # other simulators that tests/peers measures against
 peers=(libmujoco-dev libode-dev)

@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
-# Installs, builds and runs Trapwright's main job.
+# Installs, builds and opens the studio, or runs Trapwright's main job where there is no display.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 program=$root/build/release/app/trapwright/trapwright
+studio=$root/build/release/app/studio/trapwright-studio
 
 usage() {
     cat << 'USAGE'
 Usage: packaging/run.sh [--headless] [--out DIR] [OPTION...]
 
-Installs what is missing, builds Trapwright and designs a track for the 4 x 8 x 12 mm cuboid: learns for a few
+Installs what is missing, builds Trapwright and opens the studio.
+
+Without a display, or with any option, it designs a track for the 4 x 8 x 12 mm cuboid instead: learns for a few
 generations, picks the best track, validates it and writes it for printing. Takes at most 5 minutes after the build.
 
-  --headless   no window; this is what always happens without a display
+  --headless   no window, although there is a display
   --out DIR    where the study and the track go (default: ./trapwright-cuboid)
   -h, --help   this text
 Every other option is passed on to `trapwright demo`; its --help lists them.
@@ -21,6 +24,10 @@ USAGE
 
 out=$PWD/trapwright-cuboid
 options=()
+windows=false
+if (($# == 0)) && [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
+    windows=true
+fi
 while (($# > 0)); do
     case "$1" in
         -h | --help)
@@ -45,6 +52,9 @@ done
 "$root/packaging/install.sh"
 "$root/packaging/build.sh" release
 
+if $windows; then
+    exec "$studio"
+fi
 echo
 "$program" demo --out "$out" "${options[@]}"
 echo

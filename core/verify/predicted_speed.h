@@ -19,8 +19,8 @@ struct ConveyingPrediction {
 };
 
 /// Predicts how quickly a drive conveys before anything is simulated: the event-driven solutions of stick_slip.h
-/// and hopping.h for a point, whichever the throw number calls for. Below lift-off restitution plays no part. A
-/// few milliseconds. The drive and the parameters must be in their ranges (study::findProblems).
+/// and hopping.h for a point, whichever the throw number calls for. Below lift-off restitution plays no part. Some
+/// ten milliseconds of work. The drive and the parameters must be in their ranges (study::findProblems).
 ConveyingPrediction predictConveying(const trial::Drive& drive, const trial::ContactParameters& contact,
                                      double gravity);
 

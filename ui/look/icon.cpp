@@ -8,6 +8,11 @@
 #include <QPixmapCache>
 #include <QSvgRenderer>
 
+// The linker leaves a library's resources out unless they are asked for, which Qt wants done outside namespaces.
+static void useIcons() {
+    Q_INIT_RESOURCE(icons);
+}
+
 namespace trapwright::look {
 
 namespace {
@@ -20,6 +25,7 @@ QPixmap drawIcon(const QString& name, const QColor& lines, const QColor& accent,
     QPixmap pixmap;
     if (QPixmapCache::find(key, &pixmap)) return pixmap;
 
+    useIcons();
     QFile file(":/icons/" + name + ".svg");
     const bool opened = file.open(QIODevice::ReadOnly);
     Q_ASSERT_X(opened, "look::icon", qPrintable(name));
@@ -67,6 +73,11 @@ class IconEngine : public QIconEngine {
 
 QIcon icon(const QString& name) {
     return QIcon(new IconEngine(name));
+}
+
+QIcon programIcon() {
+    useIcons();
+    return QIcon(":/icons/trapwright.svg");
 }
 
 QPixmap signPixmap(const QString& name, const QColor& colour, int size, qreal pixelRatio) {

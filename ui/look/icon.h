@@ -11,7 +11,10 @@ namespace trapwright::look {
 /// and pixel ratio.
 QIcon icon(const QString& name);
 
-/// The same as a picture in one colour, for a label. `size` in logical pixels.
+/// The program's own, for windows.
+QIcon programIcon();
+
+/// A drawing as a picture in one colour, for a label. `size` in logical pixels.
 QPixmap signPixmap(const QString& name, const QColor& colour, int size, qreal pixelRatio);
 
 }  // namespace trapwright::look

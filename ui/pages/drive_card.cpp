@@ -77,7 +77,7 @@ DriveCard::DriveCard(QWidget* parent)
     speed_->setAccessibleName(tr("Predicted conveying speed"));
     speed_->setToolTip(tr("Of a part that lies flat on a level track; from a closed solution, not from the simulator."));
     auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 4, 26, 0);
+    layout->setContentsMargins(0, 4, 0, 0);
     layout->setSpacing(2);
     layout->addWidget(throw_);
     layout->addWidget(gauge_);

@@ -10,7 +10,9 @@ class SceneView;
 }
 namespace trapwright::session {
 class StudySession;
-struct ImportedPart;
+}
+namespace trapwright::work {
+struct LoadedPart;
 }
 
 namespace trapwright::pages {
@@ -66,7 +68,7 @@ class Page : public QWidget {
     /// Another page shall be shown; its name.
     void pageWanted(const QString& name);
     /// A new study of this part shall be opened in place of the one that is open, if any.
-    void studyWanted(const trapwright::session::ImportedPart& part);
+    void studyWanted(const trapwright::work::LoadedPart& part);
     /// A new study with the settings and the part of the open one, and no generations, shall be opened in its place.
     void forkWanted();
 

@@ -12,7 +12,7 @@ namespace trapwright::pages {
 using look::numberText;
 
 FactList::FactList(QWidget* parent) : QWidget(parent), grid_(new QGridLayout(this)) {
-    grid_->setContentsMargins(0, 0, 26, 0);
+    grid_->setContentsMargins(0, 0, 0, 0);
     grid_->setHorizontalSpacing(12);
     grid_->setVerticalSpacing(4);
     grid_->setColumnStretch(1, 1);

@@ -18,7 +18,7 @@
 #include "ui/pages/pose_cards.h"
 #include "ui/pages/problem_text.h"
 #include "ui/pages/settings_form.h"
-#include "ui/pages/unit_question.h"
+#include "ui/pages/import_question.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_session.h"
 
@@ -36,7 +36,7 @@ QString fromView(std::string_view text) {
 QWidget* labelled(const QString& label, QWidget* editor, QWidget* parent) {
     auto* row = new QWidget(parent);
     auto* layout = new QHBoxLayout(row);
-    layout->setContentsMargins(0, 0, 26, 0);
+    layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(6);
     auto* text = new QLabel(label, row);
     text->setBuddy(editor);
@@ -68,7 +68,12 @@ PartPage::PartPage(QWidget* parent)
     connect(&import_, &session::PartImport::unitNeeded, this,
             [this](const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates) {
                 setBusy({});
-                units_->ask(request, candidates);
+                question_->askUnit(request, candidates);
+            });
+    connect(&import_, &session::PartImport::repairNeeded, this,
+            [this](const work::PartRequest& request, const geometry::MeshReport& found, const QString& message) {
+                setBusy({});
+                question_->askRepair(request, found, message);
             });
     connect(&import_, &session::PartImport::failed, this,
             [this](const work::PartRequest& request, const QString& message) {
@@ -124,12 +129,12 @@ void PartPage::addHead() {
     busyLayout->addWidget(stop, 0, Qt::AlignRight);
     busy_->hide();
 
-    units_ = new UnitQuestion(this);
-    connect(units_, &UnitQuestion::answered, this, [this](const work::PartRequest& request) {
-        units_->hide();
+    question_ = new ImportQuestion(this);
+    connect(question_, &ImportQuestion::answered, this, [this](const work::PartRequest& request) {
+        question_->hide();
         import(request);
     });
-    connect(units_, &UnitQuestion::cancelled, units_, &QWidget::hide);
+    connect(question_, &ImportQuestion::cancelled, question_, &QWidget::hide);
 
     misfit_ = new QLabel(this);
     misfit_->setObjectName("part.misfit");
@@ -139,7 +144,7 @@ void PartPage::addHead() {
     auto* layout = static_cast<QVBoxLayout*>(this->layout());
     layout->addLayout(head);
     layout->addWidget(busy_);
-    layout->addWidget(units_);
+    layout->addWidget(question_);
     layout->addWidget(misfit_);
 }
 
@@ -220,12 +225,12 @@ void PartPage::askForFile() {
 }
 
 void PartPage::import(const work::PartRequest& request) {
-    units_->hide();
+    question_->hide();
     setBusy(tr("Reading %1 ...").arg(look::toText(std::filesystem::path(request.part).filename())));
-    import_.import(request);
+    import_.start(request);
 }
 
-void PartPage::take(const session::ImportedPart& part) {
+void PartPage::take(const work::LoadedPart& part) {
     setBusy({});
     imported_ = part;
     // The scores of a study belong to its part.
@@ -279,25 +284,24 @@ void PartPage::showMesh() {
     notes_->clear();
     const std::shared_ptr<const part::Part> part = shownMesh_;
     const geometry::TriangleMesh mesh = session_->storedPart().mesh;
-    QStringList known;
-    if (imported_ && imported_->part == part)
-        for (const std::string& note : imported_->report.notes)
-            known << QString::fromStdString(note);
-    meshCheck_.start([this, part, mesh, known]() -> session::NewestTask::Deliver {
+    std::vector<std::string> notes;
+    if (imported_ && imported_->part == part) notes = imported_->notes;
+    meshCheck_.start([this, part, mesh, notes]() mutable -> session::NewestTask::Deliver {
         const geometry::MeshReport report = geometry::checkMesh(mesh);
-        QStringList notes = known;
         // A study that was opened does not keep what was mended when its part came in.
-        if (const auto repaired = known.isEmpty() ? geometry::repairMesh(mesh) : base::Error{}) {
-            for (const std::string& note : repaired->notes)
-                notes << QString::fromStdString(note);
+        if (notes.empty()) {
+            if (auto repaired = geometry::repairMesh(mesh)) notes = std::move(repaired->notes);
         }
         return [this, part, report, notes, triangles = mesh.triangles.size()] {
             if (!session_ || session_->part() != part) return;
             Facts facts = meshFacts(report, triangles);
             facts.emplace_back(tr("Convex pieces"), QString::number(part->pieces.size()));
             mesh_->show(facts);
-            notes_->setText(notes.join("\n"));
-            notes_->setVisible(!notes.isEmpty());
+            QStringList sentences;
+            for (const std::string& note : notes)
+                sentences << QString::fromStdString(note);
+            notes_->setText(sentences.join("\n"));
+            notes_->setVisible(!sentences.isEmpty());
         };
     });
 }
@@ -308,7 +312,7 @@ void PartPage::showUnits() {
     const QString present = QString::fromStdString(session_->settings().part.units);
     const bool known = imported_ && imported_->settings.file == session_->settings().part.file;
     if (known) {
-        for (const work::UnitCandidate& candidate : imported_->report.candidates) {
+        for (const work::UnitCandidate& candidate : imported_->candidates) {
             const QString name = QString::fromStdString(candidate.name);
             unit_->addItem(name, name);
             unit_->setItemData(unit_->count() - 1, sizeText(candidate.size), Qt::ToolTipRole);

@@ -18,7 +18,7 @@ namespace trapwright::pages {
 class FactList;
 class PoseCards;
 class SettingsForm;
-class UnitQuestion;
+class ImportQuestion;
 
 /// Step 1: the part. Import with its unit, what was found in the mesh and mended, material, symmetry, stable poses.
 class PartPage : public Page {
@@ -37,7 +37,7 @@ class PartPage : public Page {
     void addForm();
     void askForFile();
     void import(const work::PartRequest& request);
-    void take(const session::ImportedPart& part);
+    void take(const work::LoadedPart& part);
     void setBusy(const QString& what);
 
     void refresh();
@@ -53,7 +53,7 @@ class PartPage : public Page {
     scene::SceneView* scene_ = nullptr;  // while the page is shown
     session::PartImport import_;
     session::NewestTask meshCheck_;
-    std::optional<session::ImportedPart> imported_;  // the last one, for its report
+    std::optional<work::LoadedPart> imported_;  // the last one, for its report
     std::shared_ptr<const part::Part> shownMesh_;    // whose mesh was checked
 
     QLabel* name_;
@@ -61,7 +61,7 @@ class PartPage : public Page {
     QPushButton* importButton_;
     QWidget* busy_;
     QLabel* busyText_;
-    UnitQuestion* units_;
+    ImportQuestion* question_;
     QLabel* misfit_;
     SettingsForm* form_;
     QComboBox* unit_;

@@ -68,10 +68,7 @@ void PoseCards::rebuild() {
         bold.setBold(true);
         chance->setFont(bold);
         chance->setAlignment(Qt::AlignHCenter);
-        auto* alike = new QLabel(tr("%n face(s)", nullptr, pose.multiplicity), card);
-        alike->setAlignment(Qt::AlignHCenter);
-        alike->setForegroundRole(QPalette::PlaceholderText);
-        card->setAccessibleName(tr("Stable pose %1: %2, %3").arg(index + 1).arg(chance->text(), alike->text()));
+        card->setAccessibleName(tr("Stable pose %1: %2").arg(index + 1).arg(chance->text()));
         card->setToolTip(tr("A part dropped anyhow comes to rest in this pose in %1 of 100 cases.")
                              .arg(look::numberText(100.0 * pose.probability)));
 
@@ -80,7 +77,6 @@ void PoseCards::rebuild() {
         layout->setSpacing(0);
         layout->addWidget(picture);
         layout->addWidget(chance);
-        layout->addWidget(alike);
         grid_->addWidget(card, index / kColumns, index % kColumns);
         ++index;
     }

@@ -10,7 +10,7 @@ class QGridLayout;
 
 namespace trapwright::pages {
 
-/// The stable poses of a part as cards: a picture, the probability, and how many alike faces it stands for.
+/// The stable poses of a part as cards: a picture and the probability.
 class PoseCards : public QWidget {
     Q_OBJECT
  public:

@@ -85,7 +85,7 @@ void SettingsForm::setProblems(const std::vector<std::string>& problems, const s
             row->setProblem(found ? reason->second.first : QString(), found && reason->second.second);
             if (found && !reason->second.second) ++bad;
         }
-        group.widget->setSummary(bad > 0 ? tr("%n to mend", nullptr, bad) : QString());
+        group.widget->setSummary(bad > 0 ? tr("%1 to mend").arg(bad) : QString());
     }
 }
 

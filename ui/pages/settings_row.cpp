@@ -71,8 +71,8 @@ SettingsRow::SettingsRow(study::FieldInfo field, QWidget* parent)
     editor->setAccessibleDescription(text_.help);
     editor->installEventFilter(this);
     label_->setBuddy(editor);
-    line->addWidget(editor);
     line->addWidget(reset_);
+    line->addWidget(editor);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(2);

@@ -6,7 +6,6 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "core/study/presets.h"
@@ -92,10 +91,8 @@ TrackPage::TrackPage(QWidget* parent)
 
 QWidget* TrackPage::makeHead() {
     auto* head = new QWidget(this);
-    auto* presets = new QToolButton(head);
+    auto* presets = new QPushButton(tr("Presets"), head);
     presets->setObjectName("track.presets");
-    presets->setText(tr("Presets"));
-    presets->setPopupMode(QToolButton::InstantPopup);
     presets->setToolTip(tr("Sets of values that are known to work"));
     auto* menu = new QMenu(presets);
     const auto addPreset = [&](const QString& name, const QString& title) {
@@ -156,7 +153,7 @@ void TrackPage::addContactChoice() {
     });
     auto* row = new QWidget(form_);
     auto* layout = new QHBoxLayout(row);
-    layout->setContentsMargins(0, 0, 26, 0);
+    layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(contact_);
     form_->addToGroup("contact", row, true);
 }
@@ -190,7 +187,7 @@ void TrackPage::refresh() {
     form_->QWidget::setVisible(session_ != nullptr);
     locked_->setVisible(session_ && session_->locked());
     problems_->clear();
-    help_->setText(tr("What a field means is told here."));
+    help_->setText(tr("Point at a field, and what it means is told here."));
     if (!session_) return;
 
     const study::Settings& settings = session_->settings();
@@ -216,9 +213,9 @@ void TrackPage::showProblems() {
     form_->setProblems(problems, session_->recommendations());
     if (problems.empty()) return problems_->setText({});
     const QColor colour = look::toneColour(look::Tone::bad, palette());
-    problems_->setText(QString("<a href=\"#\" style=\"color: %1\">%2</a>")
-                           .arg(colour.name(), tr("%n value(s) to mend before learning", nullptr,
-                                                  static_cast<int>(problems.size()))));
+    const QString text = problems.size() == 1 ? tr("One value to mend before learning")
+                                              : tr("%1 values to mend before learning").arg(problems.size());
+    problems_->setText(QString("<a href=\"#\" style=\"color: %1\">%2</a>").arg(colour.name(), text));
 }
 
 void TrackPage::showContact() {

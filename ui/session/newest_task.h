@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QObject>
 #include <functional>
 #include <memory>
 
@@ -19,7 +18,7 @@ class NewestTask {
     /// Waits for work that has begun.
     ~NewestTask();
 
-    /// Does the work after that which has begun. What waits and what has begun is not delivered any more.
+    /// Does the work after that which has begun. Nothing that was asked for before is delivered any more.
     void start(Work work);
     void cancel();
     /// Whether something is still to be delivered.

@@ -13,7 +13,7 @@ enum class RunState {
     stopping,                 // at once; what is not complete is dropped
     selecting,
     validating,
-    simulating  // trials, a replay or an estimate, while nothing else goes on
+    simulating  // trials or a replay, while nothing else goes on
 };
 
 /// How far learning, selection or validation has come.

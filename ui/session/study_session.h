@@ -4,8 +4,10 @@
 #include <QString>
 #include <QUndoStack>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/result.h"
@@ -13,6 +15,7 @@
 #include "core/study/records.h"
 #include "core/study/settings.h"
 #include "core/trial/outcome.h"
+#include "core/work/failure.h"
 #include "core/work/study_trials.h"
 #include "ui/session/environment.h"
 #include "ui/session/part_import.h"
@@ -20,12 +23,14 @@
 
 namespace trapwright::session {
 
+struct OpenedStudy;
+struct PartVersion;
+
 /// Trials that were simulated again, and how each is counted.
 struct SimulatedTrials {
-    work::TrialsRequest request;               // its count is that of the trials
-    std::vector<trial::Outcome> outcomes;      // slot i for trial i
-    std::vector<work::TrialVerdict> verdicts;  // likewise
-    base::Quaternion expected;                 // the orientation that counts as success
+    work::TrialsRequest request;
+    std::vector<trial::Outcome> outcomes;  // slot i for trial i
+    work::JudgedTrials judged;             // likewise
 };
 
 /// One open study. Lives in the GUI thread and never makes it wait: a thread of its own learns, selects and
@@ -42,9 +47,16 @@ class StudySession : public QObject {
                                                               const study::Settings& settings,
                                                               const store::StoredPart& part,
                                                               const Environment& environment);
-    /// Opens a study to look at it and to go on with it. An error if another process writes it.
+    /// The same with a part that is built already; its settings replace those of `settings`.
+    static base::Result<std::unique_ptr<StudySession>> create(const std::filesystem::path& path,
+                                                              const study::Settings& settings,
+                                                              const ImportedPart& part,
+                                                              const Environment& environment);
+    /// Opens a study to look at it and to go on with it. An error if another process writes it. A large one
+    /// takes a while: see StudyOpening.
     static base::Result<std::unique_ptr<StudySession>> open(const std::filesystem::path& path,
                                                             const Environment& environment);
+    StudySession(OpenedStudy study, const Environment& environment);
     ~StudySession() override;
 
     [[nodiscard]] const std::filesystem::path& path() const;
@@ -57,7 +69,7 @@ class StudySession : public QObject {
     /// Of all generations that are saved, in their order.
     [[nodiscard]] const std::vector<study::GenerationSummary>& summaries() const;
     [[nodiscard]] const std::vector<study::Winner>& winners() const;
-    /// In the order of their generations.
+    /// In the order in which they were made.
     [[nodiscard]] const std::vector<study::CheckRecord>& checks() const;
     /// Oldest first.
     [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
@@ -76,8 +88,9 @@ class StudySession : public QObject {
     /// Every change of settings and part. Cleared when learning begins, because the scores belong to what was
     /// set then.
     [[nodiscard]] QUndoStack* undoStack();
-    /// Changes the settings as one command named `what`, and saves them. Changes with the same `what` that
-    /// follow one another within a second become one command. failed() if it is not allowed.
+    /// Changes the settings, without those of the part, as one command named `what`, and saves them. Changes
+    /// of the same name that follow one another within a second become one command. A changed number of
+    /// generations holds for a run that goes on. failed() if it is not allowed.
     void changeSettings(const study::Settings& settings, const QString& what);
     /// Changes the part likewise; it is built in the background first.
     void changePart(const store::StoredPart& part, const study::PartSettings& settings, const QString& what);
@@ -90,8 +103,10 @@ class StudySession : public QObject {
     [[nodiscard]] unsigned threads() const;
     void setThreads(unsigned threads);
 
-    /// Learns on from the last generation. failed() if the study has problems or something else goes on.
+    /// Learns on from the last generation, and after the last one checks the winners that are left. failed()
+    /// if the study has problems or something else goes on.
     void startLearning();
+    /// Learning, selection and validation stand still; nothing is lost.
     void pause();
     void resume();
     void stopAfterGeneration();
@@ -108,15 +123,16 @@ class StudySession : public QObject {
     void simulateTrials(const work::TrialsRequest& request);
     /// Poses of one of these trials every `interval` seconds. Ends with replayed() or failed().
     void replay(const work::TrialsRequest& request, int trial, double interval);
-    /// Drops what simulateTrials() and replay() were asked for and have not done.
+    /// Nothing is heard of what simulateTrials() and replay() were asked for so far.
     void cancelSimulations();
-    /// Times a few individuals, then tells by estimated() what the whole run will take.
+    /// Times a few individuals, then tells by estimated() how long the run will take from here. Does nothing
+    /// while something goes on or the study has problems.
     void requestEstimate();
-    /// The last estimate of the whole run in seconds; 0 if there is none for the present settings.
+    /// The last estimate [s]; 0 if there is none for the present settings.
     [[nodiscard]] double estimatedSeconds() const;
 
-    /// Copies the study to a new file and goes on with that one. An error if something goes on or the path
-    /// exists.
+    /// Copies the study to a new file and goes on with that one. An error if something goes on, or if the
+    /// path exists.
     base::Status saveAs(const std::filesystem::path& path);
     /// A new study with the same part and settings and no generations.
     [[nodiscard]] base::Result<std::unique_ptr<StudySession>> fork(const std::filesystem::path& path) const;
@@ -140,7 +156,27 @@ class StudySession : public QObject {
 
  private:
     struct State;
-    explicit StudySession(std::unique_ptr<State> state);
+    struct Run;
+
+    void pushPart(const PartVersion& version, const QString& what);
+    void applySettings(const study::Settings& settings);
+    void applyPart(const PartVersion& version);
+    void saveDesign(const std::optional<store::StoredPart>& part);
+    void savePending();
+
+    void startRun(RunState kind, const QString& what, std::function<std::optional<work::Failure>(Run&)> work);
+    void endRun(const std::optional<work::Failure>& failure);
+    std::optional<work::Failure> learn(Run& run, const study::Settings& settings,
+                                       const std::shared_ptr<const part::Part>& part, unsigned threads);
+    void goOn();
+    void setActivity(RunState activity);
+    void tellState();
+
+    struct Simulation;
+    using Simulate = std::function<base::Result<std::function<void()>>(const Simulation&)>;
+    void makeAgain(const QString& what, const work::TrialsRequest& request, unsigned threads,
+                   Simulate simulate);
+    void countSimulations(int change);
 
     std::unique_ptr<State> state_;
 };

@@ -2,8 +2,10 @@
 
 #include <QObject>
 #include <QString>
+#include <functional>
 #include <memory>
 
+#include "core/base/result.h"
 #include "core/evolution/chromosome.h"
 #include "core/study/settings.h"
 #include "core/track/track.h"
@@ -30,6 +32,8 @@ class TrackBuild : public QObject {
     void failed(const QString& message);
 
  private:
+    void start(std::function<base::Result<track::Track>()> build);
+
     NewestTask task_;
 };
 

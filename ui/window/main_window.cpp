@@ -41,7 +41,7 @@ MainWindow::MainWindow(session::Environment environment)
       docks_(new PageDocks(*this, pages_)),
       status_(new StatusLine(this)) {
     setObjectName("mainWindow");
-    setWindowIcon(QIcon(":/icons/trapwright.svg"));
+    setWindowIcon(look::programIcon());
     setAcceptDrops(true);
     setCentralWidget(frame_);
     addToolBar(Qt::LeftToolBarArea, rail_);
@@ -123,7 +123,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
 void MainWindow::connectPage(pages::Page& page) {
     connect(&page, &pages::Page::failed, this, &MainWindow::fail);
     connect(&page, &pages::Page::pageWanted, this, &MainWindow::showPage);
-    connect(&page, &pages::Page::studyWanted, this, [this](const session::ImportedPart& part) {
+    connect(&page, &pages::Page::studyWanted, this, [this](const work::LoadedPart& part) {
         whenClosable([this, part] {
             report(tr("No study can be made"), desk_.createDraft(part));
             showPage("part");

@@ -63,7 +63,7 @@ class MainWindow : public QMainWindow {
     void askForStudy();
     void askForSaveAs(const std::function<void()>& afterwards);
     void importPart(const std::filesystem::path& file, bool asNewStudy);
-    void openStudy(const std::filesystem::path& file);
+    void openStudy(const std::filesystem::path& file, bool learn = false);
     void openExample(const QString& name, bool learn);
     void offerRecovery();
     /// Calls `afterwards` once nothing would be lost any more: asks about a run and about a draft.

@@ -1,6 +1,6 @@
 #include <QActionGroup>
 #include <QApplication>
-#include <QDesktopServices>
+#include <QFile>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -128,7 +128,7 @@ void MainWindow::addHelpMenu() {
         box->setObjectName("dialog.about");
         box->setAttribute(Qt::WA_DeleteOnClose);
         box->setWindowTitle(tr("About Trapwright"));
-        box->setIconPixmap(QIcon(":/icons/trapwright.svg").pixmap(64, 64));
+        box->setIconPixmap(look::programIcon().pixmap(64, 64));
         box->setText(tr("<b>%1</b><p>Designs tracks for vibratory part feeders: a genetic algorithm grows them, "
                         "rigid-body contact simulation judges them.</p><p>Free software under the GNU General Public "
                         "License, version 3 or later. Without any warranty.</p>")

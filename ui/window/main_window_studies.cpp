@@ -74,12 +74,16 @@ void MainWindow::importPart(const std::filesystem::path& file, bool asNewStudy) 
     });
 }
 
-void MainWindow::openStudy(const std::filesystem::path& file) {
+void MainWindow::openStudy(const std::filesystem::path& file, bool learn) {
     if (desk_.session() != nullptr && desk_.session()->path() == file) return;
-    whenClosable([this, file] {
-        const base::Status opened = desk_.open(file);
-        if (!opened && !std::filesystem::exists(file)) desk_.recent().remove(file);
-        report(tr("The study cannot be opened"), opened);
+    whenClosable([this, file, learn] {
+        desk_.open(file, [this, file, learn](const base::Status& opened) {
+            if (!opened && !std::filesystem::exists(file)) desk_.recent().remove(file);
+            report(tr("The study cannot be opened"), opened);
+            if (!opened || !learn) return;
+            showPage("evolve");
+            desk_.session()->startLearning();
+        });
     });
 }
 
@@ -91,7 +95,7 @@ void MainWindow::openExample(const QString& name, bool learn) {
                     import->deleteLater();
                     fail(tr("The example cannot be opened"), message);
                 });
-        connect(import, &session::PartImport::finished, this, [this, import, learn](const session::ImportedPart& part) {
+        connect(import, &session::PartImport::finished, this, [this, import, learn](const work::LoadedPart& part) {
             import->deleteLater();
             const base::Status created = desk_.createDraft(part);
             report(tr("The example cannot be opened"), created);
@@ -99,7 +103,9 @@ void MainWindow::openExample(const QString& name, bool learn) {
             showPage("evolve");
             desk_.session()->startLearning();
         });
-        import->import({name.toStdString()});
+        work::PartRequest request;
+        request.part = name.toStdString();
+        import->start(request);
     });
 }
 
@@ -109,13 +115,7 @@ void MainWindow::offerRecovery() {
     const std::filesystem::path study = interrupted.front();
     frame_->messages().show(look::MessageKind::warning, tr("%1 was learning when the program ended").arg(look::toText(study.stem())),
                             tr("Every generation that was complete is saved. Learning can go on where it stopped."),
-                            {{tr("Go on learning"),
-                              [this, study] {
-                                  openStudy(study);
-                                  if (desk_.session() == nullptr) return;
-                                  showPage("evolve");
-                                  desk_.session()->startLearning();
-                              }},
+                            {{tr("Go on learning"), [this, study] { openStudy(study, true); }},
                              {tr("Only open it"), [this, study] { openStudy(study); }}});
 }
 
@@ -152,7 +152,7 @@ void MainWindow::whenClosable(const std::function<void()>& afterwards) {
 void MainWindow::whenSaved(const std::function<void()>& afterwards) {
     if (!desk_.isDraft()) return afterwards();
     // What was only looked at asks no question.
-    const session::StudySession& session = *desk_.session();
+    session::StudySession& session = *desk_.session();
     if (session.summaries().empty() && session.state() == RunState::idle && session.undoStack()->isClean()) {
         desk_.close(false);
         return afterwards();

@@ -1,11 +1,14 @@
 #include "ui/window/scene_frame.h"
 
+#include <QAction>
 #include <QEvent>
 #include <QStackedWidget>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
+#include "ui/look/icon.h"
 #include "ui/look/message_bar.h"
 #include "ui/look/theme.h"
 #include "ui/window/welcome.h"
@@ -15,6 +18,15 @@ namespace trapwright::window {
 namespace {
 
 constexpr int kToolIcon = 18;
+
+/// The scene's actions that have a button, by their keys; the others are in the menu alone.
+struct ToolFace {
+    Qt::Key key;
+    const char* icon;
+};
+constexpr ToolFace kTools[] = {{Qt::Key_F, "fit"},        {Qt::Key_0, "view-iso"}, {Qt::Key_2, "view-top"},
+                               {Qt::Key_1, "view-front"}, {Qt::Key_3, "view-side"}, {Qt::Key_H, "height"},
+                               {Qt::Key_E, "edges"},      {Qt::Key_C, "follow"}};
 
 }  // namespace
 
@@ -72,12 +84,19 @@ QWidget* SceneFrame::makeTools() {
     bar->setIconSize({kToolIcon, kToolIcon});
     bar->setToolButtonStyle(Qt::ToolButtonIconOnly);
     bar->setStyleSheet("#sceneTools { border: none; border-bottom: 1px solid palette(mid); padding: 2px 6px; }");
-    for (QAction* action : scene_->viewActions()) {
-        bar->addAction(action);
-        if (auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action))) {
-            button->setFocusPolicy(Qt::TabFocus);
-            button->setAccessibleName(action->text().remove('&'));
-        }
+    const QList<QAction*> actions = scene_->viewActions();
+    for (const ToolFace& face : kTools) {
+        const auto action = std::find_if(actions.begin(), actions.end(), [&](const QAction* one) {
+            return one->shortcut() == QKeySequence(face.key);
+        });
+        if (action == actions.end()) continue;
+        (*action)->setIcon(look::icon(face.icon));
+        if ((*action)->isCheckable() && bar->findChild<QToolButton*>("switch") == nullptr) bar->addSeparator();
+        bar->addAction(*action);
+        auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(*action));
+        if ((*action)->isCheckable()) button->setObjectName("switch");
+        button->setFocusPolicy(Qt::TabFocus);
+        button->setAccessibleName((*action)->text());
     }
     return bar;
 }

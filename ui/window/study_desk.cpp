@@ -21,7 +21,7 @@ bool isInDrafts(const std::filesystem::path& file) {
 }
 
 /// What a new study of this part begins with: Table 1, of the column that is the part's own if it has one.
-base::Result<study::Settings> firstSettings(const session::ImportedPart& part) {
+base::Result<study::Settings> firstSettings(const work::LoadedPart& part) {
     auto settings = study::presetSettings(part.settings.file == "cone" ? "cone" : "cuboid");
     if (settings) settings->part = part.settings;
     return settings;
@@ -62,7 +62,7 @@ QStringList StudyDesk::forgottenDrafts() const {
     return drafts;
 }
 
-base::Status StudyDesk::createDraft(const session::ImportedPart& part) {
+base::Status StudyDesk::createDraft(const work::LoadedPart& part) {
     auto settings = firstSettings(part);
     if (!settings) return settings.error();
     const auto path = newDraftPath(part.part->name);
@@ -82,14 +82,14 @@ base::Status StudyDesk::forkToDraft() {
     return base::success();
 }
 
-base::Status StudyDesk::open(const std::filesystem::path& file) {
+void StudyDesk::open(const std::filesystem::path& file, const std::function<void(const base::Status&)>& opened) {
     const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    if (session_ && session_->path() == path) return base::success();
-    auto opened = session::StudySession::open(path, environment_);
-    if (!opened) return opened.error();
-    adopt(std::move(*opened));
-    if (!isDraft()) recent_.add(path);
-    return base::success();
+    opening_.start(path, environment_, [this, path, opened](base::Result<std::unique_ptr<session::StudySession>> study) {
+        if (!study) return opened(study.error());
+        adopt(std::move(*study));
+        if (!isDraft()) recent_.add(path);
+        opened(base::success());
+    });
 }
 
 void StudyDesk::close(bool keepDraft) {

@@ -3,8 +3,10 @@
 #include <QObject>
 #include <QString>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
+#include "ui/session/study_opening.h"
 #include "ui/session/study_session.h"
 #include "ui/window/recent_files.h"
 
@@ -27,10 +29,12 @@ class StudyDesk : public QObject {
     /// Drafts that were left behind when the program ended badly.
     [[nodiscard]] QStringList forgottenDrafts() const;
 
-    // Each closes what is open without a question: ask before.
-    base::Status createDraft(const session::ImportedPart& part);
+    // Each of these closes what is open without a question: ask before.
+
+    /// Opens it in the background, then tells whether that went well.
+    void open(const std::filesystem::path& file, const std::function<void(const base::Status&)>& opened);
+    base::Status createDraft(const work::LoadedPart& part);
     base::Status forkToDraft();
-    base::Status open(const std::filesystem::path& file);
     /// Deletes a draft's file if `keepDraft` is false.
     void close(bool keepDraft);
 
@@ -46,6 +50,7 @@ class StudyDesk : public QObject {
     base::Result<std::filesystem::path> newDraftPath(const std::string& part) const;
 
     session::Environment environment_;
+    session::StudyOpening opening_;
     RecentFiles recent_;
     std::unique_ptr<session::StudySession> session_;
 };

@@ -1,5 +1,6 @@
 #include "ui/window/welcome.h"
 
+#include <QEvent>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -14,7 +15,7 @@ namespace trapwright::window {
 namespace {
 
 constexpr int kChoiceWidth = 216;
-constexpr int kChoiceHeight = 184;
+constexpr int kChoiceHeight = 160;
 constexpr int kChoiceIcon = 48;
 constexpr int kRecentShown = 5;
 
@@ -86,7 +87,7 @@ Welcome::Welcome(QWidget* parent)
     QPushButton* import = addChoice("import", "import", tr("Import a part"), tr("STL, STEP, 3MF, OBJ, PLY, glTF or IGES"));
     QPushButton* open = addChoice("open", "open", tr("Open a study"), tr("Go on with learning, look at tracks, export"));
     QPushButton* example =
-        addChoice("example", "example", tr("Watch an example"), tr("A 4 x 8 x 12 mm cuboid; learns at once"));
+        addChoice("example", "example", tr("Watch an example"), tr("A 4 × 8 × 12 mm cuboid; learns at once"));
     connect(import, &QPushButton::clicked, this, &Welcome::importWanted);
     connect(open, &QPushButton::clicked, this, &Welcome::openWanted);
     connect(example, &QPushButton::clicked, this, &Welcome::exampleWanted);

@@ -1,0 +1,84 @@
+// Takes a picture of every page of a study, of the welcome and of the dialogs, in the window's own process:
+// screenshots OUT STUDY WIDTHxHEIGHT THEME NAME. packaging/screenshots.sh calls it for each size and theme.
+
+#include <QAction>
+#include <QApplication>
+#include <QPixmap>
+#include <QScreen>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cstdio>
+
+#include "app/trapwright/engines.h"
+#include "ui/pages/page.h"
+#include "ui/scene/scene_view.h"
+#include "ui/window/main_window.h"
+
+namespace {
+
+using namespace trapwright;
+
+constexpr int kSettle = 1500;  // [ms] for what a page loads in the background
+
+base::Result<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name,
+                                                              const trial::EngineOptions& options) {
+    auto engine = app::makeEngine(name, options);
+    if (!engine) return base::Error{engine.failure().message};
+    return *engine;
+}
+
+class Camera {
+ public:
+    Camera(QString folder, QString name) : folder_(std::move(folder)), name_(std::move(name)) {}
+
+    void take(QWidget& window, const QString& subject) {
+        QTest::qWait(kSettle);
+        const QString file = QString("%1/%2-%3.png").arg(folder_, subject, name_);
+        // From the screen: what is drawn over the 3D scene and what is open above the window belongs to it.
+        const QPixmap picture = window.screen()->grabWindow(window.winId());
+        failed_ = !picture.save(file) || failed_;
+        std::puts(qPrintable(file));
+    }
+    [[nodiscard]] bool failed() const { return failed_; }
+
+ private:
+    QString folder_;
+    QString name_;
+    bool failed_ = false;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    QTemporaryDir home;
+    QSettings::setDefaultFormat(QSettings::IniFormat);
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, home.path());
+    qputenv("XDG_DATA_HOME", home.path().toLocal8Bit());
+    scene::SceneView::prepareApplication();
+    QApplication application(argc, argv);
+    QCoreApplication::setOrganizationName("Trapwright");
+    QCoreApplication::setApplicationName("screenshots");
+    const QStringList arguments = QCoreApplication::arguments();
+    if (arguments.size() != 6) {
+        std::fputs("screenshots OUT STUDY WIDTHxHEIGHT THEME NAME\n", stderr);
+        return 2;
+    }
+    const QStringList size = arguments[3].split('x');
+    QSettings().setValue("theme", arguments[4]);
+    Camera camera(arguments[1], arguments[5]);
+
+    window::MainWindow window({makeEngine, "trapwright", {}});
+    window.resize(size.at(0).toInt(), size.at(1).toInt());
+    window.show();
+    if (!QTest::qWaitForWindowExposed(&window)) return 1;
+    camera.take(window, "welcome");
+
+    window.openFile(arguments[2].toStdString());
+    if (!QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, 30000)) return 1;
+    for (const pages::Page* page : window.findChildren<pages::Page*>()) {
+        window.showPage(page->face().name);
+        camera.take(window, page->face().name);
+    }
+    return camera.failed() ? 1 : 0;
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/store/study_file.h"
+#include "core/study/records.h"
+#include "core/work/study_design.h"
+
+namespace trapwright::session {
+
+/// All that a session shows of a study without reading it again.
+struct OpenedStudy {
+    store::StudyFile file;    // open for writing
+    store::StudyFile reader;  // the same study
+    work::StudyDesign design;
+    std::vector<study::GenerationSummary> summaries;
+    std::vector<study::Winner> winners;
+    std::vector<study::CheckRecord> checks;
+    std::vector<study::SelectionRecord> selections;
+    std::vector<study::ValidationRecord> validations;
+};
+
+/// Reads a study that is open for writing. May be called on any thread.
+base::Result<OpenedStudy> readStudy(store::StudyFile file);
+
+/// The same of a study that was just made of this design, whose part need not be built once more.
+base::Result<OpenedStudy> readNewStudy(store::StudyFile file, work::StudyDesign design);
+
+}  // namespace trapwright::session

@@ -1,0 +1,22 @@
+#include "ui/session/study_curves.h"
+
+#include "core/trial/fitness.h"
+#include "core/work/study_design.h"
+
+namespace trapwright::session {
+
+base::Result<StoredCurves> loadCurves(const std::filesystem::path& study) {
+    const auto file = store::StudyFile::openReadOnly(study);
+    if (!file) return file.error();
+    const auto design = work::loadDesign(*file);
+    if (!design) return design.error();
+    auto summaries = file->loadSummaries();
+    if (!summaries) return summaries.error();
+    auto checks = file->loadChecks();
+    if (!checks) return checks.error();
+    return StoredCurves{study.stem().string(), std::move(*summaries), std::move(*checks),
+                        trial::calcBestOrientationScore(design->part->symmetry,
+                                                        design->settings.evolution.orientationDistance)};
+}
+
+}  // namespace trapwright::session

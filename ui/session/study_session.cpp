@@ -1,0 +1,223 @@
+#include "ui/session/study_session.h"
+
+#include <future>
+
+#include "core/base/parallel.h"
+#include "core/base/thread_priority.h"
+#include "core/study/settings.h"
+#include "core/trial/fitness.h"
+#include "ui/session/study_session_state.h"
+
+namespace trapwright::session {
+
+namespace {
+
+constexpr int kTick = 100;  // between two progressed() [ms]
+
+base::Result<std::unique_ptr<StudySession>> makeSession(base::Result<OpenedStudy> study,
+                                                        const Environment& environment) {
+    if (!study) return study.error();
+    return std::make_unique<StudySession>(std::move(*study), environment);
+}
+
+}  // namespace
+
+StudySession::State::State(OpenedStudy study, const Environment& environmentGiven)
+    : environment(environmentGiven),
+      path(study.file.path()),
+      settings(std::move(study.design.settings)),
+      part{std::move(study.design.stored), settings.part, std::move(study.design.part)},
+      summaries(std::move(study.summaries)),
+      winners(std::move(study.winners)),
+      checks(std::move(study.checks)),
+      selections(std::move(study.selections)),
+      validations(std::move(study.validations)),
+      reader(std::move(study.reader)),
+      writer(std::move(study.file)),
+      work(std::make_unique<WorkThread>(base::lowerPriority)),
+      simulating(std::make_unique<WorkThread>()) {
+    findProblems();
+}
+
+void StudySession::State::findProblems() {
+    problems = study::findProblems(settings);
+    for (std::string& problem : study::findPartProblems(settings, *part.part))
+        problems.push_back(std::move(problem));
+    recommendations = study::findRecommendations(settings);
+}
+
+base::Error StudySession::State::cannotRead() const {
+    return {"The study " + path.string() + " can no longer be read. Close it and open it again."};
+}
+
+base::Result<study::StudyInputs> StudySession::State::makeInputs(const Environment& environment,
+                                                                 const study::Settings& settings,
+                                                                 std::shared_ptr<const part::Part> part,
+                                                                 work::EngineUse use, unsigned threads) {
+    const unsigned count = threads == 0 ? base::availableThreads() : threads;
+    auto engine = environment.makeEngine(work::engineFor(settings.simulation.engine, use), {count, 0.0});
+    if (!engine) return engine.error();
+    return study::StudyInputs{settings, std::move(part), std::move(*engine), count};
+}
+
+base::Result<std::unique_ptr<StudySession>> StudySession::create(const std::filesystem::path& path,
+                                                                 const study::Settings& settings,
+                                                                 const store::StoredPart& part,
+                                                                 const Environment& environment) {
+    // Before the file is made: nothing must be left behind by a part that cannot be built.
+    auto built = part::buildPart(part.mesh, part.options);
+    if (!built) return base::Error{part.options.name + ": " + built.error().message};
+    auto file = store::StudyFile::create(path, settings, part, environment.program);
+    if (!file) return file.error();
+    return makeSession(
+        readNewStudy(std::move(*file),
+                     {settings, part, std::make_shared<const part::Part>(std::move(built->part))}),
+        environment);
+}
+
+base::Result<std::unique_ptr<StudySession>> StudySession::create(const std::filesystem::path& path,
+                                                                 const study::Settings& settings,
+                                                                 const ImportedPart& part,
+                                                                 const Environment& environment) {
+    study::Settings own = settings;
+    own.part = part.settings;
+    auto file = store::StudyFile::create(path, own, part.stored, environment.program);
+    if (!file) return file.error();
+    return makeSession(readNewStudy(std::move(*file), {own, part.stored, part.part}), environment);
+}
+
+base::Result<std::unique_ptr<StudySession>> StudySession::open(const std::filesystem::path& path,
+                                                               const Environment& environment) {
+    auto file = store::StudyFile::open(path, environment.program);
+    if (!file) return file.error();
+    return makeSession(readStudy(std::move(*file)), environment);
+}
+
+StudySession::StudySession(OpenedStudy study, const Environment& environment)
+    : state_(std::make_unique<State>(std::move(study), environment)) {
+    state_->tick.setInterval(kTick);
+    connect(&state_->tick, &QTimer::timeout, this, [this] { emit progressed(progress()); });
+}
+
+StudySession::~StudySession() {
+    if (state_->run) state_->run->cancel();
+    state_->simulated.cancel();
+    state_->estimate.cancel();
+    // The reader goes first: while somebody reads, the writer cannot put the study into one file.
+    state_->reader.reset();
+    state_->simulating.reset();
+    state_->work.reset();
+}
+
+const std::filesystem::path& StudySession::path() const {
+    return state_->path;
+}
+
+const study::Settings& StudySession::settings() const {
+    return state_->settings;
+}
+
+std::shared_ptr<const part::Part> StudySession::part() const {
+    return state_->part.part;
+}
+
+const store::StoredPart& StudySession::storedPart() const {
+    return state_->part.stored;
+}
+
+double StudySession::bestOrientationScore() const {
+    return trial::calcBestOrientationScore(state_->part.part->symmetry,
+                                           state_->settings.evolution.orientationDistance);
+}
+
+const std::vector<study::GenerationSummary>& StudySession::summaries() const {
+    return state_->summaries;
+}
+
+const std::vector<study::Winner>& StudySession::winners() const {
+    return state_->winners;
+}
+
+const std::vector<study::CheckRecord>& StudySession::checks() const {
+    return state_->checks;
+}
+
+const std::vector<study::SelectionRecord>& StudySession::selections() const {
+    return state_->selections;
+}
+
+const std::vector<study::ValidationRecord>& StudySession::validations() const {
+    return state_->validations;
+}
+
+base::Result<study::GenerationRecord> StudySession::loadGeneration(int index) const {
+    if (!state_->reader) return state_->cannotRead();
+    return state_->reader->loadGeneration(index);
+}
+
+base::Result<study::Winner> StudySession::loadWinner(int generation, int individual) const {
+    if (!state_->reader) return state_->cannotRead();
+    auto record = state_->reader->loadIndividual(generation, individual);
+    if (!record) return record.error();
+    return study::Winner{generation, individual, std::move(*record)};
+}
+
+const std::vector<std::string>& StudySession::problems() const {
+    return state_->problems;
+}
+
+const std::vector<std::string>& StudySession::recommendations() const {
+    return state_->recommendations;
+}
+
+bool StudySession::locked() const {
+    return !state_->summaries.empty() || state_->run != nullptr;
+}
+
+QUndoStack* StudySession::undoStack() {
+    return &state_->undo;
+}
+
+unsigned StudySession::threads() const {
+    return state_->threads;
+}
+
+void StudySession::setThreads(unsigned threads) {
+    state_->threads = threads;
+    state_->estimatedSeconds = 0.0;
+}
+
+base::Status StudySession::saveAs(const std::filesystem::path& path) {
+    if (state_->run) {
+        return base::Error{"The study " + state_->path.string() +
+                           " is at work. Stop that, and save it then under another name."};
+    }
+    // The thread that writes is idle, so this takes no longer than the copying.
+    state_->reader.reset();
+    std::promise<base::Status> moved;
+    state_->work->post([&] {
+        auto status = state_->writer.savePending();
+        if (status) status = state_->writer.moveTo(path, state_->environment.program);
+        moved.set_value(status);
+    });
+    const base::Status status = moved.get_future().get();
+    if (status) state_->path = path;
+    auto reader = store::StudyFile::openReadOnly(state_->path);
+    if (!reader) return reader.error();
+    state_->reader.emplace(std::move(*reader));
+    if (!status) return status;
+    state_->undo.setClean();
+    emit pathChanged();
+    return base::success();
+}
+
+base::Result<std::unique_ptr<StudySession>> StudySession::fork(const std::filesystem::path& path) const {
+    auto file =
+        store::StudyFile::create(path, state_->settings, state_->part.stored, state_->environment.program);
+    if (!file) return file.error();
+    return makeSession(
+        readNewStudy(std::move(*file), {state_->settings, state_->part.stored, state_->part.part}),
+        state_->environment);
+}
+
+}  // namespace trapwright::session

@@ -1,0 +1,89 @@
+#include "ui/session/study_session_state.h"
+
+namespace trapwright::session {
+
+namespace {
+
+QString lockedMessage() {
+    return StudySession::tr(
+        "The generations of this study were made with its part and settings. Only the number of generations "
+        "and what concerns selection and validation can change now; for all else begin a new study with "
+        "these settings.");
+}
+
+}  // namespace
+
+void StudySession::changeSettings(const study::Settings& settings, const QString& what) {
+    study::Settings next = settings;
+    next.part = state_->settings.part;
+    if (next == state_->settings) return;
+    if (locked() && !study::keepsScores(state_->settings, next)) {
+        emit failed(what, lockedMessage());
+        return;
+    }
+    state_->undo.push(new SettingsCommand(what, state_->settings, next,
+                                          [this](const study::Settings& wanted) { applySettings(wanted); }));
+}
+
+void StudySession::changePart(const store::StoredPart& part, const study::PartSettings& settings,
+                              const QString& what) {
+    state_->partBuilding.start([this, part, settings, what]() -> NewestTask::Deliver {
+        auto built = part::buildPart(part.mesh, part.options);
+        if (!built) {
+            return [this, what, message = built.error().message] {
+                emit failed(what, QString::fromStdString(message));
+            };
+        }
+        const auto shared = std::make_shared<const part::Part>(std::move(built->part));
+        return [this, what, version = PartVersion{part, settings, shared}] { pushPart(version, what); };
+    });
+}
+
+void StudySession::changePart(const ImportedPart& part, const QString& what) {
+    pushPart({part.stored, part.settings, part.part}, what);
+}
+
+void StudySession::pushPart(const PartVersion& version, const QString& what) {
+    if (locked()) {
+        emit failed(what, lockedMessage());
+        return;
+    }
+    state_->undo.push(new PartCommand(what, state_->part, version,
+                                      [this](const PartVersion& wanted) { applyPart(wanted); }));
+}
+
+void StudySession::applySettings(const study::Settings& settings) {
+    // The part has commands of its own.
+    const study::PartSettings part = state_->settings.part;
+    state_->settings = settings;
+    state_->settings.part = part;
+    if (state_->run) state_->run->learning.setGenerations(settings.evolution.generations);
+    saveDesign(std::nullopt);
+    emit settingsChanged();
+}
+
+void StudySession::applyPart(const PartVersion& version) {
+    state_->part = version;
+    state_->settings.part = version.settings;
+    saveDesign(version.stored);
+    emit partChanged();
+    emit settingsChanged();
+}
+
+void StudySession::saveDesign(const std::optional<store::StoredPart>& part) {
+    state_->findProblems();
+    state_->estimatedSeconds = 0.0;
+    state_->estimate.cancel();
+    state_->writer.setPending(state_->settings, part);
+    state_->work->post([this] { savePending(); });
+}
+
+void StudySession::savePending() {
+    if (const auto saved = state_->writer.savePending(); !saved) {
+        tell(this, [this, message = QString::fromStdString(saved.error().message)] {
+            emit failed(tr("The settings could not be saved"), message);
+        });
+    }
+}
+
+}  // namespace trapwright::session

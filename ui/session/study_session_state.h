@@ -1,0 +1,106 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QTimer>
+#include <QUndoStack>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/run_control.h"
+#include "core/study/evaluator.h"
+#include "core/study/learning_control.h"
+#include "core/work/study_engines.h"
+#include "ui/session/design_commands.h"
+#include "ui/session/opened_study.h"
+#include "ui/session/study_session.h"
+#include "ui/session/study_writer.h"
+#include "ui/session/work_thread.h"
+
+namespace trapwright::session {
+
+// Inside ui/session only.
+
+/// Learning, selection or validation that goes on. Values without a word belong to the GUI thread.
+struct StudySession::Run {
+    RunState kind = RunState::learning;
+    QString what;                     // it is called in messages
+    study::LearningControl learning;  // any thread
+    base::RunControl trials;          // any thread; of all but the generations
+    std::optional<study::GenerationPlan> plan;
+    std::int64_t total = 0;  // of `trials`, once it is known
+    QElapsedTimer clock;
+    qint64 before = 0;  // the last pause [ms]
+    bool paused = false;
+
+    [[nodiscard]] double seconds() const {
+        return 1e-3 * static_cast<double>(before + (paused ? 0 : clock.elapsed()));
+    }
+    void cancel() {
+        learning.run.cancel();
+        learning.checks.cancel();
+        trials.cancel();
+    }
+};
+
+/// Trials that are being made again.
+struct StudySession::Simulation {
+    const study::Settings& settings;
+    const part::Part& part;
+    const work::StoredTrials& stored;
+    const trial::TrialBatch& batch;
+    const trial::Engine& engine;
+    const base::RunControl& control;
+};
+
+struct StudySession::State {
+    State(OpenedStudy study, const Environment& environmentGiven);
+
+    Environment environment;
+    std::filesystem::path path;
+    study::Settings settings;
+    PartVersion part;
+    std::vector<study::GenerationSummary> summaries;
+    std::vector<study::Winner> winners;
+    std::vector<study::CheckRecord> checks;
+    std::vector<study::SelectionRecord> selections;
+    std::vector<study::ValidationRecord> validations;
+    std::vector<std::string> problems;
+    std::vector<std::string> recommendations;
+    std::optional<store::StudyFile> reader;
+    QUndoStack undo;
+    unsigned threads = 0;
+
+    RunState activity = RunState::idle;  // of the thread that writes
+    RunState told = RunState::idle;      // by stateChanged()
+    std::shared_ptr<Run> run;            // null while that thread is idle
+    QTimer tick;
+    int simulations = 0;         // that are not done
+    base::RunControl simulated;  // of those that are wanted
+    base::RunControl estimate;   // of the last one
+    double estimatedSeconds = 0.0;
+
+    StudyWriter writer;
+    NewestTask partBuilding;
+    std::unique_ptr<WorkThread> work;        // the thread that writes
+    std::unique_ptr<WorkThread> simulating;  // the one that does not
+
+    void findProblems();
+    /// Where the reader could not be opened again.
+    [[nodiscard]] base::Error cannotRead() const;
+    /// Called on any thread; throws nothing.
+    [[nodiscard]] static base::Result<study::StudyInputs> makeInputs(const Environment& environment,
+                                                                     const study::Settings& settings,
+                                                                     std::shared_ptr<const part::Part> part,
+                                                                     work::EngineUse use, unsigned threads);
+};
+
+/// Has the GUI thread call `act`, unless the session is gone by then.
+template <class Act>
+void tell(StudySession* session, Act act) {
+    QMetaObject::invokeMethod(session, std::move(act), Qt::QueuedConnection);
+}
+
+}  // namespace trapwright::session

@@ -1,0 +1,31 @@
+#include "ui/session/study_writer.h"
+
+namespace trapwright::session {
+
+void StudyWriter::setPending(const study::Settings& settings, const std::optional<store::StoredPart>& part) {
+    const std::lock_guard lock(mutex_);
+    settings_ = settings;
+    if (part) part_ = part;
+}
+
+base::Status StudyWriter::savePending() {
+    std::optional<study::Settings> settings;
+    std::optional<store::StoredPart> part;
+    {
+        const std::lock_guard lock(mutex_);
+        settings.swap(settings_);
+        part.swap(part_);
+    }
+    if (!settings) return base::success();
+    return part ? file_.changePart(*part, *settings) : file_.changeSettings(*settings);
+}
+
+base::Status StudyWriter::moveTo(const std::filesystem::path& path, const std::string& program) {
+    if (auto copied = file_.copyTo(path); !copied) return copied;
+    auto opened = store::StudyFile::open(path, program);
+    if (!opened) return opened.error();
+    file_ = std::move(*opened);
+    return base::success();
+}
+
+}  // namespace trapwright::session
