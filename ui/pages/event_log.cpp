@@ -45,7 +45,8 @@ EventLog::EventLog(QWidget* parent)
     list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     list_->header()->setStretchLastSection(true);
     list_->header()->setSectionResizeMode(Time, QHeaderView::ResizeToContents);
-    auto* empty = new QLabel(tr("What happens to the study is listed here: generations, checks, stops, failures."), this);
+    auto* empty = new QLabel(
+        tr("What happens to the study is listed here: generations, checks, stops, failures."), this);
     empty->setAlignment(Qt::AlignCenter);
     empty->setWordWrap(true);
     empty->setForegroundRole(QPalette::PlaceholderText);
@@ -78,8 +79,10 @@ void EventLog::setSession(StudySession* session) {
     connect(session_, &StudySession::stateChanged, this, &EventLog::tellState);
     connect(session_, &StudySession::generationSaved, this, &EventLog::tellGeneration);
     connect(session_, &StudySession::checkSaved, this, &EventLog::tellCheck);
-    connect(session_, &StudySession::selectionSaved, this, [this] { add(Kind::good, tr("Selection saved")); });
-    connect(session_, &StudySession::validationSaved, this, [this] { add(Kind::good, tr("Validation saved")); });
+    connect(session_, &StudySession::selectionSaved, this,
+            [this] { add(Kind::good, tr("Selection saved")); });
+    connect(session_, &StudySession::validationSaved, this,
+            [this] { add(Kind::good, tr("Validation saved")); });
     connect(session_, &StudySession::failed, this,
             [this](const QString& what, const QString& message) { add(Kind::error, what + ". " + message); });
     const auto known = session_->summaries().size();
@@ -126,12 +129,23 @@ void EventLog::tellState(RunState state) {
             add(Kind::info, before == RunState::paused ? tr("Learning goes on")
                                                        : tr("Learning began at generation %1").arg(next));
             break;
-        case RunState::paused: add(Kind::warning, tr("Paused")); break;
-        case RunState::stoppingAfterGeneration: add(Kind::info, tr("Will stop after this generation")); break;
-        case RunState::stopping: add(Kind::info, tr("Stopping at once")); break;
-        case RunState::selecting: add(Kind::info, tr("The best winners are simulated again")); break;
-        case RunState::validating: add(Kind::info, tr("Validation began")); break;
-        case RunState::simulating: break;
+        case RunState::paused:
+            add(Kind::warning, tr("Paused"));
+            break;
+        case RunState::stoppingAfterGeneration:
+            add(Kind::info, tr("Will stop after this generation"));
+            break;
+        case RunState::stopping:
+            add(Kind::info, tr("Stopping at once"));
+            break;
+        case RunState::selecting:
+            add(Kind::info, tr("The best winners are simulated again"));
+            break;
+        case RunState::validating:
+            add(Kind::info, tr("Validation began"));
+            break;
+        case RunState::simulating:
+            break;
         case RunState::idle:
             if (before == RunState::simulating) break;
             add(Kind::info, tr("Ended with %n generation(s) saved", nullptr, next.toInt()));
@@ -142,17 +156,21 @@ void EventLog::tellState(RunState state) {
 void EventLog::tellGeneration(int generation) {
     const study::GenerationSummary& summary = session_->summaries().back();
     const trial::Fitness& best = summary.statistics.best;
-    add(Kind::good, tr("Generation %1 saved: best F %2, F_C %3, F_D %4, F_O %5, in %6")
-                        .arg(generation)
-                        .arg(QLocale().toString(best.total(), 'f', 3), QLocale().toString(best.collision, 'f', 0),
-                             QLocale().toString(best.distance, 'f', 3), QLocale().toString(best.orientation, 'f', 3),
-                             look::durationText(summary.seconds)));
+    add(Kind::good,
+        tr("Generation %1 saved: best F %2, F_C %3, F_D %4, F_O %5, in %6")
+            .arg(generation)
+            .arg(QLocale().toString(best.total(), 'f', 3), QLocale().toString(best.collision, 'f', 0),
+                 QLocale().toString(best.distance, 'f', 3), QLocale().toString(best.orientation, 'f', 3),
+                 look::durationText(summary.seconds)));
 }
 
 void EventLog::tellCheck(int generation) {
     const study::CheckRecord& check = session_->checks().back();
     const auto share = [&](const study::EngineScore& score) {
-        return tr("%1 %2 of %3").arg(QString::fromStdString(score.engine)).arg(score.oriented).arg(check.trials);
+        return tr("%1 %2 of %3")
+            .arg(QString::fromStdString(score.engine))
+            .arg(score.oriented)
+            .arg(check.trials);
     };
     add(Kind::good, tr("Winner of generation %1 checked: %2, %3 parts as wanted")
                         .arg(generation)

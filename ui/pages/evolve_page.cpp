@@ -40,11 +40,13 @@ constexpr auto kThreadsSetting = "threads";
 }  // namespace
 
 EvolvePage::EvolvePage(RunActions& run, QWidget* parent)
-    : Page({"evolve", tr("Evolve"), "evolve", tr("Tracks are learned; watch, stop, look at what came out")}, parent),
+    : Page({"evolve", tr("Evolve"), "evolve", tr("Tracks are learned; watch, stop, look at what came out")},
+           parent),
       estimateDelay_(new QTimer(this)),
       followAction_(new QAction(look::icon("to-end"), tr("Follow the best"), this)),
       card_(new RunCard(run, this)),
-      form_(new SettingsForm({{"evolve.run", tr("Run"), {"evolution.generations", "simulation.engine"}}}, {}, this)),
+      form_(new SettingsForm({{"evolve.run", tr("Run"), {"evolution.generations", "simulation.engine"}}}, {},
+                             this)),
       individualGroup_(new look::FoldingGroup("evolve.individual", tr("In the scene"), false, this)),
       individual_(new IndividualCard(individualGroup_)),
       charts_(new LearningCharts(this)),
@@ -71,11 +73,12 @@ EvolvePage::EvolvePage(RunActions& run, QWidget* parent)
     estimateDelay_->setSingleShot(true);
     estimateDelay_->setInterval(kEstimateDelay);
     connect(estimateDelay_, &QTimer::timeout, this, &EvolvePage::askForEstimate);
-    connect(&build_, &session::TrackBuild::built, this, [this](const std::shared_ptr<const track::Track>& track) {
-        track_ = track;
-        individual_->showTrack(*track);
-        showScene();
-    });
+    connect(&build_, &session::TrackBuild::built, this,
+            [this](const std::shared_ptr<const track::Track>& track) {
+                track_ = track;
+                individual_->showTrack(*track);
+                showScene();
+            });
     connect(&build_, &session::TrackBuild::failed, this,
             [this](const QString& message) { emit failed(tr("The track cannot be shown"), message); });
     addActions();
@@ -90,7 +93,8 @@ QWidget* EvolvePage::makeThreads(QWidget* parent) {
     const int processors = std::max(QThread::idealThreadCount(), 1);
     threads_->setRange(0, processors);
     threads_->setSpecialValueText(tr("all %1").arg(processors));
-    threads_->setToolTip(tr("How many processors learning keeps busy, from the next start on. The results are the same."));
+    threads_->setToolTip(
+        tr("How many processors learning keeps busy, from the next start on. The results are the same."));
     threads_->setAccessibleName(tr("Threads"));
     threads_->setMinimumWidth(128);
     threads_->setValue(QSettings().value(kThreadsSetting, 0).toInt());
@@ -147,10 +151,10 @@ void EvolvePage::addActions() {
         addAction(action);
     };
     add(followAction_, "evolve.follow", Qt::Key_Escape, &EvolvePage::follow);
-    add(new QAction(tr("Winner of the generation before"), this), "evolve.previous", QKeySequence(Qt::ALT | Qt::Key_Left),
-        [this] { stepWinner(-1); });
-    add(new QAction(tr("Winner of the next generation"), this), "evolve.next", QKeySequence(Qt::ALT | Qt::Key_Right),
-        [this] { stepWinner(1); });
+    add(new QAction(tr("Winner of the generation before"), this), "evolve.previous",
+        QKeySequence(Qt::ALT | Qt::Key_Left), [this] { stepWinner(-1); });
+    add(new QAction(tr("Winner of the next generation"), this), "evolve.next",
+        QKeySequence(Qt::ALT | Qt::Key_Right), [this] { stepWinner(1); });
     add(new QAction(look::icon("add"), tr("Compare with another study..."), this), "evolve.compareWith",
         QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_K), &EvolvePage::askForComparison);
 }
@@ -226,7 +230,8 @@ void EvolvePage::refresh() {
     if (session_) {
         const bool locked = session_->locked();
         form_->show(session_->settings());
-        form_->setLocked([locked](const std::string& key) { return !locked || key == "evolution.generations"; });
+        form_->setLocked(
+            [locked](const std::string& key) { return !locked || key == "evolution.generations"; });
         form_->setProblems(session_->problems(), session_->recommendations());
         summary_->show(session_->settings(), locked);
         if (session_->state() == RunState::idle) estimateDelay_->start();
@@ -242,7 +247,8 @@ void EvolvePage::askForEstimate() {
 
 void EvolvePage::askForComparison() {
     if (!session_) return;
-    look::askForFile(this, {"study", tr("Compare with a study"), tr("Compare"), tr("Studies (*.trap)"), {}, {}},
+    look::askForFile(this,
+                     {"study", tr("Compare with a study"), tr("Compare"), tr("Studies (*.trap)"), {}, {}},
                      [this](const std::filesystem::path& study) { charts_->compareWith(study); });
 }
 
@@ -266,7 +272,8 @@ void EvolvePage::pick(const study::Winner& individual) {
 void EvolvePage::pickWinner(int generation) {
     if (!session_) return;
     const std::vector<study::Winner>& winners = session_->winners();
-    if (generation >= 0 && generation < static_cast<int>(winners.size())) pick(winners[static_cast<std::size_t>(generation)]);
+    if (generation >= 0 && generation < static_cast<int>(winners.size()))
+        pick(winners[static_cast<std::size_t>(generation)]);
 }
 
 void EvolvePage::stepWinner(int step) {
@@ -311,7 +318,8 @@ void EvolvePage::buildTrack(const study::Winner* individual) {
 QString EvolvePage::captionOf(const study::Winner& individual) const {
     const auto& winners = session_->winners();
     const auto generation = static_cast<std::size_t>(individual.generation);
-    const bool winner = generation < winners.size() && winners[generation].individual == individual.individual;
+    const bool winner =
+        generation < winners.size() && winners[generation].individual == individual.individual;
     return winner ? tr("Generation %1, winner").arg(individual.generation)
                   : tr("Generation %1, individual %2").arg(individual.generation).arg(individual.individual);
 }

@@ -32,8 +32,8 @@ class RunActions;
 class RunCard;
 class SettingsForm;
 
-/// Step 3: learning is started, watched and stopped; any individual that was learned can be looked at. The scene
-/// follows the newest winner until another one is picked.
+/// Step 3: learning is started, watched and stopped; any individual that was learned can be looked at. The
+/// scene follows the newest winner until another one is picked.
 class EvolvePage : public Page {
     Q_OBJECT
  public:
@@ -75,7 +75,7 @@ class EvolvePage : public Page {
     [[nodiscard]] QString captionOf(const study::Winner& individual) const;
 
     QPointer<session::StudySession> session_;
-    scene::SceneView* scene_ = nullptr;   // while the page is shown
+    scene::SceneView* scene_ = nullptr;    // while the page is shown
     std::optional<study::Winner> picked_;  // none: the newest winner is followed
     session::TrackBuild build_;
     std::optional<Design> design_;  // what track_ is built from, or being built from

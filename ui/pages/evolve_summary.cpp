@@ -18,34 +18,35 @@ QString millimetres(double metres) {
     return look::numberText(metres / kMillimetre);
 }
 
-struct Text {
-    Q_DECLARE_TR_FUNCTIONS(EvolveSummary)
-};
-
 Facts factsOf(const study::Settings& settings) {
     const study::TrackSettings& track = settings.track;
     const study::EvolutionSettings& evolution = settings.evolution;
     const trial::Drive& drive = settings.simulation.drive;
     const trial::ContactParameters& contact = settings.simulation.contact;
-    const QString feeder = track.shape.type == track::FeederType::bowl
-                               ? Text::tr("bowl of %1 mm radius").arg(millimetres(track.shape.bowlRadius))
-                               : Text::tr("linear");
+    const QString feeder =
+        track.shape.type == track::FeederType::bowl
+            ? EvolveSummary::tr("bowl of %1 mm radius").arg(millimetres(track.shape.bowlRadius))
+            : EvolveSummary::tr("linear");
     return {
-        {Text::tr("Feeder"), feeder},
-        {Text::tr("Trap"), Text::tr("%1 sections of %2 points").arg(track.crossSections).arg(track.pointsPerSection)},
-        {Text::tr("Segments"), Text::tr("%1 to %2 mm long, %3 mm wide, %4 mm high")
-                                   .arg(millimetres(track.minSegmentLength), millimetres(track.maxSegmentLength),
-                                        millimetres(track.segmentWidth), millimetres(track.segmentHeight))},
-        {Text::tr("Drive"), Text::tr("%1 Hz, %2 mm half-stroke, %3°")
-                                .arg(look::numberText(drive.frequency), millimetres(drive.halfStroke),
-                                     look::numberText(drive.angle / base::kDegree))},
-        {Text::tr("Friction"), Text::tr("%1 static, %2 kinetic")
-                                   .arg(look::numberText(contact.staticFriction), look::numberText(contact.kineticFriction))},
-        {Text::tr("Population"), Text::tr("%1, with %2 trials each")
-                                     .arg(evolution.populationSize)
-                                     .arg(evolution.trialsPerEvaluation)},
-        {Text::tr("Tournament"), QString::number(evolution.tournamentSize)},
-        {Text::tr("Seed"), QString::number(evolution.seed)},
+        {EvolveSummary::tr("Feeder"), feeder},
+        {EvolveSummary::tr("Trap"),
+         EvolveSummary::tr("%1 sections of %2 points").arg(track.crossSections).arg(track.pointsPerSection)},
+        {EvolveSummary::tr("Segments"),
+         EvolveSummary::tr("%1 to %2 mm long, %3 mm wide, %4 mm high")
+             .arg(millimetres(track.minSegmentLength), millimetres(track.maxSegmentLength),
+                  millimetres(track.segmentWidth), millimetres(track.segmentHeight))},
+        {EvolveSummary::tr("Drive"),
+         EvolveSummary::tr("%1 Hz, %2 mm half-stroke, %3°")
+             .arg(look::numberText(drive.frequency), millimetres(drive.halfStroke),
+                  look::numberText(drive.angle / base::kDegree))},
+        {EvolveSummary::tr("Friction"),
+         EvolveSummary::tr("%1 static, %2 kinetic")
+             .arg(look::numberText(contact.staticFriction), look::numberText(contact.kineticFriction))},
+        {EvolveSummary::tr("Population"), EvolveSummary::tr("%1, with %2 trials each")
+                                              .arg(evolution.populationSize)
+                                              .arg(evolution.trialsPerEvaluation)},
+        {EvolveSummary::tr("Tournament"), QString::number(evolution.tournamentSize)},
+        {EvolveSummary::tr("Seed"), QString::number(evolution.seed)},
     };
 }
 

@@ -47,7 +47,8 @@ void FilmFrame::paint(QPainter* painter, const QStyleOptionViewItem& option, con
     font.setBold(current);
     painter->setFont(font);
     painter->setPen(palette.color(current ? QPalette::WindowText : QPalette::PlaceholderText));
-    const QRect number(picture.left(), picture.bottom() + 1, picture.width(), option.rect.bottom() - picture.bottom());
+    const QRect number(picture.left(), picture.bottom() + 1, picture.width(),
+                       option.rect.bottom() - picture.bottom());
     painter->drawText(number, Qt::AlignCenter, index.data().toString());
     painter->restore();
 }

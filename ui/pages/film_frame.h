@@ -4,7 +4,8 @@
 
 namespace trapwright::pages {
 
-/// Draws one picture of the film strip: a winner with its generation below, framed while it is the current one.
+/// Draws one picture of the film strip: a winner with its generation below, framed while it is the current
+/// one.
 class FilmFrame : public QStyledItemDelegate {
     Q_OBJECT
  public:
@@ -14,7 +15,8 @@ class FilmFrame : public QStyledItemDelegate {
 
     static QSize size();
 
-    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override;
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
 };
 

@@ -42,7 +42,8 @@ FilmStrip::FilmStrip(QWidget* parent)
     seen_->setInterval(kSeenDelay);
     connect(seen_, &QTimer::timeout, this, &FilmStrip::wantSeen);
 
-    auto* empty = new QLabel(tr("The best track of each generation will appear here. Start learning with F5."), this);
+    auto* empty =
+        new QLabel(tr("The best track of each generation will appear here. Start learning with F5."), this);
     empty->setObjectName("filmStrip.empty");
     empty->setAlignment(Qt::AlignCenter);
     empty->setForegroundRole(QPalette::PlaceholderText);
@@ -76,9 +77,10 @@ QWidget* FilmStrip::makeList() {
     list_->setFixedHeight(FilmFrame::size().height());
     list_->viewport()->installEventFilter(this);
     connect(list_->horizontalScrollBar(), &QScrollBar::valueChanged, seen_, qOverload<>(&QTimer::start));
-    connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex& index) {
-        if (!setting_ && index.isValid()) emit picked(model_.winnerAt(index.row())->generation);
-    });
+    connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+            [this](const QModelIndex& index) {
+                if (!setting_ && index.isValid()) emit picked(model_.winnerAt(index.row())->generation);
+            });
     connect(list_, &QListView::clicked, this,
             [this](const QModelIndex& index) { emit picked(model_.winnerAt(index.row())->generation); });
     return list_;

@@ -26,8 +26,9 @@ void paintBits(QPainter& painter, const QRectF& area, std::span<const std::uint8
 GenePicture::GenePicture(QWidget* parent) : QWidget(parent) {
     setObjectName("evolve.genes");
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    setToolTip(tr("The genes, dark where a bit is 1: a line for each cross-section, then the segments' lengths, then "
-                  "the strategy values"));
+    setToolTip(tr(
+        "The genes, dark where a bit is 1: a line for each cross-section, then the segments' lengths, then "
+        "the strategy values"));
 }
 
 void GenePicture::show(const evolution::Chromosome& chromosome, int sections) {
@@ -68,7 +69,8 @@ void GenePicture::paintEvent(QPaintEvent*) {
         paintBits(painter, area, bits);
     };
     for (std::size_t i = 0; i < sections; ++i)
-        paintGene(static_cast<double>(i) * line, line - (line > 3.0 ? 1.0 : 0.0), points.subspan(i * each, each));
+        paintGene(static_cast<double>(i) * line, line - (line > 3.0 ? 1.0 : 0.0),
+                  points.subspan(i * each, each));
     paintGene(pointsHeight() + kGap, kLine, chromosome_.lengths);
     paintGene(pointsHeight() + 2 * kGap + kLine, kLine, chromosome_.strategy);
 }

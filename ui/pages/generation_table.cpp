@@ -10,16 +10,16 @@ using session::StudySession;
 
 GenerationTable::GenerationTable(QWidget* parent)
     : QWidget(parent),
-      table_(new RecordTable("generations", tr("Generations"),
-                             tr("Each generation gets a row as soon as it is complete. Start learning with F5."), model_,
-                             this)) {
+      table_(
+          new RecordTable("generations", tr("Generations"),
+                          tr("Each generation gets a row as soon as it is complete. Start learning with F5."),
+                          model_, this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(table_);
     table_->sortBy(models::GenerationModel::Generation, Qt::DescendingOrder);
-    connect(table_, &RecordTable::picked, this, [this](int row) {
-        emit picked(model_.rows()[static_cast<std::size_t>(row)].summary.index);
-    });
+    connect(table_, &RecordTable::picked, this,
+            [this](int row) { emit picked(model_.rows()[static_cast<std::size_t>(row)].summary.index); });
     connect(table_, &RecordTable::failed, this, &GenerationTable::failed);
 }
 
@@ -28,8 +28,10 @@ void GenerationTable::setSession(StudySession* session) {
     session_ = session;
     if (!session_) return model_.setGenerations({}, {});
     model_.setGenerations(session_->summaries(), session_->checks());
-    connect(session_, &StudySession::generationSaved, this, [this] { model_.append(session_->summaries().back()); });
-    connect(session_, &StudySession::checkSaved, this, [this] { model_.setCheck(session_->checks().back()); });
+    connect(session_, &StudySession::generationSaved, this,
+            [this] { model_.append(session_->summaries().back()); });
+    connect(session_, &StudySession::checkSaved, this,
+            [this] { model_.setCheck(session_->checks().back()); });
 }
 
 void GenerationTable::setCurrent(int generation) {

@@ -21,8 +21,9 @@ QString fixed(double value, int decimals) {
 
 IndividualCard::IndividualCard(QWidget* parent)
     : QWidget(parent),
-      empty_(new QLabel(tr("No track has been learned yet. The scene shows the flat track that learning starts from."),
-                        this)),
+      empty_(new QLabel(
+          tr("No track has been learned yet. The scene shows the flat track that learning starts from."),
+          this)),
       contents_(new QWidget(this)),
       scores_(new FactList(contents_)),
       strategy_(new FactList(contents_)),

@@ -15,9 +15,10 @@ using session::StudySession;
 
 IndividualTable::IndividualTable(QWidget* parent)
     : QWidget(parent),
-      table_(new RecordTable("individuals", tr("Individuals"),
-                             tr("The individuals of a generation are listed when it is complete. Start learning with F5."),
-                             model_, this)) {
+      table_(new RecordTable(
+          "individuals", tr("Individuals"),
+          tr("The individuals of a generation are listed when it is complete. Start learning with F5."),
+          model_, this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(table_);
@@ -83,7 +84,8 @@ void IndividualTable::load() {
         if (!record) {
             loaded_ = -1;
             model_.clear();
-            emit failed(tr("The individuals could not be read"), QString::fromStdString(record.error().message));
+            emit failed(tr("The individuals could not be read"),
+                        QString::fromStdString(record.error().message));
             return;
         }
         loaded_ = generation_;

@@ -79,8 +79,11 @@ void LearningCharts::compareWith(const std::filesystem::path& study) {
                 emit failed(what, QString::fromStdString(message));
             };
         }
-        charts::StudyCurves other{QString::fromStdString(curves->name), std::move(curves->summaries),
-                                  std::move(curves->checks), {}, curves->bestOrientationScore};
+        charts::StudyCurves other{QString::fromStdString(curves->name),
+                                  std::move(curves->summaries),
+                                  std::move(curves->checks),
+                                  {},
+                                  curves->bestOrientationScore};
         other.trialsPerSecond = speedsOf(other.summaries);
         return [this, what, other = std::move(other)] {
             if (other.summaries.empty()) {
@@ -109,8 +112,8 @@ void LearningCharts::showStudies() {
     std::vector<charts::StudyCurves> studies;
     if (session_) {
         const std::vector<study::GenerationSummary>& summaries = session_->summaries();
-        studies.push_back({look::toText(session_->path().stem()), summaries, session_->checks(), speedsOf(summaries),
-                           session_->bestOrientationScore()});
+        studies.push_back({look::toText(session_->path().stem()), summaries, session_->checks(),
+                           speedsOf(summaries), session_->bestOrientationScore()});
         if (other_) studies.push_back(*other_);
     }
     for (charts::StudyChart* chart : charts_)

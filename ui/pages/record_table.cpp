@@ -68,9 +68,10 @@ RecordTable::RecordTable(const QString& name, const QString& title, const QStrin
     view_->addAction(save);
     view_->setContextMenuPolicy(Qt::ActionsContextMenu);
 
-    connect(view_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& index) {
-        if (!setting_ && index.isValid()) emit picked(sorted_->mapToSource(index).row());
-    });
+    connect(view_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) {
+                if (!setting_ && index.isValid()) emit picked(sorted_->mapToSource(index).row());
+            });
     // A row that is current already can be picked as well.
     connect(view_, &QTableView::clicked, this,
             [this](const QModelIndex& index) { emit picked(sorted_->mapToSource(index).row()); });
@@ -107,7 +108,8 @@ void RecordTable::askAndSaveCsv() {
                                       "csv",      objectName() + ".csv"};
     look::askForNewFile(this, question, [this](const std::filesystem::path& path) {
         const base::Status saved = saveCsv(path);
-        if (!saved) emit failed(tr("The table could not be saved"), QString::fromStdString(saved.error().message));
+        if (!saved)
+            emit failed(tr("The table could not be saved"), QString::fromStdString(saved.error().message));
     });
 }
 

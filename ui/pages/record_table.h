@@ -14,14 +14,14 @@ class QVBoxLayout;
 
 namespace trapwright::pages {
 
-/// A table of records that sorts by its headings and is saved as CSV; while it has no rows, it says what to do
-/// to get some. One row is current: set by the program, or picked by the user.
+/// A table of records that sorts by its headings and is saved as CSV; while it has no rows, it says what to
+/// do to get some. One row is current: set by the program, or picked by the user.
 class RecordTable : public QWidget {
     Q_OBJECT
  public:
     /// `name` is stable and becomes the proposed name of saved files.
-    RecordTable(const QString& name, const QString& title, const QString& emptyText, QAbstractItemModel& model,
-                QWidget* parent);
+    RecordTable(const QString& name, const QString& title, const QString& emptyText,
+                QAbstractItemModel& model, QWidget* parent);
 
     void sortBy(int column, Qt::SortOrder order);
     /// Of the model; -1: none. Not told by picked().

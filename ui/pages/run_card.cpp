@@ -127,7 +127,8 @@ void RunCard::showIdle() {
         detail_->setText(tr("Raise their number below to learn on."));
         return;
     }
-    title_->setText(known == 0 ? tr("Ready to learn") : tr("%1 of %2 generations learned").arg(known).arg(wanted));
+    title_->setText(known == 0 ? tr("Ready to learn")
+                               : tr("%1 of %2 generations learned").arg(known).arg(wanted));
     const double seconds = session_->estimatedSeconds();
     const QString work = workText();
     if (seconds <= 0.0) {
@@ -140,8 +141,9 @@ void RunCard::showIdle() {
 void RunCard::showRun(RunState state) {
     const RunProgress progress = session_->progress();
     const bool checking = progress.generations > 0 && progress.generation >= progress.generations;
-    const double done =
-        progress.trials > 0 ? static_cast<double>(progress.trialsDone) / static_cast<double>(progress.trials) : 0.0;
+    const double done = progress.trials > 0
+                            ? static_cast<double>(progress.trialsDone) / static_cast<double>(progress.trials)
+                            : 0.0;
     double whole = done;
     QString detail;
     if (checking) {
@@ -157,12 +159,24 @@ void RunCard::showRun(RunState state) {
         detail = tr("%L1 of %L2 trials").arg(progress.trialsDone).arg(progress.trials);
     }
     switch (state) {
-        case RunState::paused: title_->setText(tr("Paused")); break;
-        case RunState::stoppingAfterGeneration: title_->setText(tr("Stopping after this generation")); break;
-        case RunState::stopping: title_->setText(tr("Stopping")); break;
-        case RunState::selecting: title_->setText(tr("Simulating the best winners")); break;
-        case RunState::validating: title_->setText(tr("Validating")); break;
-        default: title_->setText(checking ? tr("Checking winners") : tr("Learning")); break;
+        case RunState::paused:
+            title_->setText(tr("Paused"));
+            break;
+        case RunState::stoppingAfterGeneration:
+            title_->setText(tr("Stopping after this generation"));
+            break;
+        case RunState::stopping:
+            title_->setText(tr("Stopping"));
+            break;
+        case RunState::selecting:
+            title_->setText(tr("Simulating the best winners"));
+            break;
+        case RunState::validating:
+            title_->setText(tr("Validating"));
+            break;
+        default:
+            title_->setText(checking ? tr("Checking winners") : tr("Learning"));
+            break;
     }
     detail_->setText(detail);
     QStringList facts;

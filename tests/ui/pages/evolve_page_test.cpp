@@ -85,7 +85,8 @@ struct User {
     /// Presses a button of a question as soon as it is asked.
     bool answer(const QString& question, const QString& button) {
         QMessageBox* box = nullptr;
-        if (!waitUntil([&] { return (box = find<QMessageBox>(question)) != nullptr && box->isVisible(); })) return false;
+        if (!waitUntil([&] { return (box = find<QMessageBox>(question)) != nullptr && box->isVisible(); }))
+            return false;
         QTest::mouseClick(box->findChild<QPushButton*>(button), Qt::LeftButton);
         return true;
     }
@@ -321,7 +322,8 @@ class EvolvePageTest : public QObject {
         user.click("evolve.endComparison");
         QCOMPARE(user.chart("fitness")->studies().size(), std::size_t{1});
         charts->compareWith(studies.path("missing.trap"));
-        QVERIFY(waitUntil([&] { return user.find<look::MessageBar>("messageBar")->text().contains("missing.trap"); }));
+        QVERIFY(waitUntil(
+            [&] { return user.find<look::MessageBar>("messageBar")->text().contains("missing.trap"); }));
     }
 
     void lockedSettingsAreChangedInANewStudy() {
@@ -329,7 +331,9 @@ class EvolvePageTest : public QObject {
         QVERIFY(makeLearned(studies, "a.trap"));
         User user(studies);
         QVERIFY(user.open(studies.path("a.trap")));
-        QVERIFY(!user.find<pages::Page>("page.evolve")->findChild<QWidget*>("field.simulation.engine")->isEnabled());
+        QVERIFY(!user.find<pages::Page>("page.evolve")
+                     ->findChild<QWidget*>("field.simulation.engine")
+                     ->isEnabled());
         user.click("evolve.change");
         QVERIFY(waitUntil([&] { return user.saved() == 0; }));
         QVERIFY(user.find<pages::Page>("page.track")->isVisible());
@@ -349,7 +353,9 @@ class EvolvePageTest : public QObject {
         }
         QVERIFY(controls.size() > 10);
         for (QWidget* control : controls) {
-            if (control->objectName() == "qt_spinbox_lineedit" || qobject_cast<QTableView*>(control->parent())) continue;
+            if (control->objectName() == "qt_spinbox_lineedit" ||
+                qobject_cast<QTableView*>(control->parent()))
+                continue;
             const auto* button = qobject_cast<QAbstractButton*>(control);
             const QString name = control->accessibleName() + (button != nullptr ? button->text() : QString());
             QVERIFY2(!name.isEmpty(), qPrintable(control->objectName()));
