@@ -58,6 +58,7 @@ QToolTip { color: $text; background: $tip; border: 1px solid $line; padding: 4px
 QMenuBar { background: $window; border-bottom: 1px solid $line; spacing: 2px; }
 QMenuBar::item { padding: 8px 10px; background: transparent; }
 QMenuBar::item:selected, QMenuBar::item:pressed { background: $accent; color: $onAccent; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QProgressBar { border: none; border-radius: 3px; background: $line; }
 QProgressBar::chunk { border-radius: 3px; background: $accent; }
 QMainWindow::separator { background: $line; width: 1px; height: 1px; }

@@ -17,6 +17,7 @@
 #include <QTreeWidget>
 #include <QUndoStack>
 #include <QtTest>
+#include <fstream>
 
 #include "core/part/bundled.h"
 #include "ui/look/message_bar.h"
@@ -40,6 +41,16 @@ std::filesystem::path bundled(const char* name) {
     return part::findBundledFile(part::findBundledPart(name).value());
 }
 
+bool writeObj(const geometry::TriangleMesh& mesh, const std::filesystem::path& path) {
+    std::ofstream file(path);
+    file.precision(17);
+    for (const base::Vec3& v : mesh.vertices)
+        file << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+    for (const geometry::Triangle& t : mesh.triangles)
+        file << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+    return bool(file.flush());
+}
+
 /// The window and what a user does in it.
 struct User {
     window::MainWindow window{{noEngine, "trapwright test", {}}};
@@ -47,7 +58,8 @@ struct User {
     User() {
         window.resize(1280, 720);
         window.show();
-        (void)QTest::qWaitForWindowExposed(&window);
+        window.activateWindow();
+        (void)QTest::qWaitForWindowActive(&window);
     }
     ~User() {
         window.desk().close(false);
@@ -210,9 +222,12 @@ class MainWindowTest : public QObject {
         User user;
         QMimeData data;
         data.setUrls({QUrl::fromLocalFile(QString::fromStdString(bundled("pin").string()))});
+        QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(&user.window, &enter);
+        QVERIFY(enter.isAccepted());
         QDropEvent drop({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
         QCoreApplication::sendEvent(&user.window, &drop);
-        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
+        QVERIFY2(QTest::qWaitFor([&] { return user.session() != nullptr; }, kPatience), qPrintable(user.message()));
         QCOMPARE(user.find<QLabel>("part.name")->text(), QString("pin"));
     }
 
@@ -236,6 +251,40 @@ class MainWindowTest : public QObject {
         QVERIFY2(user.message().contains(name), qPrintable(user.message()));
         QVERIFY(user.session() == nullptr);
         QVERIFY(QApplication::activeModalWidget() == nullptr);
+    }
+
+    // The same cuboid in metres: 12 thousandths of a millimetre would be no part.
+    void theUnitIsAskedForWhereItCannotBeAssumed() {
+        geometry::TriangleMesh metres = part::makeBundledShape("cuboid");
+        const std::filesystem::path file = folder_.filePath("metres.obj").toStdString();
+        QVERIFY(writeObj(metres, file));
+        User user;
+        user.window.openFile(file);
+        QTRY_VERIFY_WITH_TIMEOUT(user.find<QPushButton>("unit.m") != nullptr, kPatience);
+        QVERIFY(user.find<QPushButton>("unit.m")->isVisible());
+        QVERIFY(user.find<QPushButton>("unit.m")->text().contains("4 × 8 × 12 mm"));
+        QTest::mouseClick(user.find<QPushButton>("unit.m"), Qt::LeftButton);
+        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
+        QCOMPARE(user.session()->settings().part.units, std::string("m"));
+        QCOMPARE(user.find<QLabel>("part.size")->text(), QString("4 × 8 × 12 mm"));
+    }
+
+    void aLargeHoleIsClosedOnlyWhenAsked() {
+        geometry::TriangleMesh open = part::makeBundledShape("cuboid");
+        for (base::Vec3& vertex : open.vertices)
+            vertex *= 1e3;
+        open.triangles.pop_back();
+        const std::filesystem::path file = folder_.filePath("open.obj").toStdString();
+        QVERIFY(writeObj(open, file));
+        User user;
+        user.window.openFile(file);
+        QTRY_VERIFY_WITH_TIMEOUT(user.find<QPushButton>("repair") != nullptr, kPatience);
+        QVERIFY(user.session() == nullptr);
+        QTest::mouseClick(user.find<QPushButton>("repair"), Qt::LeftButton);
+        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
+        // Closed, it is the cuboid again: 4 x 8 x 12 mm.
+        QVERIFY(std::abs(user.session()->part()->massProperties.volume - 384e-9) < 1e-12);
+        QTRY_VERIFY_WITH_TIMEOUT(!user.find<QLabel>("part.notes")->text().isEmpty(), kPatience);
     }
 
     void savedStudiesAreOpenedAgainFromTheRecentOnes() {
