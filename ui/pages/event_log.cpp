@@ -86,7 +86,7 @@ void EventLog::setSession(StudySession* session) {
     connect(session_, &StudySession::failed, this,
             [this](const QString& what, const QString& message) { add(Kind::error, what + ". " + message); });
     const auto known = session_->summaries().size();
-    if (known > 0) add(Kind::info, tr("Opened with %n generation(s)", nullptr, static_cast<int>(known)));
+    if (known > 0) add(Kind::info, tr("Opened, generations saved: %1").arg(known));
 }
 
 void EventLog::changeEvent(QEvent* event) {
@@ -148,7 +148,7 @@ void EventLog::tellState(RunState state) {
             break;
         case RunState::idle:
             if (before == RunState::simulating) break;
-            add(Kind::info, tr("Ended with %n generation(s) saved", nullptr, next.toInt()));
+            add(Kind::info, tr("Ended, generations saved: %1").arg(next));
             break;
     }
 }

@@ -32,9 +32,11 @@ Facts factsOf(const study::Settings& settings) {
         {EvolveSummary::tr("Trap"),
          EvolveSummary::tr("%1 sections of %2 points").arg(track.crossSections).arg(track.pointsPerSection)},
         {EvolveSummary::tr("Segments"),
-         EvolveSummary::tr("%1 to %2 mm long, %3 mm wide, %4 mm high")
-             .arg(millimetres(track.minSegmentLength), millimetres(track.maxSegmentLength),
-                  millimetres(track.segmentWidth), millimetres(track.segmentHeight))},
+         EvolveSummary::tr("%1 to %2 mm long")
+             .arg(millimetres(track.minSegmentLength), millimetres(track.maxSegmentLength))},
+        {EvolveSummary::tr("Cross-section"),
+         EvolveSummary::tr("%1 mm wide, %2 mm high")
+             .arg(millimetres(track.segmentWidth), millimetres(track.segmentHeight))},
         {EvolveSummary::tr("Drive"),
          EvolveSummary::tr("%1 Hz, %2 mm half-stroke, %3°")
              .arg(look::numberText(drive.frequency), millimetres(drive.halfStroke),

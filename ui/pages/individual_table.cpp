@@ -90,8 +90,8 @@ void IndividualTable::load() {
         }
         loaded_ = generation_;
         model_.setGeneration(*record, study::generationParameters(session_->settings().evolution).transition);
-        count_->setText(tr("%n individual(s), %L1 trials", nullptr, model_.rowCount())
-                            .arg(study::summarize(*record).trials));
+        count_->setText(
+            tr("%1 individuals, %L2 trials").arg(model_.rowCount()).arg(study::summarize(*record).trials));
     }
     table_->setCurrentRow(individual_);
 }

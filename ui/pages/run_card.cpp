@@ -109,9 +109,10 @@ void RunCard::update() {
 QString RunCard::workText() const {
     const study::EvolutionSettings& evolution = session_->settings().evolution;
     const int left = evolution.generations - static_cast<int>(session_->summaries().size());
-    return tr("%n generation(s) of %1 × %2 trials", nullptr, left)
-        .arg(evolution.populationSize)
-        .arg(evolution.trialsPerEvaluation);
+    const QString what =
+        left == 1 ? tr("1 generation of %1 × %2 trials") : tr("%3 generations of %1 × %2 trials");
+    const QString each = what.arg(evolution.populationSize).arg(evolution.trialsPerEvaluation);
+    return left == 1 ? each : each.arg(left);
 }
 
 void RunCard::showIdle() {
