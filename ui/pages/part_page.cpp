@@ -13,12 +13,12 @@
 #include "core/study/field_text.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
+#include "ui/pages/import_question.h"
 #include "ui/pages/part_facts.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/pose_cards.h"
 #include "ui/pages/problem_text.h"
 #include "ui/pages/settings_form.h"
-#include "ui/pages/import_question.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_session.h"
 
@@ -50,7 +50,8 @@ QWidget* labelled(const QString& label, QWidget* editor, QWidget* parent) {
 }  // namespace
 
 PartPage::PartPage(QWidget* parent)
-    : Page({"part", tr("Part"), "part", tr("The part that is fed: import, material, symmetry, stable poses")}, parent) {
+    : Page({"part", tr("Part"), "part", tr("The part that is fed: import, material, symmetry, stable poses")},
+           parent) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(12, 12, 12, 12);
     layout->setSpacing(8);
@@ -70,19 +71,21 @@ PartPage::PartPage(QWidget* parent)
                 setBusy({});
                 question_->askUnit(request, candidates);
             });
-    connect(&import_, &session::PartImport::repairNeeded, this,
-            [this](const work::PartRequest& request, const geometry::MeshReport& found, const QString& message) {
-                setBusy({});
-                question_->askRepair(request, found, message);
-            });
-    connect(&import_, &session::PartImport::failed, this,
-            [this](const work::PartRequest& request, const QString& message) {
-                leave();
-                showUnits();
-                emit failed(tr("%1 cannot be imported")
-                                .arg(look::toText(std::filesystem::path(request.part).filename())),
-                            message);
-            });
+    connect(
+        &import_, &session::PartImport::repairNeeded, this,
+        [this](const work::PartRequest& request, const geometry::MeshReport& found, const QString& message) {
+            setBusy({});
+            question_->askRepair(request, found, message);
+        });
+    connect(
+        &import_, &session::PartImport::failed, this,
+        [this](const work::PartRequest& request, const QString& message) {
+            leave();
+            showUnits();
+            emit failed(
+                tr("%1 cannot be imported").arg(look::toText(std::filesystem::path(request.part).filename())),
+                message);
+        });
     refresh();
 }
 
@@ -149,12 +152,13 @@ void PartPage::addHead() {
 }
 
 void PartPage::addForm() {
-    form_ = new SettingsForm({{"part.poses", tr("Stable poses"), {}},
-                              {"part.material", tr("Material"), {"part.density_kg_m3"}},
-                              {"part.symmetry", tr("Symmetry"), {"part.symmetryTolerance", "evolution.orientationDistance"}},
-                              {"part.mass", tr("Mass properties"), {}},
-                              {"part.mesh", tr("Mesh"), {}}},
-                             {}, this);
+    form_ = new SettingsForm(
+        {{"part.poses", tr("Stable poses"), {}},
+         {"part.material", tr("Material"), {"part.density_kg_m3"}},
+         {"part.symmetry", tr("Symmetry"), {"part.symmetryTolerance", "evolution.orientationDistance"}},
+         {"part.mass", tr("Mass properties"), {}},
+         {"part.mesh", tr("Mesh"), {}}},
+        {}, this);
     connect(form_, &SettingsForm::edited, this, &PartPage::edit);
 
     poses_ = new PoseCards(form_);
@@ -274,7 +278,8 @@ void PartPage::refresh() {
     for (const std::string& problem : study::findPartProblems(session_->settings(), *part))
         misfits << describeProblem(problem).text.toHtmlEscaped();
     misfit_->setVisible(!misfits.isEmpty());
-    misfit_->setText(misfits.join("<br>") + "<br><a href=\"track\">" + tr("Go to the track's settings") + "</a>");
+    misfit_->setText(misfits.join("<br>") + "<br><a href=\"track\">" + tr("Go to the track's settings") +
+                     "</a>");
 
     symmetry_->setText(symmetryText(part->symmetry));
     mass_->show(massFacts(*part));

@@ -23,8 +23,8 @@ class Rail;
 class SceneFrame;
 class StatusLine;
 
-/// The studio's window: rail, scene, docks, menus. What is shown of a study is its pages' matter; this opens and
-/// closes studies and gives every page its place.
+/// The studio's window: rail, scene, docks, menus. What is shown of a study is its pages' matter; this opens
+/// and closes studies and gives every page its place.
 class MainWindow : public QMainWindow {
     Q_OBJECT
  public:

@@ -111,7 +111,8 @@ void showShortcuts(QWidget* parent, const std::vector<Shortcut>& shortcuts) {
             bool any = false;
             for (int j = 0; j < group->childCount(); ++j) {
                 QTreeWidgetItem* item = group->child(j);
-                const bool matches = (item->text(0) + ' ' + item->text(1)).contains(text, Qt::CaseInsensitive);
+                const bool matches =
+                    (item->text(0) + ' ' + item->text(1)).contains(text, Qt::CaseInsensitive);
                 item->setHidden(!matches);
                 any = any || matches;
             }

@@ -1,20 +1,14 @@
 // The window while its study learns, with the program's own engines.
 
-#include <QAction>
-#include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QSettings>
-#include <QTemporaryDir>
-#include <QtTest>
+#include <optional>
 
 #include "app/trapwright/engines.h"
 #include "core/study/presets.h"
-#include "ui/look/message_bar.h"
-#include "ui/scene/scene_view.h"
+#include "tests/ui/window/user.h"
 #include "ui/session/part_import.h"
 #include "ui/session/recovery_note.h"
-#include "ui/window/main_window.h"
 
 using namespace trapwright;
 using session::RunState;
@@ -37,12 +31,7 @@ class RunningTest : public QObject {
 
  private slots:
     void initTestCase() {
-        QVERIFY(folder_.isValid());
-        QSettings::setDefaultFormat(QSettings::IniFormat);
-        QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
-        qputenv("XDG_DATA_HOME", folder_.filePath("data").toLocal8Bit());
-        QCoreApplication::setOrganizationName("Trapwright");
-        QCoreApplication::setApplicationName("running_test");
+        tests::useFolder(folder_, "running_test");
         state_ = folder_.filePath("running").toStdString();
         makeStudy();
     }
@@ -110,7 +99,8 @@ class RunningTest : public QObject {
             open(window);
             action(window, "run.start")->trigger();
             QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
-            QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(state_) && !std::filesystem::is_empty(state_), kPatience);
+            QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(state_) && !std::filesystem::is_empty(state_),
+                                     kPatience);
             std::filesystem::copy(state_, copy_, std::filesystem::copy_options::recursive);
         }
         std::filesystem::remove_all(state_);
@@ -150,7 +140,9 @@ class RunningTest : public QObject {
         window.openFile(study_);
         QVERIFY(QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, kPatience));
     }
-    static QAction* action(window::MainWindow& window, const char* name) { return window.findChild<QAction*>(name); }
+    static QAction* action(window::MainWindow& window, const char* name) {
+        return window.findChild<QAction*>(name);
+    }
     static void answer(window::MainWindow& window, const char* name) {
         window.close();
         auto* question = window.findChild<QMessageBox*>("dialog.running");
