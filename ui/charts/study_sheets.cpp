@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace trapwright::charts {
@@ -43,11 +44,12 @@ void addCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const Q
     }
 }
 
-void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies) {
+/// `colour`: that of the curves, if all have the same.
+void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies,
+                SeriesColour colour = SeriesColour::neutral) {
     if (studies.size() < 2) return;
     for (std::size_t i = 0; i < studies.size(); ++i) {
-        CurveStyle style = kBest;
-        style.second = i > 0;
+        const CurveStyle style{colour, Qt::SolidLine, Marker::circle, i > 0};
         sheet.legend.push_back({studyKey(i), studies[i].name,
                                 Text::tr("The curves of the study %1.").arg(studies[i].name), style});
     }
@@ -189,6 +191,7 @@ ChartSheet strategySheet(const std::vector<StudyCurves>& studies) {
     PlotSheet plot = makePlot("strategy", Text::tr("Probability, mean of top 30 %"));
     plot.yScale = Scale::logarithmic;
     plot.decimals = 4;
+    plot.yIncluded = {1.0};
     plot.leastHeight = 1.0;
     struct Value {
         QString key;
@@ -231,12 +234,14 @@ ChartSheet speedSheet(const std::vector<StudyCurves>& studies) {
                     style,
                     {}};
         const std::size_t known = std::min(study.trialsPerSecond.size(), study.summaries.size());
-        for (std::size_t g = 0; g < known; ++g)
-            curve.points.emplace_back(study.summaries[g].index, study.trialsPerSecond[g]);
+        for (std::size_t g = 0; g < known; ++g) {
+            if (!std::isnan(study.trialsPerSecond[g]))
+                curve.points.emplace_back(study.summaries[g].index, study.trialsPerSecond[g]);
+        }
         plot.curves.push_back(std::move(curve));
     }
     sheet.plots.push_back(std::move(plot));
-    addStudies(sheet, studies);
+    addStudies(sheet, studies, kBest.colour);
     return sheet;
 }
 
