@@ -148,7 +148,7 @@ void FilmStrip::setCurrent(int generation, const QString& caption, bool followin
 
 void FilmStrip::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange) redraw();
+    if (event->type() == QEvent::PaletteChange && slider_ != nullptr) redraw();
 }
 
 void FilmStrip::showEvent(QShowEvent* event) {

@@ -51,10 +51,10 @@ class FilmStrip : public QWidget {
     models::WinnerModel model_;
     WinnerPictures* pictures_;
     QStackedLayout* stack_;
-    QListView* list_;
-    QSlider* slider_;
-    QLabel* caption_;
-    QToolButton* follow_;
+    QListView* list_ = nullptr;
+    QSlider* slider_ = nullptr;
+    QLabel* caption_ = nullptr;
+    QToolButton* follow_ = nullptr;
     QTimer* seen_;
     bool setting_ = false;
 };
