@@ -95,7 +95,13 @@ UPDATE study SET settings = json_set(settings, '$.evolution.racingTrials', 0,
     '$.evolution.racingShare', 0.3, '$.evolution.commonRandomNumbers', json('false'));
 )sql";
 
-constexpr std::array<Migration, 2> kMigrations = {{{1, kVersion1}, {2, kVersion2}}};
+// As patient while learning as afterwards.
+constexpr const char* kVersion3 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.evolution.learningStuckTime_s',
+    json_extract(settings, '$.simulation.termination.stuckTime_s'));
+)sql";
+
+constexpr std::array<Migration, 3> kMigrations = {{{1, kVersion1}, {2, kVersion2}, {3, kVersion3}}};
 
 }  // namespace
 

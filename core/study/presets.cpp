@@ -75,6 +75,7 @@ Settings paperMode(Settings settings) {
     settings.evolution.simulateOverlapping = true;
     settings.evolution.racingTrials = 0;
     settings.evolution.commonRandomNumbers = false;
+    settings.evolution.learningStuckTime = settings.simulation.termination.stuckTime;
     settings.simulation.engine = "simbody";
     return settings;
 }

@@ -16,8 +16,8 @@ std::span<const std::string_view> presetNames();
 base::Result<Settings> presetSettings(const std::string& name);
 
 /// Changes settings to the paper's own choices where the defaults go past it: free points, plain angle, p_s
-/// up to 1, no floor under p_dm, overlapping tracks simulated, all trials for every individual and each with
-/// its own random numbers, every trial by Simbody, a bowl of 175 mm.
+/// up to 1, no floor under p_dm, overlapping tracks simulated, all trials for every individual, each with its
+/// own random numbers and as patient as in validation, every trial by Simbody, a bowl of 175 mm.
 Settings paperMode(Settings settings);
 
 /// The numbers of one pair of materials and where they come from.

@@ -48,6 +48,9 @@ struct EvolutionSettings {
     int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody
     double racingShare = 0.3;          // of the population that gets all N in a race
     bool commonRandomNumbers = false;  // trial i is the same for all individuals of a generation
+    // A part without progress for so long counts as stuck while learning, if that is less than
+    // Termination::stuckTime, which counts in selection and validation. [s]
+    double learningStuckTime = 0.6;
     int generations = 200;
     std::uint64_t seed = 1;
 

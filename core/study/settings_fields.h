@@ -75,6 +75,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.count({"evolution.racingTrials", 0, 1000000}, s.evolution.racingTrials);
     v.number({"evolution.racingShare", none, evolution::kTopShare, 1.0}, s.evolution.racingShare);
     v.flag("evolution.commonRandomNumbers", s.evolution.commonRandomNumbers);
+    v.number({"evolution.learningStuckTime_s", none, 0.05, 600.0}, s.evolution.learningStuckTime);
     v.count({"evolution.generations", 1, 1000000}, s.evolution.generations);
     v.seed("evolution.seed", s.evolution.seed);
 

@@ -1,5 +1,6 @@
 #include "core/study/trial_batches.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/trial/start.h"
@@ -38,15 +39,23 @@ base::StreamKey keyOf(const TrialScene& scene, int generation, int individual, i
 
 TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part> part,
                      std::shared_ptr<const track::Track> track) {
-    return {&settings.simulation, std::move(part), std::move(track), settings.evolution.seed,
-            settings.evolution.commonRandomNumbers};
+    return {&settings.simulation,
+            std::move(part),
+            std::move(track),
+            settings.evolution.seed,
+            settings.evolution.commonRandomNumbers,
+            settings.evolution.learningStuckTime};
 }
 
 trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials,
                                     int first) {
     const int stream = scene.commonRandomNumbers ? 0 : individual;
-    return makeBatch(scene, scene.simulation->start,
-                     keyOf(scene, generation, stream, first, base::Purpose::trialStart), trials);
+    trial::TrialBatch batch =
+        makeBatch(scene, scene.simulation->start,
+                  keyOf(scene, generation, stream, first, base::Purpose::trialStart), trials);
+    double& stuckTime = batch.termination.stuckTime;
+    stuckTime = std::min(stuckTime, scene.learningStuckTime.value_or(stuckTime));
+    return batch;
 }
 
 trial::TrialBatch makeSelectionBatch(const TrialScene& scene, int generation, int individual, int trials) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
@@ -14,6 +15,8 @@ struct TrialScene {
     std::shared_ptr<const track::Track> track;
     std::uint64_t seed = 0;            // of the study
     bool commonRandomNumbers = false;  // see makeLearningBatch
+    std::optional<double> learningStuckTime =
+        std::nullopt;  // of makeLearningBatch, if less than the simulation's [s]
 };
 
 /// The scene of a track of the study. Refers to `settings`.
@@ -26,7 +29,8 @@ TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part>
 
 /// The trials by which an individual is judged while learning: `trials` of them from `first` on. With common
 /// random numbers all individuals of a generation have the streams of individual 0, so that each meets the
-/// same starts and a difference of two scores has less noise.
+/// same starts and a difference of two scores has less noise. What does not move on is given up sooner than
+/// elsewhere (EvolutionSettings::learningStuckTime).
 trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials,
                                     int first = 0);
 

@@ -33,7 +33,7 @@ void makeOld(const std::filesystem::path& path) {
     database.exec("DROP TABLE winner_check");
     database.exec(
         "UPDATE study SET settings = json_remove(settings, '$.evolution.racingTrials', "
-        "'$.evolution.racingShare', '$.evolution.commonRandomNumbers')");
+        "'$.evolution.racingShare', '$.evolution.commonRandomNumbers', '$.evolution.learningStuckTime_s')");
     database.exec("PRAGMA user_version = 1");
 }
 
@@ -116,14 +116,16 @@ class StudyChecksTest : public QObject {
         const auto study = StudyFile::openReadOnly(path_);
         VERIFY_OK(study);
         // Learned without a race, and to the last digit with what it had.
-        QVERIFY(study->loadSettings().value() == sample::settings());
+        study::Settings expected = sample::settings();
+        expected.evolution.learningStuckTime = expected.simulation.termination.stuckTime;
+        QVERIFY(study->loadSettings().value() == expected);
         QCOMPARE(study->loadSettings().value().evolution.racingTrials, 0);
         QVERIFY(study->loadChecks().value() == std::vector{sampleCheck(1)});
         SQLite::Database database(path_.string(), SQLite::OPEN_READONLY);
         QCOMPARE(database.execAndGet("PRAGMA user_version").getInt(), store::currentSchemaVersion());
         const std::string json = database.execAndGet("SELECT settings FROM study").getString();
-        for (const char* pinned :
-             {"\"racingTrials\":0", "\"racingShare\":0.3", "\"commonRandomNumbers\":false"}) {
+        for (const char* pinned : {"\"racingTrials\":0", "\"racingShare\":0.3",
+                                   "\"commonRandomNumbers\":false", "\"learningStuckTime_s\":1.5"}) {
             QVERIFY2(json.find(pinned) != std::string::npos, json.c_str());
         }
     }

@@ -205,6 +205,21 @@ class ValidationTest : public QObject {
         }
     }
 
+    void learningIsLessPatient() {
+        study::StudyInputs inputs = fake::waveInputs();
+        const auto track = std::make_shared<const track::Track>(
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.chromosome).value());
+        double& stuckTime = inputs.settings.simulation.termination.stuckTime;
+        stuckTime = 1.5;
+        inputs.settings.evolution.learningStuckTime = 0.5;
+        const study::TrialScene scene = study::makeScene(inputs.settings, inputs.part, track);
+        QCOMPARE(study::makeLearningBatch(scene, 0, 0, 1).termination.stuckTime, 0.5);
+        QCOMPARE(study::makeSelectionBatch(scene, 0, 0, 1).termination.stuckTime, 1.5);
+        QCOMPARE(study::makeValidationBatch(scene, 0, 0, 0, 1).termination.stuckTime, 1.5);
+        stuckTime = 0.3;  // the lesser counts
+        QCOMPARE(study::makeLearningBatch(scene, 0, 0, 1).termination.stuckTime, 0.3);
+    }
+
     void partWithoutPosesIsRefused() {
         study::StudyInputs inputs = fake::waveInputs();
         part::Part part = *inputs.part;

@@ -1,0 +1,310 @@
+#include "ui/charts/study_chart.h"
+
+#include <QAbstractButton>
+#include <QElapsedTimer>
+#include <QSignalSpy>
+#include <QSvgRenderer>
+#include <QtTest>
+
+#include "tests/ui/sample_records.h"
+#include "ui/charts/plot.h"
+
+using namespace trapwright;
+using charts::FitnessChart;
+using charts::Plot;
+using charts::Range;
+using charts::StudyCurves;
+
+namespace {
+
+StudyCurves someStudy(int generations) {
+    StudyCurves curves;
+    curves.name = "one";
+    for (int g = 0; g < generations; ++g) {
+        study::GenerationSummary summary = sample::summary(g, 0.01 * g);
+        summary.statistics.best.collision = summary.statistics.topMean.collision = 0.0;
+        curves.summaries.push_back(summary);
+        curves.trialsPerSecond.push_back(100.0);
+    }
+    curves.bestAttainableOrientation = 1.25;
+    return curves;
+}
+
+void showChart(QWidget& chart) {
+    chart.resize(640, 300);
+    chart.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&chart));
+}
+
+void wheel(Plot* plot, const QPointF& position, int notches) {
+    QWheelEvent event(position, plot->viewport()->mapToGlobal(position), {}, {0, 120 * notches}, Qt::NoButton,
+                      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(plot->viewport(), &event);
+}
+
+void moveTo(Plot* plot, const QPoint& place, Qt::MouseButtons buttons = Qt::NoButton) {
+    QMouseEvent event(QEvent::MouseMove, place, plot->viewport()->mapToGlobal(place), Qt::NoButton, buttons,
+                      Qt::NoModifier);
+    QApplication::sendEvent(plot->viewport(), &event);
+}
+
+void drag(Plot* plot, const QPoint& from, const QPoint& to) {
+    QTest::mousePress(plot->viewport(), Qt::LeftButton, {}, from);
+    moveTo(plot, (from + to) / 2, Qt::LeftButton);
+    moveTo(plot, to, Qt::LeftButton);
+    QTest::mouseRelease(plot->viewport(), Qt::LeftButton, {}, to);
+}
+
+bool isClose(double a, double b) {
+    return std::abs(a - b) < 1e-6;
+}
+
+}  // namespace
+
+class StudyChartTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void emptyChartSaysWhatToExpect() {
+        FitnessChart chart;
+        showChart(chart);
+        QVERIFY(!chart.savePictureAction()->isEnabled());
+        chart.setStudies({someStudy(1)});
+        QVERIFY(chart.savePictureAction()->isEnabled());
+        QCOMPARE(chart.shownPlots().size(), std::size_t{2});  // nothing ever overlapped
+    }
+
+    void everythingIsInViewAndStaysSo() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(20)});
+        showChart(chart);
+        const Plot* plot = chart.shownPlots().back();
+        QVERIFY(plot->xRange().contains(0.0) && plot->xRange().contains(19.0));
+        QVERIFY(plot->yRange().contains(0.0) && plot->yRange().contains(1.25));
+        chart.appendGeneration(sample::summary(20, 1.9), 90.0);
+        QVERIFY(plot->xRange().contains(20.0));
+        QVERIFY(plot->yRange().contains(1.9));
+        QVERIFY(plot->isFitted());
+    }
+
+    void wheelZoomsAboutTheCursor() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(101)});
+        showChart(chart);
+        Plot* plot = chart.shownPlots().front();
+        const QPointF place = plot->toWidget({40.0, -0.25});
+        const Range before = plot->xRange();
+        wheel(plot, place, 3);
+        QVERIFY(plot->xRange().size() < 0.6 * before.size());
+        QVERIFY((plot->toWidget({40.0, -0.25}) - place).manhattanLength() < 1e-6);
+        // All plots show the same generations.
+        QVERIFY(isClose(chart.shownPlots().back()->xRange().low, plot->xRange().low));
+        // Zoomed in, the view stays where it is when a generation comes.
+        const Range zoomed = plot->xRange();
+        chart.appendGeneration(sample::summary(101), 90.0);
+        QVERIFY(isClose(plot->xRange().low, zoomed.low) && isClose(plot->xRange().high, zoomed.high));
+        wheel(plot, place, -30);
+        QVERIFY(plot->isFitted());
+    }
+
+    void wheelOverAnAxisZoomsAlongIt() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(101)});
+        showChart(chart);
+        Plot* plot = chart.shownPlots().front();
+        const QRectF area = plot->plotArea();
+        const Range x = plot->xRange();
+        const Range y = plot->yRange();
+        wheel(plot, {area.center().x(), area.bottom() + 15.0}, 2);
+        QVERIFY(plot->xRange().size() < x.size());
+        QCOMPARE(plot->yRange(), y);
+        chart.fit();
+        wheel(plot, {area.left() - 15.0, area.center().y()}, 2);
+        QCOMPARE(plot->xRange(), x);
+        QVERIFY(plot->yRange().size() < y.size());
+    }
+
+    void draggingPansAndDoubleClickShowsAll() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(101)});
+        showChart(chart);
+        Plot* plot = chart.shownPlots().front();
+        chart.zoom(0.2);
+        const Range before = plot->xRange();
+        const QPoint middle = plot->plotArea().center().toPoint();
+        QSignalSpy picked(&chart, &FitnessChart::picked);
+        drag(plot, middle, middle + QPoint(-50, 0));
+        const double expected = 50.0 / plot->plotArea().width() * before.size();
+        QVERIFY(std::abs(plot->xRange().low - before.low - expected) < 1e-3 * before.size());
+        QCOMPARE(picked.count(), 0);
+        QTest::mouseDClick(plot->viewport(), Qt::LeftButton, {}, middle);
+        QVERIFY(plot->isFitted());
+        QVERIFY(plot->xRange().contains(0.0) && plot->xRange().contains(100.0));
+    }
+
+    void cursorReadsValuesOff() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(101)});
+        showChart(chart);
+        Plot* orientation = chart.shownPlots().back();
+        const QPoint place = orientation->toWidget({40.0, 0.4}).toPoint();
+        moveTo(orientation, place);
+        QCOMPARE(*chart.cursor(), 40.0);
+        const QStringList values = orientation->readOff();
+        QCOMPARE(values, (QStringList{"Generation 40", "best: 0.400", "mean of top 30 %: 0.200",
+                                      "best attainable: 1.250"}));
+        QCOMPARE(orientation->accessibleDescription(), values.join('\n'));
+        // The same generation in the other plot.
+        QCOMPARE(chart.shownPlots().front()->readOff().front(), QString("Generation 40"));
+        QSignalSpy picked(&chart, &FitnessChart::picked);
+        QTest::mouseClick(orientation->viewport(), Qt::LeftButton, {}, place);
+        QCOMPARE(picked.count(), 1);
+        QCOMPARE(picked[0][0].toInt(), 40);
+    }
+
+    void keysDoWhatTheMouseDoes() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(101)});
+        showChart(chart);
+        chart.activateWindow();
+        Plot* plot = chart.shownPlots().front();
+        plot->setFocus();
+        QVERIFY(QTest::qWaitForWindowActive(&chart));
+        QTest::keyClick(plot, Qt::Key_Left);
+        QCOMPARE(*chart.cursor(), 100.0);  // begins with the newest
+        QTest::keyClick(plot, Qt::Key_Left);
+        QCOMPARE(*chart.cursor(), 99.0);
+        QTest::keyClick(plot, Qt::Key_Right);
+        QCOMPARE(*chart.cursor(), 100.0);
+        QTest::keyClick(plot, Qt::Key_Plus);
+        QVERIFY(!plot->isFitted());
+        QTest::keyClick(plot, Qt::Key_Home);
+        QVERIFY(plot->isFitted());
+        QSignalSpy picked(&chart, &FitnessChart::picked);
+        QTest::keyClick(plot, Qt::Key_Return);
+        QCOMPARE(picked.count(), 1);
+    }
+
+    void legendSwitchesCurvesAndPlots() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(20)});
+        showChart(chart);
+        auto* distance = chart.findChild<QAbstractButton*>("legend.F_D");
+        QVERIFY(distance != nullptr && distance->isChecked());
+        QVERIFY(!distance->accessibleName().isEmpty());
+        distance->click();
+        QCOMPARE(chart.shownPlots().size(), std::size_t{1});
+        // What the user chose stays when data come, also the other way.
+        chart.appendGeneration(sample::summary(20), 90.0);
+        QCOMPARE(chart.shownPlots().size(), std::size_t{2});  // now there are collisions
+        chart.findChild<QAbstractButton*>("legend.F_C")->click();
+        QCOMPARE(chart.shownPlots().size(), std::size_t{1});
+        chart.setShown("mean", false);
+        QCOMPARE(chart.shownPlots().front()->readOff().size(), 0);
+        chart.setCursor(3.0);
+        QCOMPARE(chart.shownPlots().front()->readOff().size(), 3);
+        // Something remains.
+        chart.findChild<QAbstractButton*>("legend.F_O")->click();
+        QCOMPARE(chart.shownPlots().size(), std::size_t{1});
+    }
+
+    void logarithmicChartLeavesOutWhatItCannotShow() {
+        StudyCurves study = someStudy(10);
+        study.summaries[4].statistics.topStrategy.smoothing = 0.0;
+        charts::StrategyChart chart;
+        chart.setStudies({study});
+        showChart(chart);
+        const Plot* plot = chart.shownPlots().front();
+        QVERIFY(std::isfinite(plot->yRange().low) && std::isfinite(plot->yRange().high));
+        QVERIFY(plot->yRange().low < -2.0 && plot->yRange().high > std::log10(0.8));
+        chart.setCursor(4.0);
+        QVERIFY(plot->readOff().last().endsWith("0.0000"));
+    }
+
+    void appendingIsCheap() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(1)});
+        showChart(chart);
+        QElapsedTimer timer;
+        qint64 worst = 0;
+        for (int g = 1; g < 500; ++g) {
+            timer.restart();
+            chart.appendGeneration(sample::summary(g, 0.002 * g), 100.0);
+            QApplication::processEvents();
+            worst = std::max(worst, timer.elapsed());
+        }
+        qInfo("500 generations: the slowest update took %lld ms", static_cast<long long>(worst));
+        QCOMPARE(chart.studies().front().summaries.size(), std::size_t{500});
+        QCOMPARE(chart.shownPlots().front()->sheet().curves.front().points.size(), std::size_t{500});
+    }
+
+    void pictureIsBlackOnWhiteWhateverTheTheme() {
+        FitnessChart chart;
+        QPalette dark;
+        dark.setColor(QPalette::Base, Qt::black);
+        dark.setColor(QPalette::Text, Qt::white);
+        chart.setPalette(dark);
+        chart.setStudies({someStudy(20)});
+        showChart(chart);
+        const QImage picture = chart.picture({400, 200}, 2.0);
+        QCOMPARE(picture.size(), QSize(800, 400));
+        QCOMPARE(picture.pixelColor(picture.rect().bottomRight()), QColor(Qt::white));
+        int ink = 0;
+        for (int x = 0; x < picture.width(); ++x)
+            for (int y = 0; y < picture.height(); ++y)
+                if (qGray(picture.pixel(x, y)) < 60) ++ink;
+        QVERIFY(ink > 200);             // text
+        QVERIFY(ink < 800 * 400 / 20);  // on white
+        // The chart on the screen is dark again.
+        QVERIFY(qGray(chart.grab().toImage().pixel(5, 290)) < 60);
+    }
+
+    void filesAreWrittenAndErrorsTold() {
+        const QTemporaryDir folder;
+        const std::filesystem::path path = folder.path().toStdString();
+        FitnessChart chart;
+        chart.setStudies({someStudy(20)});
+        showChart(chart);
+        QVERIFY(chart.savePicture(path / "a.png").ok());
+        QCOMPARE(QImage(folder.filePath("a.png")).size(), chart.size() * 2);
+        QVERIFY(chart.savePicture(path / "a.svg").ok());
+        QSvgRenderer svg(folder.filePath("a.svg"));
+        QVERIFY(svg.isValid());
+        QCOMPARE(svg.viewBox(), QRect(QPoint(0, 0), chart.size()));
+        QVERIFY(chart.saveCsv(path / "a.csv").ok());
+        QFile csv(folder.filePath("a.csv"));
+        QVERIFY(csv.open(QIODevice::ReadOnly));
+        QCOMPARE(QString::fromUtf8(csv.readAll()), chart.csv());
+
+        const auto wrong = chart.savePicture(path / "a.gif");
+        QVERIFY(!wrong.ok());
+        QVERIFY(QString::fromStdString(wrong.error().message).contains(".png or .svg"));
+        const auto nowhere = chart.savePicture(path / "none" / "a.png");
+        QVERIFY(!nowhere.ok());
+        QVERIFY(QString::fromStdString(nowhere.error().message).contains("none"));
+    }
+
+    void zoomedSvgDrawsNothingOutsideItsPlot() {
+        const QTemporaryDir folder;
+        FitnessChart chart;
+        chart.setStudies({someStudy(101)});
+        showChart(chart);
+        chart.setShown("F_D", false);
+        chart.zoom(0.1);
+        QVERIFY(chart.savePicture(std::filesystem::path(folder.path().toStdString()) / "z.svg").ok());
+        QSvgRenderer svg(folder.filePath("z.svg"));
+        QImage image(chart.size(), QImage::Format_RGB32);
+        image.fill(Qt::white);
+        QPainter painter(&image);
+        svg.render(&painter);
+        painter.end();
+        // Left of the axis's title and right of the plot there is only paper.
+        for (int y = 60; y < image.height(); ++y) {
+            QCOMPARE(image.pixelColor(1, y), QColor(Qt::white));
+            QCOMPARE(image.pixelColor(image.width() - 2, y), QColor(Qt::white));
+        }
+    }
+};
+
+QTEST_MAIN(StudyChartTest)
+#include "study_chart_test.moc"

@@ -1,0 +1,170 @@
+#include "ui/charts/study_sheets.h"
+
+#include <QtTest>
+#include <set>
+
+#include "tests/ui/sample_records.h"
+#include "ui/charts/sheet_csv.h"
+
+using namespace trapwright;
+using charts::ChartSheet;
+using charts::Curve;
+using charts::LegendEntry;
+using charts::PlotSheet;
+using charts::StudyCurves;
+
+namespace {
+
+StudyCurves someStudy(const QString& name, double orientation) {
+    StudyCurves curves;
+    curves.name = name;
+    for (int g = 0; g < 3; ++g) {
+        curves.summaries.push_back(sample::summary(g, orientation));
+        curves.trialsPerSecond.push_back(100.0 + g);
+    }
+    // Checks are done when there is time: in any order.
+    curves.checks = {sample::check(2, 10, 9), sample::check(0, 5, 4)};
+    curves.bestAttainableOrientation = 1.25;
+    return curves;
+}
+
+const PlotSheet& plotOf(const ChartSheet& sheet, const QString& key) {
+    return *std::find_if(sheet.plots.begin(), sheet.plots.end(),
+                         [&](const PlotSheet& plot) { return plot.key == key; });
+}
+
+bool isOn(const ChartSheet& sheet, const QString& key) {
+    return std::find_if(sheet.legend.begin(), sheet.legend.end(),
+                        [&](const LegendEntry& entry) { return entry.key == key; })
+        ->on;
+}
+
+}  // namespace
+
+class StudySheetsTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void fitnessShowsTheThreeScores() {
+        const ChartSheet sheet = charts::fitnessSheet({someStudy("a", 0.5)});
+        QCOMPARE(sheet.plots.size(), std::size_t{3});
+        const PlotSheet& orientation = plotOf(sheet, "F_O");
+        QCOMPARE(orientation.curves.size(), std::size_t{3});
+        QCOMPARE(orientation.curves[0].points, (std::vector<QPointF>{{0, 0.5}, {1, 0.5}, {2, 0.5}}));
+        QCOMPARE(orientation.curves[1].points.front(), QPointF(0, 0.25));
+        QCOMPARE(orientation.curves[0].style.line, Qt::SolidLine);
+        QCOMPARE(orientation.curves[1].style.line, Qt::DashLine);
+        QCOMPARE(*orientation.curves[2].level, 1.25);
+        QCOMPARE(plotOf(sheet, "F_C").curves[0].points.front(), QPointF(0, -2.0));
+        QCOMPARE(plotOf(sheet, "F_D").curves[0].points.front(), QPointF(0, -0.25));
+    }
+
+    void collisionsAreShownIfThereAreAny() {
+        StudyCurves study = someStudy("a", 0.5);
+        QVERIFY(isOn(charts::fitnessSheet({study}), "F_C"));
+        for (study::GenerationSummary& summary : study.summaries)
+            summary.statistics.best.collision = summary.statistics.topMean.collision = 0.0;
+        QVERIFY(!isOn(charts::fitnessSheet({study}), "F_C"));
+        QVERIFY(isOn(charts::fitnessSheet({study}), "F_O"));
+    }
+
+    void strategyIsLogarithmic() {
+        const ChartSheet sheet = charts::strategySheet({someStudy("a", 0.5)});
+        QCOMPARE(sheet.plots.size(), std::size_t{1});
+        QVERIFY(sheet.plots[0].yScale == charts::Scale::logarithmic);
+        QCOMPARE(sheet.plots[0].curves[0].points.front(), QPointF(0, 0.8));
+        QCOMPARE(sheet.plots[0].curves[1].points.front(), QPointF(0, 0.01));
+        QCOMPARE(sheet.plots[0].curves[2].points.front(), QPointF(0, 0.05));
+    }
+
+    void speedIsAsLongAsItIsKnown() {
+        StudyCurves study = someStudy("a", 0.5);
+        study.trialsPerSecond.pop_back();
+        const ChartSheet sheet = charts::speedSheet({study});
+        QCOMPARE(sheet.plots[0].curves[0].points, (std::vector<QPointF>{{0, 100.0}, {1, 101.0}}));
+    }
+
+    void enginesAreComparedByGeneration() {
+        const ChartSheet sheet = charts::engineSheet({someStudy("a", 0.5)});
+        const PlotSheet& success = plotOf(sheet, "success");
+        QCOMPARE(success.curves.size(), std::size_t{2});
+        QCOMPARE(success.curves[0].name, QString("native"));
+        QCOMPARE(success.curves[0].points, (std::vector<QPointF>{{0, 50.0}, {2, 100.0}}));
+        QCOMPARE(success.curves[1].name, QString("simbody"));
+        QCOMPARE(success.curves[1].points, (std::vector<QPointF>{{0, 40.0}, {2, 90.0}}));
+        QCOMPARE(plotOf(sheet, "F_O").curves[1].points.front(), QPointF(0, 0.9));
+    }
+
+    void withoutChecksThereIsNothingToCompare() {
+        StudyCurves study = someStudy("a", 0.5);
+        study.checks.clear();
+        for (const PlotSheet& plot : charts::engineSheet({study}).plots)
+            QVERIFY(plot.curves.empty());
+    }
+
+    void twoStudiesAreToldApart_data() {
+        QTest::addColumn<charts::ChartSheet (*)(const std::vector<StudyCurves>&)>("make");
+        QTest::newRow("fitness") << &charts::fitnessSheet;
+        QTest::newRow("strategy") << &charts::strategySheet;
+        QTest::newRow("speed") << &charts::speedSheet;
+        QTest::newRow("engines") << &charts::engineSheet;
+    }
+    void twoStudiesAreToldApart() {
+        using Maker = charts::ChartSheet (*)(const std::vector<StudyCurves>&);
+        QFETCH(Maker, make);
+        const std::vector<StudyCurves> one{someStudy("one", 0.5)};
+        const std::vector<StudyCurves> two{someStudy("one", 0.5), someStudy("two", 0.7)};
+        QCOMPARE(make(two).legend.size(), make(one).legend.size() + 2);
+        for (const PlotSheet& plot : make(two).plots) {
+            std::set<QString> columns;
+            for (const Curve& curve : plot.curves) {
+                columns.insert(curve.column);
+                if (!curve.level) QCOMPARE(curve.style.second, curve.name.endsWith("two"));
+            }
+            QCOMPARE(columns.size(), plot.curves.size());
+            // No two curves look alike.
+            for (std::size_t a = 0; a < plot.curves.size(); ++a) {
+                for (std::size_t b = a + 1; b < plot.curves.size(); ++b)
+                    QVERIFY(!(plot.curves[a].style == plot.curves[b].style));
+            }
+        }
+    }
+
+    void sharedAttainableScoreIsOneLine() {
+        std::vector<StudyCurves> studies{someStudy("one", 0.5), someStudy("two", 0.7)};
+        QCOMPARE(plotOf(charts::fitnessSheet(studies), "F_O").curves.size(), std::size_t{5});
+        studies[1].bestAttainableOrientation = 1.4;
+        QCOMPARE(plotOf(charts::fitnessSheet(studies), "F_O").curves.size(), std::size_t{6});
+    }
+
+    void csvHasALineForEachGeneration() {
+        StudyCurves later = someStudy("b, c", 0.7);
+        later.summaries.push_back(sample::summary(3, 0.1));
+        const QStringList lines =
+            charts::toCsv(charts::strategySheet({someStudy("a", 0.5), later})).split('\n');
+        QCOMPARE(lines.size(), 6);
+        QCOMPARE(lines[0],
+                 QString("Generation,\"p_x, a\",\"p_x, b, c\",\"p_dm, a\",\"p_dm, b, c\",\"p_s, a\",\"p_s, "
+                         "b, c\""));
+        QCOMPARE(lines[1], QString("0,0.8,0.8,0.01,0.01,0.05,0.05"));
+        QCOMPARE(lines[4], QString("3,,0.8,,0.01,,0.05"));
+    }
+
+    void csvOfALevelHasItEverywhere() {
+        const QStringList lines = charts::toCsv(charts::fitnessSheet({someStudy("a", 0.5)})).split('\n');
+        QVERIFY(lines[0].endsWith("F_O best attainable [√rad]"));
+        for (int line = 1; line <= 3; ++line)
+            QVERIFY(lines[line].endsWith(",1.25"));
+    }
+
+    void nothingIsShownOfNoStudy() {
+        for (const auto make :
+             {&charts::fitnessSheet, &charts::strategySheet, &charts::speedSheet, &charts::engineSheet}) {
+            for (const PlotSheet& plot : make({}).plots)
+                QVERIFY(plot.curves.empty());
+        }
+    }
+};
+
+QTEST_GUILESS_MAIN(StudySheetsTest)
+#include "study_sheets_test.moc"

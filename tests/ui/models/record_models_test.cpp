@@ -1,0 +1,262 @@
+#include <QAbstractItemModelTester>
+#include <QFont>
+#include <QSignalSpy>
+#include <QtTest>
+
+#include "core/evolution/gray.h"
+#include "core/part/part_builder.h"
+#include "core/part/shapes.h"
+#include "core/work/study_trials.h"
+#include "tests/ui/sample_records.h"
+#include "ui/models/csv.h"
+#include "ui/models/generation_model.h"
+#include "ui/models/individual_model.h"
+#include "ui/models/pose_model.h"
+#include "ui/models/selection_model.h"
+#include "ui/models/validation_model.h"
+
+using namespace trapwright;
+using models::GenerationModel;
+using models::IndividualModel;
+using models::PoseModel;
+using models::SelectionModel;
+using models::ValidationModel;
+
+namespace {
+
+constexpr auto kFatal = QAbstractItemModelTester::FailureReportingMode::QtTest;
+
+QString textAt(const QAbstractItemModel& model, int row, int column) {
+    return model.index(row, column).data().toString();
+}
+
+double valueAt(const QAbstractItemModel& model, int row, int column) {
+    return model.index(row, column).data(models::ValueRole).toDouble();
+}
+
+/// An individual whose gene 3 says these values.
+study::IndividualRecord individual(double fitness, const std::vector<double>& strategy) {
+    study::IndividualRecord record;
+    record.fitness = {-1.0, -0.5, fitness};
+    record.chromosome.strategy = evolution::encodeGray(strategy, evolution::kStrategyBits);
+    record.trials = 10;
+    record.finished = 7;
+    record.stuck = 2;
+    record.fellOff = 1;
+    return record;
+}
+
+/// Table 2 of the paper, the cube's simulation column.
+study::ValidationRecord paperTable() {
+    study::ValidationRecord record;
+    const std::vector<int> failures = {0, 10, 5, 9, 7, 7};
+    for (int pose = 0; pose < 6; ++pose) {
+        const int failed = failures[static_cast<std::size_t>(pose)];
+        record.rows.push_back({pose, 1000, failed, failed, 0, 0});
+    }
+    return record;
+}
+
+}  // namespace
+
+class RecordModelsTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void generationsGrowAndAreChecked() {
+        GenerationModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setGenerations({sample::summary(0), sample::summary(1)}, {sample::check(1, 10, 9)});
+        QCOMPARE(model.rowCount(), 2);
+        QCOMPARE(textAt(model, 0, GenerationModel::ReferenceSuccess), QString());
+        QCOMPARE(textAt(model, 1, GenerationModel::ReferenceSuccess), QString("90.0"));
+
+        QSignalSpy inserted(&model, &QAbstractItemModel::rowsInserted);
+        QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
+        QSignalSpy reset(&model, &QAbstractItemModel::modelReset);
+        model.append(sample::summary(2));
+        model.setCheck(sample::check(2, 8, 7));
+        model.setCheck(sample::check(7, 1, 1));  // of no generation that is there
+        QCOMPARE(inserted.count(), 1);
+        QCOMPARE(changed.count(), 1);
+        QCOMPARE(reset.count(), 0);
+        QCOMPARE(textAt(model, 2, GenerationModel::LearningSuccess), QString("80.0"));
+        QCOMPARE(model.index(2, GenerationModel::ReferenceSuccess).data(Qt::ToolTipRole).toString(),
+                 QString("simbody: 7 of 10 parts"));
+        QCOMPARE(model.index(2, 0).data(models::IndividualRole).toInt(), 5);
+    }
+
+    void generationShowsItsNumbers() {
+        GenerationModel model;
+        model.setGenerations({sample::summary(4, 0.75)}, {});
+        QCOMPARE(textAt(model, 0, GenerationModel::Generation), QString("4"));
+        QCOMPARE(textAt(model, 0, GenerationModel::Total), QString("-1.500"));
+        QCOMPARE(textAt(model, 0, GenerationModel::Collision), QString("-2"));
+        QCOMPARE(textAt(model, 0, GenerationModel::Mutation), QString("0.0100"));
+        QCOMPARE(valueAt(model, 0, GenerationModel::TopTotal), -4.0 - 0.5 + 0.375);
+        QVERIFY(!model.headerData(GenerationModel::Orientation, Qt::Horizontal, Qt::ToolTipRole)
+                     .toString()
+                     .isEmpty());
+    }
+
+    void smallNegativeNumbersAreNotMinusNothing() {
+        GenerationModel model;
+        study::GenerationSummary summary = sample::summary(0);
+        summary.statistics.best = {-0.0, -1e-9, 1.0};
+        model.setGenerations({summary}, {});
+        QCOMPARE(textAt(model, 0, GenerationModel::Collision), QString("0"));
+        QCOMPARE(textAt(model, 0, GenerationModel::Distance), QString("0.000"));
+    }
+
+    void individualsShowWhatTheirGenesSay() {
+        study::GenerationRecord record;
+        record.index = 12;
+        record.winner = 1;
+        record.individuals = {individual(0.1, {0.25, 0.0, 1.0}), individual(0.9, {1.0, 0.5, 0.5})};
+        evolution::TransitionParameters bounds;
+        bounds.mutationFloor = 0.002;
+        bounds.smoothingLimit = 0.3;
+        IndividualModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setGeneration(record, bounds);
+        QCOMPARE(model.rowCount(), 2);
+        QCOMPARE(textAt(model, 0, IndividualModel::Crossover), QString("0.2500"));
+        QCOMPARE(textAt(model, 0, IndividualModel::Mutation), QString("0.0020"));   // its floor
+        QCOMPARE(textAt(model, 0, IndividualModel::Smoothing), QString("0.3000"));  // its limit
+        QCOMPARE(textAt(model, 0, IndividualModel::Stuck), QString("2"));
+        QVERIFY(!model.index(0, 0).data(models::IsWinnerRole).toBool());
+        QVERIFY(model.index(1, 0).data(models::IsWinnerRole).toBool());
+        QVERIFY(model.index(1, 0).data(Qt::FontRole).value<QFont>().bold());
+        QCOMPARE(model.index(1, 0).data(models::GenerationRole).toInt(), 12);
+        model.clear();
+        QCOMPARE(model.rowCount(), 0);
+    }
+
+    void individualsAreSortedByNumber() {
+        study::GenerationRecord record;
+        for (const double fitness : {0.5, 10.0, -3.0, 9.0})
+            record.individuals.push_back(individual(fitness, {0.0, 0.0, 0.0}));
+        IndividualModel model;
+        model.setGeneration(record, {});
+        QSortFilterProxyModel sorted;
+        sorted.setSourceModel(&model);
+        sorted.setSortRole(models::ValueRole);
+        sorted.sort(IndividualModel::Total, Qt::DescendingOrder);
+        QStringList order;
+        for (int row = 0; row < 4; ++row)
+            order.append(textAt(sorted, row, IndividualModel::Individual));
+        QCOMPARE(order, (QStringList{"1", "3", "0", "2"}));  // as text 9 would come before 10
+    }
+
+    void validationIsThePapersTable() {
+        ValidationModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setValidation(paperTable());
+        QCOMPARE(model.rowCount(), 7);
+        QCOMPARE(textAt(model, 0, ValidationModel::Pose), QString("1"));
+        QCOMPARE(textAt(model, 1, ValidationModel::Success), QString("99.0"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Pose), QString("Total"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Trials), QString("6000"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Failures), QString("38"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Success), QString("99.4"));
+        QCOMPARE(model.index(6, 0).data(models::PoseRole).toInt(), -1);
+        QVERIFY(model.index(6, 0).data(Qt::FontRole).value<QFont>().bold());
+    }
+
+    void boundsAreKnownOnes_data() {
+        QTest::addColumn<models::BoundsMethod>("method");
+        QTest::addColumn<double>("low");
+        // All of n succeed: (alpha / 2)^(1/n), and n / (n + z^2).
+        QTest::newRow("Clopper and Pearson")
+            << models::BoundsMethod::clopperPearson << 100.0 * std::pow(0.025, 1.0 / 1000.0);
+        QTest::newRow("Wilson") << models::BoundsMethod::wilson
+                                << 100.0 * 1000.0 / (1000.0 + 1.959964 * 1.959964);
+    }
+    void boundsAreKnownOnes() {
+        QFETCH(models::BoundsMethod, method);
+        QFETCH(double, low);
+        ValidationModel model;
+        model.setValidation(paperTable(), method);
+        QVERIFY(std::abs(valueAt(model, 0, ValidationModel::Bounds) - low) < 1e-4);
+        QCOMPARE(textAt(model, 0, ValidationModel::Bounds), QString("99.6 … 100.0"));
+    }
+
+    void failedCountsLeadToTheirTrials() {
+        ValidationModel model;
+        model.setValidation(paperTable());
+        const auto verdictAt = [&](int column) {
+            return model.index(2, column).data(models::VerdictRole).toInt();
+        };
+        QCOMPARE(verdictAt(ValidationModel::WrongOrientation),
+                 static_cast<int>(work::TrialVerdict::wrongOrientation));
+        QCOMPARE(verdictAt(ValidationModel::Stuck), static_cast<int>(work::TrialVerdict::stuck));
+        QCOMPARE(verdictAt(ValidationModel::FellOff), static_cast<int>(work::TrialVerdict::fellOff));
+        QCOMPARE(verdictAt(ValidationModel::Trials), -1);
+        QCOMPARE(model.index(2, ValidationModel::Stuck).data(models::PoseRole).toInt(), 2);
+    }
+
+    void withoutTrialsThereIsNoRate() {
+        study::ValidationRecord record;
+        record.rows.push_back({});
+        ValidationModel model;
+        model.setValidation(record);
+        QCOMPARE(textAt(model, 0, ValidationModel::Success), QString("–"));
+        QCOMPARE(textAt(model, 0, ValidationModel::Bounds), QString("–"));
+        QVERIFY(!model.index(0, ValidationModel::Success).data(models::ValueRole).isValid());
+    }
+
+    void selectionIsRanked() {
+        study::SelectionRecord record{"simbody", {}};
+        record.entries.push_back(
+            {439, 17, {0.0, -0.01, 0.85}, 1000, 1000, 994, base::Quaternion::Identity()});
+        record.entries.push_back({12, 3, {0.0, -0.25, 0.5}, 0, 0, 0, base::Quaternion::Identity()});
+        SelectionModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setSelection(record);
+        QCOMPARE(textAt(model, 0, SelectionModel::Rank), QString("1"));
+        QCOMPARE(textAt(model, 1, SelectionModel::Rank), QString("2"));
+        QCOMPARE(textAt(model, 0, SelectionModel::Success), QString("99.4"));
+        QCOMPARE(textAt(model, 1, SelectionModel::Success), QString("–"));
+        QCOMPARE(model.index(0, 0).data(models::GenerationRole).toInt(), 439);
+        QCOMPARE(model.index(0, 0).data(models::IndividualRole).toInt(), 17);
+    }
+
+    void posesHaveProbabilitiesAndPictures() {
+        part::PartOptions options;
+        options.density = 1000.0;
+        const auto prepared = part::buildPart(part::makeBox({4e-3, 8e-3, 12e-3}), options);
+        QVERIFY(prepared.ok());
+        PoseModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setPart(prepared->part);
+        double sum = 0.0;
+        for (int row = 0; row < model.rowCount(); ++row)
+            sum += valueAt(model, row, PoseModel::Probability);
+        QVERIFY(std::abs(sum - 100.0) < 1e-6);
+        QCOMPARE(textAt(model, 0, PoseModel::Height), QString("2.00"));  // lies on its largest face
+
+        QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
+        QPixmap picture(8, 8);
+        picture.fill(Qt::red);
+        model.setPicture(0, picture);
+        model.setPicture(100, picture);  // of no pose
+        QCOMPARE(changed.count(), 1);
+        QVERIFY(model.index(0, PoseModel::Pose).data(Qt::DecorationRole).isValid());
+        QVERIFY(!model.index(1, PoseModel::Pose).data(Qt::DecorationRole).isValid());
+        model.setPart(prepared->part);
+        QVERIFY(!model.index(0, PoseModel::Pose).data(Qt::DecorationRole).isValid());
+    }
+
+    void tablesBecomeCsv() {
+        ValidationModel model;
+        model.setValidation(paperTable());
+        const QStringList lines = models::toCsv(model).split('\n');
+        QCOMPARE(lines.size(), 9);
+        QVERIFY(lines[0].startsWith("Pose,Trials,Failures,Success [%]"));
+        QVERIFY(lines[2].startsWith("2,1000,10,99,"));
+        QVERIFY(lines[7].startsWith("Total,6000,38,"));
+    }
+};
+
+QTEST_MAIN(RecordModelsTest)
+#include "record_models_test.moc"

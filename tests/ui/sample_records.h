@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/study/records.h"
+
+/// Records made up for the tables and charts.
+namespace trapwright::sample {
+
+inline study::GenerationSummary summary(int index, double orientation = 0.5) {
+    study::GenerationSummary made;
+    made.index = index;
+    made.winner = 3 + index;
+    made.statistics.best = {-2.0, -0.25, orientation};
+    made.statistics.topMean = {-4.0, -0.5, orientation / 2.0};
+    made.statistics.topStrategy = {0.8, 0.01, 0.05};
+    made.seconds = 2.0;
+    return made;
+}
+
+inline study::CheckRecord check(int generation, int learning, int reference) {
+    study::CheckRecord made;
+    made.generation = generation;
+    made.individual = 3 + generation;
+    made.trials = 10;
+    made.learning = {"native", {0.0, -0.1, 1.0}, 10, learning};
+    made.reference = {"simbody", {0.0, -0.2, 0.9}, 10, reference};
+    return made;
+}
+
+}  // namespace trapwright::sample

@@ -1,0 +1,314 @@
+#include "ui/charts/plot.h"
+
+#include <QApplication>
+#include <QCategoryAxis>
+#include <QChart>
+#include <QGraphicsLayout>
+#include <QLineSeries>
+#include <QMouseEvent>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/charts/curve_style.h"
+#include "ui/charts/ticks.h"
+
+namespace trapwright::charts {
+
+namespace {
+
+constexpr double kPadding = 0.04;      // of a fitted range, at both ends
+constexpr double kWheelFactor = 1.25;  // of one notch
+constexpr double kNotch = 120.0;       // QWheelEvent's unit
+constexpr double kLeastWidth = 4.0;    // that can be zoomed to
+constexpr double kLeastShare = 1e-4;   // of the fitted height that can be zoomed to
+constexpr double kTickSpace = 48.0;    // between labels along x, at least
+constexpr int kMostUp = 8;             // labels along y
+
+QCategoryAxis* makeAxis(QChart* chart, Qt::Alignment side) {
+    auto* axis = new QCategoryAxis(chart);
+    axis->setLabelsPosition(QCategoryAxis::AxisLabelsPositionOnValue);
+    axis->setTruncateLabels(false);
+    chart->addAxis(axis, side);
+    return axis;
+}
+
+void setTicks(QCategoryAxis* axis, const std::vector<Tick>& ticks, const Range& range) {
+    QStringList labels;
+    for (const Tick& tick : ticks)
+        labels.append(tick.label);
+    const bool same = labels == axis->categoriesLabels();
+    axis->setRange(range.low, range.high);
+    if (same) return;
+    for (const QString& old : axis->categoriesLabels())
+        axis->remove(old);
+    // Where nothing is drawn: the axis has a grid line there as well.
+    axis->setStartValue(range.low - range.size());
+    for (const Tick& tick : ticks)
+        axis->append(tick.label, tick.position);
+}
+
+}  // namespace
+
+Plot::Plot(QWidget* parent)
+    : QChartView(parent),
+      xAxis_(makeAxis(chart(), Qt::AlignBottom)),
+      yAxis_(makeAxis(chart(), Qt::AlignLeft)) {
+    setFrameShape(QFrame::NoFrame);
+    setRenderHint(QPainter::Antialiasing);
+    setViewportUpdateMode(QGraphicsView::FullViewportUpdate);
+    setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true);
+    viewport()->setMouseTracking(true);
+    setMinimumSize(120, 90);
+    chart()->legend()->hide();
+    chart()->setMargins(QMargins(2, 4, 8, 2));
+    chart()->layout()->setContentsMargins(0, 0, 0, 0);
+    chart()->setBackgroundRoundness(0.0);
+    chart()->setAnimationOptions(QChart::NoAnimation);
+}
+
+void Plot::setSheet(const PlotSheet& sheet) {
+    sheet_ = sheet;
+    xAxis_->setTitleText(sheet.xTitle);
+    yAxis_->setTitleText(sheet.yTitle);
+    setAccessibleName(QString(sheet.yTitle).remove("<sub>").remove("</sub>"));
+    while (curves_.size() > sheet_.curves.size()) {
+        chart()->removeSeries(curves_.back().series);
+        delete curves_.back().series;
+        curves_.pop_back();
+    }
+    while (curves_.size() < sheet_.curves.size()) {
+        auto* series = new QLineSeries(chart());
+        chart()->addSeries(series);
+        series->attachAxis(xAxis_);
+        series->attachAxis(yAxis_);
+        curves_.push_back({{}, series, true});
+    }
+    updateSeries();
+    updateLimits();
+    updateView();
+}
+
+void Plot::setTheme(const ChartTheme& theme) {
+    theme_ = theme;
+    chart()->setBackgroundBrush(theme.background);
+    chart()->setBackgroundPen(Qt::NoPen);
+    setBackgroundBrush(theme.background);
+    QFont titleFont = font();
+    titleFont.setBold(false);
+    for (QCategoryAxis* axis : {xAxis_, yAxis_}) {
+        axis->setLabelsColor(theme.text);
+        axis->setLabelsFont(font());
+        axis->setTitleBrush(theme.faintText);
+        axis->setTitleFont(titleFont);
+        axis->setLinePen(QPen(theme.axis, 1.0));
+        axis->setGridLinePen(QPen(theme.grid, 1.0));
+    }
+    updateSeries();
+}
+
+void Plot::setShown(std::vector<bool> shown) {
+    for (std::size_t i = 0; i < curves_.size(); ++i)
+        curves_[i].shown = i >= shown.size() || shown[i];
+    updateSeries();
+    updateLimits();
+    updateView();
+}
+
+void Plot::fit() {
+    fitted_ = true;
+    updateLimits();
+    updateView();
+    emit xRangeChanged();
+}
+
+void Plot::zoom(double factor) {
+    x_ = zoomRange(x_, cursor_.value_or((x_.low + x_.high) / 2.0), factor, xLimits_, kLeastWidth);
+    fitted_ = x_ == xLimits_ && y_ == yLimits_;
+    updateView();
+    emit xRangeChanged();
+}
+
+void Plot::setXRange(const Range& range) {
+    x_ = shiftRange(range, 0.0, xLimits_);
+    fitted_ = x_ == xLimits_ && y_ == yLimits_;
+    updateView();
+}
+
+void Plot::setCursor(std::optional<double> x) {
+    if (cursor_ == x) return;
+    cursor_ = x;
+    setAccessibleDescription(readOff().join(u'\n'));
+    viewport()->update();
+}
+
+void Plot::setPicturing(bool picturing) {
+    picturing_ = picturing;
+    updateSeries();
+}
+
+QPointF Plot::toWidget(const QPointF& value) const {
+    const QRectF area = plotArea();
+    return {area.left() + (value.x() - x_.low) / x_.size() * area.width(),
+            area.bottom() - (toAxis(value.y()) - y_.low) / y_.size() * area.height()};
+}
+
+QRectF Plot::plotArea() const {
+    return chart()->plotArea();
+}
+
+double Plot::toAxis(double value) const {
+    return sheet_.yScale == Scale::logarithmic ? std::log10(value) : value;
+}
+
+/// y in the axis's own coordinate.
+QPointF Plot::fromWidget(const QPointF& position) const {
+    const QRectF area = plotArea();
+    return {x_.low + (position.x() - area.left()) / area.width() * x_.size(),
+            y_.low + (area.bottom() - position.y()) / area.height() * y_.size()};
+}
+
+void Plot::updateSeries() {
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+        const Curve& curve = sheet_.curves[i];
+        DrawnCurve& drawn = curves_[i];
+        drawn.points.clear();
+        for (const QPointF& point : curve.points) {
+            const double y = toAxis(point.y());
+            if (std::isfinite(y)) drawn.points.append({point.x(), y});
+        }
+        // A level goes from edge to edge of the view.
+        if (curve.level) drawn.points = {{x_.low, toAxis(*curve.level)}, {x_.high, toAxis(*curve.level)}};
+        drawn.series->replace(drawn.points);
+        drawn.series->setPen(curvePen(curve.style, theme_));
+        drawn.series->setVisible(drawn.shown && !picturing_);
+    }
+}
+
+void Plot::updateLimits() {
+    Extent x;
+    Extent y;
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+        // The x range is that of all curves, so that switching one off does not move the others.
+        for (const QPointF& point : sheet_.curves[i].points)
+            x.add(point.x());
+        if (!curves_[i].shown) continue;
+        for (const QPointF& point : curves_[i].points)
+            y.add(point.y());
+    }
+    for (const double value : sheet_.yIncluded)
+        y.add(toAxis(value));
+    const Range width = x.range(0.0, 0.0).value_or(Range{0.0, 0.0});
+    const double high = std::max(width.high, width.low + sheet_.leastWidth);
+    const double padding = kPadding / 2.0 * (high - width.low);
+    xLimits_ = {width.low - padding, high + padding};
+    yLimits_ = y.range(sheet_.leastHeight, kPadding).value_or(Range{0.0, 1.0});
+    if (!(yLimits_.size() > 0.0)) yLimits_ = {yLimits_.low - 0.5, yLimits_.low + 0.5};
+    if (fitted_) {
+        x_ = xLimits_;
+        y_ = yLimits_;
+    }
+}
+
+void Plot::updateView() {
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+        if (!sheet_.curves[i].level) continue;
+        curves_[i].points.front().setX(x_.low);
+        curves_[i].points.back().setX(x_.high);
+        curves_[i].series->replace(curves_[i].points);
+    }
+    updateTicks();
+    viewport()->update();
+}
+
+void Plot::updateTicks() {
+    const QRectF area = plotArea();
+    const QFontMetricsF metrics(font());
+    const auto mostAlong = static_cast<int>(area.width() / kTickSpace);
+    const auto mostUp = std::min(kMostUp, static_cast<int>(area.height() / (1.8 * metrics.height())));
+    setTicks(xAxis_, linearTicks(x_, std::max(2, mostAlong), 1.0), x_);
+    const int most = std::max(2, mostUp);
+    setTicks(yAxis_, sheet_.yScale == Scale::logarithmic ? logarithmicTicks(y_, most) : linearTicks(y_, most),
+             y_);
+}
+
+void Plot::resizeEvent(QResizeEvent* event) {
+    QChartView::resizeEvent(event);
+    updateTicks();
+}
+
+void Plot::wheelEvent(QWheelEvent* event) {
+    const QRectF area = plotArea();
+    const QPointF position = event->position();
+    const double factor = std::pow(kWheelFactor, -event->angleDelta().y() / kNotch);
+    const QPointF anchor = fromWidget(position);
+    const bool belowAxis = position.y() > area.bottom();
+    const bool besideAxis = position.x() < area.left();
+    if (!besideAxis) x_ = zoomRange(x_, anchor.x(), factor, xLimits_, kLeastWidth);
+    if (!belowAxis) y_ = zoomRange(y_, anchor.y(), factor, yLimits_, kLeastShare * yLimits_.size());
+    fitted_ = x_ == xLimits_ && y_ == yLimits_;
+    updateView();
+    emit xRangeChanged();
+    event->accept();
+}
+
+void Plot::mousePressEvent(QMouseEvent* event) {
+    setFocus(Qt::MouseFocusReason);
+    if (event->button() == Qt::LeftButton && plotArea().contains(event->position())) {
+        pressed_ = dragged_ = event->position();
+        dragging_ = false;
+    }
+    event->accept();
+}
+
+void Plot::mouseMoveEvent(QMouseEvent* event) {
+    if (pressed_) {
+        const QPointF moved = event->position() - *pressed_;
+        if (moved.manhattanLength() > QApplication::startDragDistance()) dragging_ = true;
+        if (dragging_) {
+            viewport()->setCursor(Qt::ClosedHandCursor);
+            const QPointF by = fromWidget(dragged_) - fromWidget(event->position());
+            dragged_ = event->position();
+            x_ = shiftRange(x_, by.x(), xLimits_);
+            y_ = shiftRange(y_, by.y(), yLimits_);
+            updateView();
+            emit xRangeChanged();
+            return;
+        }
+    }
+    moveCursorTo(event->position());
+}
+
+void Plot::mouseReleaseEvent(QMouseEvent* event) {
+    if (event->button() != Qt::LeftButton) return;
+    if (pressed_ && !dragging_ && cursor_) emit picked(static_cast<int>(*cursor_));
+    pressed_.reset();
+    dragging_ = false;
+    viewport()->unsetCursor();
+}
+
+void Plot::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton) emit fitWanted();
+}
+
+void Plot::leaveEvent(QEvent* event) {
+    QChartView::leaveEvent(event);
+    emit cursorMoved(std::nullopt);
+}
+
+void Plot::moveCursorTo(const QPointF& position) {
+    Extent extent;
+    for (const Curve& curve : sheet_.curves) {
+        for (const QPointF& point : curve.points)
+            extent.add(point.x());
+    }
+    const std::optional<Range> known = extent.range(0.0, 0.0);
+    if (!known || !plotArea().contains(position)) {
+        emit cursorMoved(std::nullopt);
+        return;
+    }
+    emit cursorMoved(std::clamp(std::round(fromWidget(position).x()), known->low, known->high));
+}
+
+}  // namespace trapwright::charts

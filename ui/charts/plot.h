@@ -1,0 +1,104 @@
+#pragma once
+
+#include <QChartView>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "ui/charts/chart_theme.h"
+#include "ui/charts/sheet.h"
+#include "ui/charts/view_range.h"
+
+class QCategoryAxis;
+class QLineSeries;
+
+namespace trapwright::charts {
+
+/// One plot: curves over whole numbers, with axes whose ticks are always round. Zooms by wheel (over an axis:
+/// along that one), pans by dragging; double click and fit() show everything.
+class Plot : public QChartView {
+    Q_OBJECT
+ public:
+    explicit Plot(QWidget* parent);
+
+    void setSheet(const PlotSheet& sheet);
+    [[nodiscard]] const PlotSheet& sheet() const { return sheet_; }
+    void setTheme(const ChartTheme& theme);
+    /// Slot i for curve i; curves beyond are shown.
+    void setShown(std::vector<bool> shown);
+
+    /// Everything in view, and so it stays as data come.
+    void fit();
+    void zoom(double factor);
+    [[nodiscard]] bool isFitted() const { return fitted_; }
+    void setXRange(const Range& range);
+    [[nodiscard]] const Range& xRange() const { return x_; }
+    /// log10 of the value on a logarithmic scale.
+    [[nodiscard]] const Range& yRange() const { return y_; }
+
+    /// Whole number at which values are read off; none: nowhere.
+    void setCursor(std::optional<double> x);
+    /// The values at the cursor, a line each.
+    [[nodiscard]] QStringList readOff() const;
+
+    /// For a picture: no cursor, and curves that are cut to the plot without the painter's help.
+    void setPicturing(bool picturing);
+
+    /// In the widget's coordinates. y is the value itself.
+    [[nodiscard]] QPointF toWidget(const QPointF& value) const;
+    [[nodiscard]] QRectF plotArea() const;
+
+ signals:
+    /// By the user, or by fit().
+    void xRangeChanged();
+    void fitWanted();
+    void cursorMoved(std::optional<double> x);
+    void picked(int x);
+
+ protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void leaveEvent(QEvent* event) override;
+    void drawForeground(QPainter* painter, const QRectF& rect) override;
+
+ private:
+    /// A curve as it is drawn: y is log10 of the value on a logarithmic scale.
+    struct DrawnCurve {
+        QPolygonF points;
+        QLineSeries* series = nullptr;
+        bool shown = true;
+    };
+
+    [[nodiscard]] double toAxis(double value) const;
+    [[nodiscard]] QPointF fromWidget(const QPointF& position) const;
+    void updateSeries();
+    void updateLimits();
+    void updateView();
+    void updateTicks();
+    void paintMark(QPainter& painter) const;
+    void paintMarkers(QPainter& painter, std::size_t curve) const;
+    void paintCurves(QPainter& painter) const;
+    void moveCursorTo(const QPointF& position);
+
+    PlotSheet sheet_;
+    ChartTheme theme_;
+    std::vector<DrawnCurve> curves_;  // slot i for curve i of the sheet
+    QCategoryAxis* xAxis_;
+    QCategoryAxis* yAxis_;
+    Range xLimits_;
+    Range yLimits_;
+    Range x_;
+    Range y_;
+    bool fitted_ = true;
+    bool picturing_ = false;
+    std::optional<double> cursor_;
+    std::optional<QPointF> pressed_;
+    QPointF dragged_;
+    bool dragging_ = false;
+};
+
+}  // namespace trapwright::charts

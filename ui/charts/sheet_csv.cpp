@@ -1,0 +1,53 @@
+#include "ui/charts/sheet_csv.h"
+
+#include <QLocale>
+#include <map>
+
+namespace trapwright::charts {
+
+QString csvField(QString text) {
+    if (!text.contains(u',') && !text.contains(u'"') && !text.contains(u'\n')) return text;
+    text.replace(u'"', QStringLiteral("\"\""));
+    return u'"' + text + u'"';
+}
+
+QString csvNumber(double value) {
+    return QString::number(value, 'g', QLocale::FloatingPointShortest);
+}
+
+QString toCsv(const ChartSheet& sheet) {
+    QStringList heading{csvField(sheet.xColumn)};
+    std::map<double, std::map<qsizetype, double>> lines;  // x -> column -> y
+    qsizetype column = 0;
+    for (const PlotSheet& plot : sheet.plots) {
+        for (const Curve& curve : plot.curves) {
+            heading.append(csvField(curve.column));
+            for (const QPointF& point : curve.points)
+                lines[point.x()][column] = point.y();
+            ++column;
+        }
+    }
+    // A level has the same value everywhere.
+    column = 0;
+    for (const PlotSheet& plot : sheet.plots) {
+        for (const Curve& curve : plot.curves) {
+            if (curve.level) {
+                for (auto& [x, fields] : lines)
+                    fields[column] = *curve.level;
+            }
+            ++column;
+        }
+    }
+    QString text = heading.join(u',') + u'\n';
+    for (const auto& [x, fields] : lines) {
+        text += csvNumber(x);
+        for (qsizetype i = 0; i < column; ++i) {
+            text += u',';
+            if (const auto found = fields.find(i); found != fields.end()) text += csvNumber(found->second);
+        }
+        text += u'\n';
+    }
+    return text;
+}
+
+}  // namespace trapwright::charts

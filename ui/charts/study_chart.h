@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "ui/charts/curve_chart.h"
+#include "ui/charts/study_curves.h"
+
+namespace trapwright::charts {
+
+/// A chart of a learning run, or of two to be compared.
+class StudyChart : public CurveChart {
+    Q_OBJECT
+ public:
+    /// What to draw of these studies; empty plots if there is nothing to draw.
+    using SheetMaker = ChartSheet (*)(const std::vector<StudyCurves>& studies);
+
+    StudyChart(const QString& name, const QString& title, SheetMaker make, QWidget* parent);
+
+    /// One study, or two: the second is drawn lighter, with other dashes.
+    void setStudies(std::vector<StudyCurves> studies);
+    [[nodiscard]] const std::vector<StudyCurves>& studies() const { return studies_; }
+
+    /// One more generation of the first study, and one more check. Cheap.
+    void appendGeneration(const study::GenerationSummary& summary, double trialsPerSecond);
+    void appendCheck(const study::CheckRecord& check);
+
+ private:
+    void update();
+
+    SheetMaker make_;
+    std::vector<StudyCurves> studies_;
+};
+
+/// F_C, F_D and F_O in a plot each: best, mean of the top 30 %, best attainable (paper, Figure 6).
+class FitnessChart : public StudyChart {
+    Q_OBJECT
+ public:
+    explicit FitnessChart(QWidget* parent = nullptr);
+};
+
+/// p_x, p_dm and p_s on a logarithmic axis (paper, Figure 7).
+class StrategyChart : public StudyChart {
+    Q_OBJECT
+ public:
+    explicit StrategyChart(QWidget* parent = nullptr);
+};
+
+/// Simulated trials per second.
+class SpeedChart : public StudyChart {
+    Q_OBJECT
+ public:
+    explicit SpeedChart(QWidget* parent = nullptr);
+};
+
+/// Each winner's success, F_D and F_O in the engine that learned and in the reference, on the same trials.
+class EngineChart : public StudyChart {
+    Q_OBJECT
+ public:
+    explicit EngineChart(QWidget* parent = nullptr);
+};
+
+}  // namespace trapwright::charts

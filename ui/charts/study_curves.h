@@ -1,0 +1,19 @@
+#pragma once
+
+#include <QString>
+#include <vector>
+
+#include "core/study/records.h"
+
+namespace trapwright::charts {
+
+/// What the charts show of one study.
+struct StudyCurves {
+    QString name;                                     // of the study, for the legend of a comparison
+    std::vector<study::GenerationSummary> summaries;  // in their order
+    std::vector<study::CheckRecord> checks;           // in any order; none if one engine does everything
+    std::vector<double> trialsPerSecond;              // slot i for summaries[i]; may be shorter
+    double bestAttainableOrientation = 0.0;           // trial::calcBestOrientationScore of the part
+};
+
+}  // namespace trapwright::charts

@@ -1,0 +1,282 @@
+#include "ui/charts/study_sheets.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <functional>
+
+namespace trapwright::charts {
+
+namespace {
+
+struct Text {
+    Q_DECLARE_TR_FUNCTIONS(StudySheets)
+};
+
+constexpr double kPercent = 100.0;
+
+const CurveStyle kBest{SeriesColour::first, Qt::SolidLine, Marker::circle};
+const CurveStyle kMean{SeriesColour::second, Qt::DashLine, Marker::square};
+const CurveStyle kAttainable{SeriesColour::neutral, Qt::DotLine, Marker::none};
+const CurveStyle kThird{SeriesColour::third, Qt::DashDotLine, Marker::triangle};
+
+QString studyKey(std::size_t study) {
+    return QStringLiteral("study%1").arg(study);
+}
+
+/// With two studies, what belongs to which is said everywhere.
+QString withStudy(const QString& text, const std::vector<StudyCurves>& studies, std::size_t study) {
+    return studies.size() < 2 ? text : QStringLiteral("%1, %2").arg(text, studies[study].name);
+}
+
+/// A curve of each study: a value of each generation.
+using ValueOf = std::function<double(const study::GenerationSummary&)>;
+
+void addCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const QString& key,
+               const QString& name, const QString& column, CurveStyle style, const ValueOf& valueOf) {
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        style.second = i > 0;
+        Curve curve{
+            withStudy(name, studies, i), withStudy(column, studies, i), {key, studyKey(i)}, style, {}};
+        for (const study::GenerationSummary& summary : studies[i].summaries)
+            curve.points.emplace_back(summary.index, valueOf(summary));
+        plot.curves.push_back(std::move(curve));
+    }
+}
+
+void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies) {
+    if (studies.size() < 2) return;
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        CurveStyle style = kBest;
+        style.second = i > 0;
+        sheet.legend.push_back({studyKey(i), studies[i].name,
+                                Text::tr("The curves of the study %1.").arg(studies[i].name), style});
+    }
+}
+
+ChartSheet makeSheet() {
+    ChartSheet sheet;
+    sheet.xColumn = Text::tr("Generation");
+    return sheet;
+}
+
+PlotSheet makePlot(const QString& key, const QString& yTitle) {
+    PlotSheet plot;
+    plot.key = key;
+    plot.xTitle = Text::tr("Generation");
+    plot.yTitle = yTitle;
+    return plot;
+}
+
+/// One of the three scores of the fitness.
+struct Score {
+    QString key;
+    QString choice;
+    QString axis;
+    QString column;
+    QString help;
+    double trial::Fitness::*value;
+};
+
+std::vector<Score> scores() {
+    return {
+        {"F_C", Text::tr("Collisions"), Text::tr("Collisions F<sub>C</sub> [triangles]"),
+         Text::tr("F_C [triangles]"),
+         Text::tr("Minus the number of the surface's triangles that overlap. 0 is best."),
+         &trial::Fitness::collision},
+        {"F_D", Text::tr("Distance"), Text::tr("Distance F<sub>D</sub> [segments]"),
+         Text::tr("F_D [segments]"),
+         Text::tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
+         &trial::Fitness::distance},
+        {"F_O", Text::tr("Orientation"), Text::tr("Orientation F<sub>O</sub> [√rad]"), Text::tr("F_O [√rad]"),
+         Text::tr("How much more alike the parts lie at the end than at the start. Higher is better."),
+         &trial::Fitness::orientation}};
+}
+
+bool everOverlaps(const std::vector<StudyCurves>& studies) {
+    return std::any_of(studies.begin(), studies.end(), [](const StudyCurves& study) {
+        return std::any_of(study.summaries.begin(), study.summaries.end(), [](const auto& summary) {
+            return std::min(summary.statistics.best.collision, summary.statistics.topMean.collision) < 0.0;
+        });
+    });
+}
+
+void addAttainable(PlotSheet& plot, const std::vector<StudyCurves>& studies) {
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        const double level = studies[i].bestAttainableOrientation;
+        if (i > 0 && level == studies.front().bestAttainableOrientation) continue;
+        CurveStyle style = kAttainable;
+        style.second = i > 0;
+        // One line for all studies that share it.
+        const bool shared = std::all_of(studies.begin(), studies.end(), [&](const StudyCurves& study) {
+            return study.bestAttainableOrientation == level;
+        });
+        plot.curves.push_back(
+            {shared ? Text::tr("best attainable") : withStudy(Text::tr("best attainable"), studies, i),
+             withStudy(Text::tr("F_O best attainable [√rad]"), studies, i),
+             shared ? QStringList{"attainable"} : QStringList{"attainable", studyKey(i)},
+             style,
+             {},
+             level});
+    }
+}
+
+/// What one engine made of the checked winners.
+struct EngineCurve {
+    QString key;
+    CurveStyle style;
+    study::EngineScore study::CheckRecord::*score;
+};
+
+using CheckValue = std::function<double(const study::CheckRecord&, const study::EngineScore&)>;
+
+void addEngineCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const QString& column,
+                     const CheckValue& valueOf) {
+    for (const EngineCurve& engine : {EngineCurve{"learning", kBest, &study::CheckRecord::learning},
+                                      EngineCurve{"reference", kMean, &study::CheckRecord::reference}}) {
+        for (std::size_t i = 0; i < studies.size(); ++i) {
+            if (studies[i].checks.empty()) continue;
+            const QString name = QString::fromStdString((studies[i].checks.front().*engine.score).engine);
+            CurveStyle style = engine.style;
+            style.second = i > 0;
+            Curve curve{withStudy(name, studies, i),
+                        withStudy(column.arg(name), studies, i),
+                        {engine.key, studyKey(i)},
+                        style,
+                        {}};
+            for (const study::CheckRecord& check : studies[i].checks)
+                curve.points.emplace_back(check.generation, valueOf(check, check.*engine.score));
+            std::sort(curve.points.begin(), curve.points.end(),
+                      [](const QPointF& a, const QPointF& b) { return a.x() < b.x(); });
+            plot.curves.push_back(std::move(curve));
+        }
+    }
+}
+
+}  // namespace
+
+ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
+    ChartSheet sheet = makeSheet();
+    const bool overlaps = everOverlaps(studies);
+    for (const Score& score : scores()) {
+        // Where no surface ever overlapped, a line at 0 would only take room.
+        const bool on = score.key != "F_C" || overlaps;
+        sheet.legend.push_back({score.key, score.choice, score.help, std::nullopt, on});
+        PlotSheet plot = makePlot(score.key, score.axis);
+        plot.yIncluded = {0.0};
+        plot.leastHeight = 0.1;
+        addCurves(plot, studies, "best", Text::tr("best"), Text::tr("%1 best").arg(score.column), kBest,
+                  [&](const auto& summary) { return summary.statistics.best.*score.value; });
+        addCurves(plot, studies, "mean", Text::tr("mean of top 30 %"),
+                  Text::tr("%1 mean of top 30 %").arg(score.column), kMean,
+                  [&](const auto& summary) { return summary.statistics.topMean.*score.value; });
+        if (score.key == "F_O") addAttainable(plot, studies);
+        sheet.plots.push_back(std::move(plot));
+    }
+    sheet.legend.push_back({"best", Text::tr("best"), Text::tr("The winner of each generation."), kBest});
+    sheet.legend.push_back({"mean", Text::tr("mean of top 30 %"),
+                            Text::tr("The mean of the best 30 % of each generation."), kMean});
+    sheet.legend.push_back(
+        {"attainable", Text::tr("attainable"),
+         Text::tr("The F_O of a track that turns every part to one orientation. With few trials a track can "
+                  "exceed it by chance."),
+         kAttainable});
+    addStudies(sheet, studies);
+    return sheet;
+}
+
+ChartSheet strategySheet(const std::vector<StudyCurves>& studies) {
+    ChartSheet sheet = makeSheet();
+    PlotSheet plot = makePlot("strategy", Text::tr("Probability, mean of top 30 %"));
+    plot.yScale = Scale::logarithmic;
+    plot.decimals = 4;
+    plot.leastHeight = 1.0;
+    struct Value {
+        QString key;
+        QString name;
+        QString help;
+        CurveStyle style;
+        double evolution::StrategyValues::*value;
+    };
+    const std::vector<Value> values{
+        {"p_x", Text::tr("crossover p_x"), Text::tr("How often a child changes the parent that it copies."),
+         kBest, &evolution::StrategyValues::crossover},
+        {"p_dm", Text::tr("mutation p_dm"),
+         Text::tr("How often points of the surface are changed at random."), kMean,
+         &evolution::StrategyValues::mutation},
+        {"p_s", Text::tr("smoothing p_s"), Text::tr("How often points of the surface are smoothed away."),
+         kThird, &evolution::StrategyValues::smoothing}};
+    for (const Value& value : values) {
+        sheet.legend.push_back({value.key, value.name, value.help, value.style});
+        addCurves(plot, studies, value.key, value.name, value.key, value.style,
+                  [&](const auto& summary) { return summary.statistics.topStrategy.*value.value; });
+    }
+    sheet.plots.push_back(std::move(plot));
+    addStudies(sheet, studies);
+    return sheet;
+}
+
+ChartSheet speedSheet(const std::vector<StudyCurves>& studies) {
+    ChartSheet sheet = makeSheet();
+    PlotSheet plot = makePlot("speed", Text::tr("Simulated trials [1/s]"));
+    plot.yIncluded = {0.0};
+    plot.decimals = 0;
+    plot.leastHeight = 10.0;
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        const StudyCurves& study = studies[i];
+        CurveStyle style = kBest;
+        style.second = i > 0;
+        Curve curve{withStudy(Text::tr("trials per second"), studies, i),
+                    withStudy(Text::tr("Trials per second"), studies, i),
+                    {studyKey(i)},
+                    style,
+                    {}};
+        const std::size_t known = std::min(study.trialsPerSecond.size(), study.summaries.size());
+        for (std::size_t g = 0; g < known; ++g)
+            curve.points.emplace_back(study.summaries[g].index, study.trialsPerSecond[g]);
+        plot.curves.push_back(std::move(curve));
+    }
+    sheet.plots.push_back(std::move(plot));
+    addStudies(sheet, studies);
+    return sheet;
+}
+
+ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
+    ChartSheet sheet = makeSheet();
+    sheet.legend = {
+        {"success", Text::tr("Success"), Text::tr("Parts of each winner that finished as most of them do.")},
+        {"F_O", Text::tr("Orientation"), Text::tr("The winner's F_O on these trials.")},
+        {"F_D", Text::tr("Distance"), Text::tr("The winner's F_D on these trials."), {}, false}};
+
+    PlotSheet success = makePlot("success", Text::tr("Winner's success [%]"));
+    success.yIncluded = {0.0, kPercent};
+    success.decimals = 1;
+    addEngineCurves(success, studies, Text::tr("Success by %1 [%]"),
+                    [](const auto& check, const auto& score) {
+                        return check.trials > 0 ? kPercent * score.oriented / check.trials : 0.0;
+                    });
+    PlotSheet orientation = makePlot("F_O", Text::tr("Winner's F<sub>O</sub> [√rad]"));
+    orientation.yIncluded = {0.0};
+    orientation.leastHeight = 0.1;
+    addEngineCurves(orientation, studies, Text::tr("F_O by %1 [√rad]"),
+                    [](const auto&, const auto& score) { return score.fitness.orientation; });
+    PlotSheet distance = makePlot("F_D", Text::tr("Winner's F<sub>D</sub> [segments]"));
+    distance.yIncluded = {0.0};
+    distance.leastHeight = 0.1;
+    addEngineCurves(distance, studies, Text::tr("F_D by %1 [segments]"),
+                    [](const auto&, const auto& score) { return score.fitness.distance; });
+    sheet.plots = {std::move(success), std::move(orientation), std::move(distance)};
+
+    const auto checked = std::find_if(studies.begin(), studies.end(),
+                                      [](const StudyCurves& study) { return !study.checks.empty(); });
+    if (checked != studies.end()) {
+        const study::CheckRecord& check = checked->checks.front();
+        sheet.legend.push_back({"learning", QString::fromStdString(check.learning.engine),
+                                Text::tr("The engine that learned."), kBest});
+        sheet.legend.push_back({"reference", QString::fromStdString(check.reference.engine),
+                                Text::tr("The reference engine, on the same trials."), kMean});
+    }
+    addStudies(sheet, studies);
+    return sheet;
+}
+
+}  // namespace trapwright::charts

@@ -1,0 +1,117 @@
+#include "ui/models/generation_model.h"
+
+#include <algorithm>
+
+#include "ui/models/numbers.h"
+
+namespace trapwright::models {
+
+namespace {
+
+using Row = GenerationRow;
+
+/// How many of the check's parts finished in the wanted orientation, by one of its engines.
+QVariant successValue(const Row& row, const study::EngineScore study::CheckRecord::*engine) {
+    if (!row.check) return {};
+    return percentValue(((*row.check).*engine).oriented, row.check->trials);
+}
+
+QString successText(const Row& row, const study::EngineScore study::CheckRecord::*engine) {
+    if (!row.check) return {};
+    return percent(((*row.check).*engine).oriented, row.check->trials);
+}
+
+}  // namespace
+
+GenerationModel::GenerationModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
+
+std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
+    return {
+        {tr("Generation"), tr("Counted from 0."), [](const Row& r) { return QVariant(r.summary.index); },
+         [](const Row& r) { return QString::number(r.summary.index); }},
+        {tr("Winner"), tr("Number of the generation's best individual."),
+         [](const Row& r) { return QVariant(r.summary.winner); },
+         [](const Row& r) { return QString::number(r.summary.winner); }},
+        {tr("F"), tr("Fitness of the winner: the sum of its three scores. Higher is better."),
+         [](const Row& r) { return QVariant(r.summary.statistics.best.total()); },
+         [](const Row& r) { return fixed(r.summary.statistics.best.total(), 3); }},
+        {tr("F_C"), tr("Minus the number of the surface's triangles that overlap. 0 is best."),
+         [](const Row& r) { return QVariant(r.summary.statistics.best.collision); },
+         [](const Row& r) { return fixed(r.summary.statistics.best.collision, 0); }},
+        {tr("F_D [segments]"),
+         tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
+         [](const Row& r) { return QVariant(r.summary.statistics.best.distance); },
+         [](const Row& r) { return fixed(r.summary.statistics.best.distance, 3); }},
+        {tr("F_O [√rad]"),
+         tr("How much more alike the parts lie at the end than at the start. Higher is better."),
+         [](const Row& r) { return QVariant(r.summary.statistics.best.orientation); },
+         [](const Row& r) { return fixed(r.summary.statistics.best.orientation, 3); }},
+        {tr("Mean F of top 30 %"), tr("Mean fitness of the best 30 % of the generation."),
+         [](const Row& r) { return QVariant(r.summary.statistics.topMean.total()); },
+         [](const Row& r) { return fixed(r.summary.statistics.topMean.total(), 3); }},
+        {tr("p_x"), tr("Crossover rate: geometric mean of the top 30 %."),
+         [](const Row& r) { return QVariant(r.summary.statistics.topStrategy.crossover); },
+         [](const Row& r) { return fixed(r.summary.statistics.topStrategy.crossover, 4); }},
+        {tr("p_dm"), tr("Dynamic mutation rate: geometric mean of the top 30 %."),
+         [](const Row& r) { return QVariant(r.summary.statistics.topStrategy.mutation); },
+         [](const Row& r) { return fixed(r.summary.statistics.topStrategy.mutation, 4); }},
+        {tr("p_s"), tr("Smoothing rate: geometric mean of the top 30 %."),
+         [](const Row& r) { return QVariant(r.summary.statistics.topStrategy.smoothing); },
+         [](const Row& r) { return fixed(r.summary.statistics.topStrategy.smoothing, 4); }},
+        {tr("Success, learning [%]"),
+         tr("Parts of the winner's check that finished as wanted, in the engine that learned."),
+         [](const Row& r) { return successValue(r, &study::CheckRecord::learning); },
+         [](const Row& r) { return successText(r, &study::CheckRecord::learning); }},
+        {tr("Success, reference [%]"), tr("The same trials in the reference engine."),
+         [](const Row& r) { return successValue(r, &study::CheckRecord::reference); },
+         [](const Row& r) { return successText(r, &study::CheckRecord::reference); }},
+        {tr("Time [s]"), tr("Wall time that the generation took."),
+         [](const Row& r) { return QVariant(r.summary.seconds); },
+         [](const Row& r) { return fixed(r.summary.seconds, 1); }},
+    };
+}
+
+void GenerationModel::setGenerations(const std::vector<study::GenerationSummary>& summaries,
+                                     const std::vector<study::CheckRecord>& checks) {
+    std::vector<GenerationRow> rows;
+    rows.reserve(summaries.size());
+    for (const study::GenerationSummary& summary : summaries)
+        rows.push_back({summary, std::nullopt});
+    reset(std::move(rows));
+    for (const study::CheckRecord& check : checks)
+        setCheck(check);
+}
+
+void GenerationModel::append(const study::GenerationSummary& summary) {
+    appendRow({summary, std::nullopt});
+}
+
+void GenerationModel::setCheck(const study::CheckRecord& check) {
+    const auto found = std::find_if(rows().begin(), rows().end(), [&](const GenerationRow& row) {
+        return row.summary.index == check.generation;
+    });
+    if (found == rows().end()) return;
+    replaceRow(static_cast<int>(found - rows().begin()), {found->summary, check});
+}
+
+QVariant GenerationModel::more(const GenerationRow& row, int column, int role) const {
+    switch (role) {
+        case GenerationRole:
+            return row.summary.index;
+        case IndividualRole:
+            return row.summary.winner;
+        case Qt::ToolTipRole: {
+            const bool learning = column == LearningSuccess;
+            if (!row.check || !(learning || column == ReferenceSuccess)) return {};
+            const study::EngineScore& score = learning ? row.check->learning : row.check->reference;
+            return tr("%1: %2 of %3 parts")
+                .arg(QString::fromStdString(score.engine))
+                .arg(score.oriented)
+                .arg(row.check->trials);
+        }
+        default:
+            return {};
+    }
+}
+
+}  // namespace trapwright::models

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+
+#include "core/study/records.h"
+#include "ui/models/record_model.h"
+
+namespace trapwright::models {
+
+/// A generation with the check of its winner, if that is done.
+struct GenerationRow {
+    study::GenerationSummary summary;
+    std::optional<study::CheckRecord> check;
+};
+
+/// All generations of a study.
+class GenerationModel : public RecordModel<GenerationRow> {
+    Q_OBJECT
+ public:
+    enum Columns {
+        Generation,
+        Individual,
+        Total,
+        Collision,
+        Distance,
+        Orientation,
+        TopTotal,
+        Crossover,
+        Mutation,
+        Smoothing,
+        LearningSuccess,
+        ReferenceSuccess,
+        Seconds
+    };
+
+    explicit GenerationModel(QObject* parent = nullptr);
+
+    void setGenerations(const std::vector<study::GenerationSummary>& summaries,
+                        const std::vector<study::CheckRecord>& checks);
+    void append(const study::GenerationSummary& summary);
+    /// The check of a generation that is there; others are ignored.
+    void setCheck(const study::CheckRecord& check);
+
+ protected:
+    [[nodiscard]] QVariant more(const GenerationRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<GenerationRow>> makeColumns();
+};
+
+}  // namespace trapwright::models

@@ -1,0 +1,99 @@
+#include "ui/models/individual_model.h"
+
+#include <QFont>
+
+#include "ui/models/numbers.h"
+
+namespace trapwright::models {
+
+namespace {
+
+using Row = IndividualRow;
+
+}  // namespace
+
+IndividualModel::IndividualModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
+
+std::vector<Column<IndividualRow>> IndividualModel::makeColumns() {
+    return {
+        {tr("Individual"), tr("Counted from 0; the winner is bold."),
+         [](const Row& r) { return QVariant(r.individual); },
+         [](const Row& r) { return QString::number(r.individual); }},
+        {tr("F"), tr("Fitness: the sum of the three scores. Higher is better."),
+         [](const Row& r) { return QVariant(r.record.fitness.total()); },
+         [](const Row& r) { return fixed(r.record.fitness.total(), 3); }},
+        {tr("F_C"), tr("Minus the number of the surface's triangles that overlap. 0 is best."),
+         [](const Row& r) { return QVariant(r.record.fitness.collision); },
+         [](const Row& r) { return fixed(r.record.fitness.collision, 0); }},
+        {tr("F_D [segments]"),
+         tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
+         [](const Row& r) { return QVariant(r.record.fitness.distance); },
+         [](const Row& r) { return fixed(r.record.fitness.distance, 3); }},
+        {tr("F_O [√rad]"),
+         tr("How much more alike the parts lie at the end than at the start. Higher is better."),
+         [](const Row& r) { return QVariant(r.record.fitness.orientation); },
+         [](const Row& r) { return fixed(r.record.fitness.orientation, 3); }},
+        {tr("Trials"), tr("Simulated trials; 0 if the surface overlaps itself and was not simulated."),
+         [](const Row& r) { return QVariant(r.record.trials); },
+         [](const Row& r) { return QString::number(r.record.trials); }},
+        {tr("Finished"), tr("Parts that passed the finish line."),
+         [](const Row& r) { return QVariant(r.record.finished); },
+         [](const Row& r) { return QString::number(r.record.finished); }},
+        {tr("Stuck"), tr("Parts that got stuck or ran out of time."),
+         [](const Row& r) { return QVariant(r.record.stuck); },
+         [](const Row& r) { return QString::number(r.record.stuck); }},
+        {tr("Fell"), tr("Parts that fell off the track."),
+         [](const Row& r) { return QVariant(r.record.fellOff); },
+         [](const Row& r) { return QString::number(r.record.fellOff); }},
+        {tr("p_x"), tr("Crossover rate of this individual."),
+         [](const Row& r) { return QVariant(r.strategy.crossover); },
+         [](const Row& r) { return fixed(r.strategy.crossover, 4); }},
+        {tr("p_dm"), tr("Dynamic mutation rate of this individual, not below its floor."),
+         [](const Row& r) { return QVariant(r.strategy.mutation); },
+         [](const Row& r) { return fixed(r.strategy.mutation, 4); }},
+        {tr("p_s"), tr("Smoothing rate of this individual, scaled to its limit."),
+         [](const Row& r) { return QVariant(r.strategy.smoothing); },
+         [](const Row& r) { return fixed(r.strategy.smoothing, 4); }},
+    };
+}
+
+void IndividualModel::setGeneration(const study::GenerationRecord& record,
+                                    const evolution::TransitionParameters& bounds) {
+    std::vector<IndividualRow> rows;
+    rows.reserve(record.individuals.size());
+    for (std::size_t i = 0; i < record.individuals.size(); ++i) {
+        const study::IndividualRecord& individual = record.individuals[i];
+        const int number = static_cast<int>(i);
+        rows.push_back(
+            {record.index, number, number == record.winner, individual,
+             evolution::limitStrategy(evolution::decodeStrategy(individual.chromosome.strategy), bounds)});
+    }
+    reset(std::move(rows));
+}
+
+void IndividualModel::clear() {
+    reset({});
+}
+
+QVariant IndividualModel::more(const IndividualRow& row, int, int role) const {
+    switch (role) {
+        case GenerationRole:
+            return row.generation;
+        case IndividualRole:
+            return row.individual;
+        case IsWinnerRole:
+            return row.winner;
+        case Qt::FontRole: {
+            if (!row.winner) return {};
+            QFont font;
+            font.setBold(true);
+            return font;
+        }
+        case Qt::AccessibleDescriptionRole:
+            return row.winner ? tr("Winner of the generation") : QVariant();
+        default:
+            return {};
+    }
+}
+
+}  // namespace trapwright::models

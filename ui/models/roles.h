@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Qt>
+
+namespace trapwright::models {
+
+/// What the models tell beside Qt's own roles.
+enum Role {
+    ValueRole = Qt::UserRole,  // the plain number behind the text, for sorting and CSV
+    GenerationRole,
+    IndividualRole,
+    TrialRole,
+    PoseRole,     // index into the part's stable poses; -1 for a total
+    VerdictRole,  // work::TrialVerdict as int: of the trial, or that the column counts; -1 otherwise
+    IsWinnerRole
+};
+
+}  // namespace trapwright::models

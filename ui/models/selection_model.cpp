@@ -1,0 +1,68 @@
+#include "ui/models/selection_model.h"
+
+#include "ui/models/numbers.h"
+
+namespace trapwright::models {
+
+namespace {
+
+using Row = SelectionRow;
+
+}  // namespace
+
+SelectionModel::SelectionModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
+
+std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
+    return {
+        {tr("Rank"), tr("1 is the best."), [](const Row& r) { return QVariant(r.rank); },
+         [](const Row& r) { return QString::number(r.rank); }},
+        {tr("Generation"), tr("The generation that this track won."),
+         [](const Row& r) { return QVariant(r.entry.generation); },
+         [](const Row& r) { return QString::number(r.entry.generation); }},
+        {tr("Individual"), tr("Its number within the generation."),
+         [](const Row& r) { return QVariant(r.entry.individual); },
+         [](const Row& r) { return QString::number(r.entry.individual); }},
+        {tr("F_D [segments]"),
+         tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
+         [](const Row& r) { return QVariant(r.entry.fitness.distance); },
+         [](const Row& r) { return fixed(r.entry.fitness.distance, 3); }},
+        {tr("F_O [√rad]"),
+         tr("How much more alike the parts lie at the end than at the start. Higher is better."),
+         [](const Row& r) { return QVariant(r.entry.fitness.orientation); },
+         [](const Row& r) { return fixed(r.entry.fitness.orientation, 3); }},
+        {tr("Trials"), tr("Fresh simulated trials."), [](const Row& r) { return QVariant(r.entry.trials); },
+         [](const Row& r) { return QString::number(r.entry.trials); }},
+        {tr("Finished"), tr("Parts that passed the finish line."),
+         [](const Row& r) { return QVariant(r.entry.finished); },
+         [](const Row& r) { return QString::number(r.entry.finished); }},
+        {tr("Success [%]"), tr("Parts that finished in this track's most frequent orientation."),
+         [](const Row& r) { return percentValue(r.entry.oriented, r.entry.trials); },
+         [](const Row& r) { return percent(r.entry.oriented, r.entry.trials); }},
+        {tr("95 % bounds [%]"),
+         tr("Where the true success rate is with 95 % confidence; sorted by the lower bound."),
+         [](const Row& r) { return QVariant(100.0 * r.bounds.low); },
+         [](const Row& r) { return boundsText(r.bounds, r.entry.trials); }},
+    };
+}
+
+void SelectionModel::setSelection(const study::SelectionRecord& record) {
+    std::vector<SelectionRow> rows;
+    rows.reserve(record.entries.size());
+    for (const study::SelectionEntry& entry : record.entries) {
+        rows.push_back({static_cast<int>(rows.size()) + 1, entry,
+                        stats::calcClopperPearson(entry.oriented, entry.trials)});
+    }
+    reset(std::move(rows));
+}
+
+void SelectionModel::clear() {
+    reset({});
+}
+
+QVariant SelectionModel::more(const SelectionRow& row, int, int role) const {
+    if (role == GenerationRole) return row.entry.generation;
+    if (role == IndividualRole) return row.entry.individual;
+    return {};
+}
+
+}  // namespace trapwright::models

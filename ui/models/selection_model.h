@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/stats/binomial.h"
+#include "core/study/records.h"
+#include "ui/models/record_model.h"
+
+namespace trapwright::models {
+
+struct SelectionRow {
+    int rank = 1;
+    study::SelectionEntry entry;
+    stats::Interval bounds;  // 95 % of the success rate (Clopper and Pearson)
+};
+
+/// The winners that were re-simulated, best first.
+class SelectionModel : public RecordModel<SelectionRow> {
+    Q_OBJECT
+ public:
+    enum Columns { Rank, Generation, Individual, Distance, Orientation, Trials, Finished, Success, Bounds };
+
+    explicit SelectionModel(QObject* parent = nullptr);
+
+    void setSelection(const study::SelectionRecord& record);
+    void clear();
+
+ protected:
+    [[nodiscard]] QVariant more(const SelectionRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<SelectionRow>> makeColumns();
+};
+
+}  // namespace trapwright::models

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <QSortFilterProxyModel>
+#include <array>
+#include <optional>
+#include <set>
+
+#include "core/trial/outcome.h"
+#include "core/work/study_trials.h"
+#include "ui/models/record_model.h"
+
+namespace trapwright::models {
+
+struct TrialRow {
+    int trial = 0;  // from 0
+    int pose = -1;  // of the part's stable poses, where the trial began; -1: anyhow
+    work::TrialVerdict verdict = work::TrialVerdict::finished;
+    trial::Outcome outcome;
+    std::optional<double> angle{};  // of the last orientation to the expected one, if it finished [rad]
+};
+
+/// Simulated trials of one individual.
+class TrialModel : public RecordModel<TrialRow> {
+    Q_OBJECT
+ public:
+    enum Columns { Trial, Verdict, Pose, Distance, Angle, Time };
+
+    explicit TrialModel(QObject* parent = nullptr);
+
+    void setTrials(std::vector<TrialRow> rows);
+    [[nodiscard]] int count(work::TrialVerdict verdict) const;
+
+ protected:
+    [[nodiscard]] QVariant more(const TrialRow& row, int column, int role) const override;
+
+ private:
+    static std::vector<Column<TrialRow>> makeColumns();
+};
+
+/// The trials that ended in certain ways; sorts by the numbers behind the texts.
+class TrialFilter : public QSortFilterProxyModel {
+    Q_OBJECT
+ public:
+    explicit TrialFilter(QObject* parent = nullptr);
+
+    /// All four at first.
+    void setVerdicts(std::set<work::TrialVerdict> verdicts);
+    [[nodiscard]] const std::set<work::TrialVerdict>& verdicts() const { return verdicts_; }
+    /// Only trials that began in this pose; none: in any.
+    void setPose(std::optional<int> pose);
+
+ protected:
+    [[nodiscard]] bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+
+ private:
+    std::set<work::TrialVerdict> verdicts_;
+    std::optional<int> pose_;
+};
+
+}  // namespace trapwright::models

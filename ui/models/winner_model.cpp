@@ -1,0 +1,80 @@
+#include "ui/models/winner_model.h"
+
+#include <algorithm>
+
+#include "ui/models/numbers.h"
+#include "ui/models/roles.h"
+
+namespace trapwright::models {
+
+WinnerModel::WinnerModel(QObject* parent) : QAbstractListModel(parent) {}
+
+void WinnerModel::setWinners(std::vector<study::Winner> winners) {
+    beginResetModel();
+    winners_ = std::move(winners);
+    pictures_.clear();
+    endResetModel();
+}
+
+void WinnerModel::append(study::Winner winner) {
+    const int at = rowCount();
+    beginInsertRows({}, at, at);
+    winners_.push_back(std::move(winner));
+    endInsertRows();
+}
+
+void WinnerModel::setPicture(int generation, const QPixmap& picture) {
+    const int row = rowOf(generation);
+    if (row < 0) return;
+    pictures_[generation] = picture;
+    emit dataChanged(index(row), index(row), {Qt::DecorationRole});
+}
+
+const study::Winner* WinnerModel::winnerAt(int row) const {
+    return row >= 0 && row < rowCount() ? &winners_[static_cast<std::size_t>(row)] : nullptr;
+}
+
+int WinnerModel::rowOf(int generation) const {
+    const auto found =
+        std::lower_bound(winners_.begin(), winners_.end(), generation,
+                         [](const study::Winner& winner, int wanted) { return winner.generation < wanted; });
+    if (found == winners_.end() || found->generation != generation) return -1;
+    return static_cast<int>(found - winners_.begin());
+}
+
+int WinnerModel::rowCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : static_cast<int>(winners_.size());
+}
+
+QVariant WinnerModel::data(const QModelIndex& index, int role) const {
+    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) return {};
+    const study::Winner& winner = winners_[static_cast<std::size_t>(index.row())];
+    const study::IndividualRecord& record = winner.record;
+    switch (role) {
+        case Qt::DisplayRole:
+            return QString::number(winner.generation);
+        case Qt::ToolTipRole:
+        case Qt::AccessibleTextRole:
+            return tr("Generation %1: F %2, %3 of %4 parts finished")
+                .arg(winner.generation)
+                .arg(fixed(record.fitness.total(), 3))
+                .arg(record.finished)
+                .arg(record.trials);
+        case Qt::DecorationRole: {
+            const auto found = pictures_.find(winner.generation);
+            return found == pictures_.end() ? QVariant() : QVariant(found->second);
+        }
+        case Qt::TextAlignmentRole:
+            return static_cast<int>(Qt::AlignCenter);
+        case ValueRole:
+            return record.fitness.total();
+        case GenerationRole:
+            return winner.generation;
+        case IndividualRole:
+            return winner.individual;
+        default:
+            return {};
+    }
+}
+
+}  // namespace trapwright::models

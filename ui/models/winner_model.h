@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QAbstractListModel>
+#include <QPixmap>
+#include <map>
+#include <vector>
+
+#include "core/study/records.h"
+
+namespace trapwright::models {
+
+/// The film strip: the winner of every generation, oldest first, with a picture once there is one.
+class WinnerModel : public QAbstractListModel {
+    Q_OBJECT
+ public:
+    explicit WinnerModel(QObject* parent = nullptr);
+
+    void setWinners(std::vector<study::Winner> winners);
+    void append(study::Winner winner);
+    /// Shown as decoration. Forgotten by setWinners.
+    void setPicture(int generation, const QPixmap& picture);
+    [[nodiscard]] bool hasPicture(int generation) const { return pictures_.contains(generation); }
+
+    [[nodiscard]] const std::vector<study::Winner>& winners() const { return winners_; }
+    /// Null if there is none in this row.
+    [[nodiscard]] const study::Winner* winnerAt(int row) const;
+    /// The row of a generation; -1 if it is not there.
+    [[nodiscard]] int rowOf(int generation) const;
+
+    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
+
+ private:
+    std::vector<study::Winner> winners_;
+    std::map<int, QPixmap> pictures_;
+};
+
+}  // namespace trapwright::models
