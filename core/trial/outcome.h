@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/trial/contact_force.h"
 
 namespace trapwright::trial {
 
@@ -32,6 +33,7 @@ struct TrajectorySample {
     base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
     int contacts = 0;                                 // that carried an impulse in the step before
+    std::vector<ContactForce> forces;  // of these, mean over that step; if the engine has no steps, now
 };
 
 struct Trajectory {

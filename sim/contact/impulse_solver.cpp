@@ -1,7 +1,6 @@
 #include "sim/contact/impulse_solver.h"
 
 #include <Eigen/Cholesky>
-#include <array>
 
 #include "sim/contact/manifold.h"
 
@@ -56,11 +55,10 @@ StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& be
     points_.clear();
     for (const StepContact& contact : contacts)
         points_.push_back({contact.arm, contact.normal, contact.gap});
-    std::array<int, kMaxContacts> kept{};
-    const int count = thinOut(points_, kept);
+    const int count = thinOut(points_, kept_);
     rows_.resize(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
-        scalar::prepareRow(rows_[i], describe(contacts[kept[i]]), turns, scaledBefore, scaledFree, pair, dt);
+        scalar::prepareRow(rows_[i], describe(contacts[kept_[i]]), turns, scaledBefore, scaledFree, pair, dt);
 
     const scalar::Motion after = scalar::solve(rows_.data(), count, scaledFree);
     StepResult result;
@@ -73,8 +71,21 @@ StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& be
         result.carrying += row.normal > 0.0 ? 1 : 0;
         // The impulse of an impact says nothing about the next step's.
         const bool impact = row.target > 0.0;
-        remembered_.push_back({contacts[kept[i]].feature, impact ? 0.0 : row.normal,
+        remembered_.push_back({contacts[kept_[i]].feature, impact ? 0.0 : row.normal,
                                impact ? scalar::Pair{0.0, 0.0} : row.tangential, row.sliding});
+    }
+    return result;
+}
+
+std::vector<ContactImpulse> ImpulseSolver::impulses(double mass) const {
+    std::vector<ContactImpulse> result;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const scalar::Row& row = rows_[i];
+        if (row.normal <= 0.0) continue;
+        const Vec3 perMass = row.normal * fromTriple(row.axis[0]) +
+                             row.tangential.x * fromTriple(row.axis[1]) +
+                             row.tangential.y * fromTriple(row.axis[2]);
+        result.push_back({kept_[i], mass * perMass});
     }
     return result;
 }

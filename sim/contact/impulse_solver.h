@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,12 @@ struct StepContact {
     std::uint64_t feature;
 };
 
+/// What one contact gave the part in a step.
+struct ContactImpulse {
+    int contact;         // index into the contacts of the step
+    base::Vec3 impulse;  // room axes [N s]
+};
+
 /// What a step does to a part.
 struct StepResult {
     BodyMotion motion;   // after the step's impulses
@@ -53,6 +60,10 @@ class ImpulseSolver {
     StepResult solve(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
                      const std::vector<StepContact>& contacts, const SurfaceLaw& law, double dt);
 
+    /// The impulse that each contact of the last solve gave a part of this mass [kg]; for contacts that stand
+    /// for others, theirs too.
+    [[nodiscard]] std::vector<ContactImpulse> impulses(double mass) const;
+
     /// Forgets all impulses: the part no longer touches anything.
     void release() { remembered_.clear(); }
     [[nodiscard]] bool released() const { return remembered_.empty(); }
@@ -70,6 +81,7 @@ class ImpulseSolver {
     [[nodiscard]] scalar::Touch describe(const StepContact& contact) const;
 
     std::vector<scalar::Row> rows_;
+    std::array<int, kMaxContacts> kept_{};  // which contact each row is of
     std::vector<ManifoldPoint> points_;
     std::vector<Remembered> remembered_;
 };

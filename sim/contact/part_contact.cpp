@@ -59,4 +59,14 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
     return result;
 }
 
+std::vector<trial::ContactForce> PartContact::forces(double mass) const {
+    std::vector<trial::ContactForce> result;
+    if (points_.empty()) return result;
+    // The track has moved on since.
+    for (const ContactImpulse& given : solver_.impulses(mass))
+        result.push_back(
+            {points_[static_cast<std::size_t>(given.contact)].point, before_.turnBack(given.impulse) / dt_});
+    return result;
+}
+
 }  // namespace trapwright::contact

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/trial/costs.h"
+#include "core/trial/outcome.h"
 #include "sim/contact/detector.h"
 #include "sim/contact/drive_motion.h"
 #include "sim/contact/impulse_solver.h"
@@ -24,6 +25,8 @@ class PartContact {
 
     /// The part's pose relative to the track at the step that step() would take next.
     [[nodiscard]] base::Pose poseInTrack(const base::Pose& pose) const { return now_.toTrack(pose); }
+    /// What the contacts of the last step did to a part of this mass [kg], mean over the step.
+    [[nodiscard]] std::vector<trial::ContactForce> forces(double mass) const;
     /// Contacts of the last step.
     [[nodiscard]] const std::vector<ContactPoint>& contacts() const { return points_; }
 

@@ -98,6 +98,12 @@ struct FoundContact {
     std::uint64_t feature;
 };
 
+/// What a contact of the last step gave the part in lane 0, per mass.
+struct RecordedImpulse {
+    base::Vec3 arm;      // from the centre of mass, in the track's axes [m]
+    base::Vec3 impulse;  // room axes [m/s]
+};
+
 /// The contacts of one part: writing comes first, counting after.
 class FoundContacts {
  public:
@@ -184,8 +190,9 @@ class Herd {
     std::vector<Memory> memory;
     std::vector<SolveBatch> solveBatches;
     FoundContacts found;
-    trial::CostLaps* laps = nullptr;    // if the costs are to be told apart
-    std::vector<std::int32_t> looking;  // lanes that may have contacts in this step
+    trial::CostLaps* laps = nullptr;                   // if the costs are to be told apart
+    std::vector<RecordedImpulse>* recorded = nullptr;  // if they are wanted, of a herd of one
+    std::vector<std::int32_t> looking;                 // lanes that may have contacts in this step
 
  private:
     const HerdModel* model_;

@@ -194,16 +194,27 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
     const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].start.phase);
     RunningTrials trials(model, 1);
     trials.add(std::make_shared<const Scene>(batch), 0, index);
+    std::vector<RecordedImpulse> recorded;
+    trials.herd().recorded = &recorded;
+    std::vector<trial::ContactForce> forces;
     trial::Trajectory trajectory;
     while (true) {
         if (control.cancelled()) return base::Error{"The replay was cancelled."};
         const bool ended = trials.hasEnded(0);
         beginStep(trials.herd());
-        const trial::TrajectorySample sample = sampleOf(trials, drive);
+        trial::TrajectorySample sample = sampleOf(trials, drive);
+        sample.forces = forces;
         if (ended || sample.time + 0.5 * step_ >= static_cast<double>(trajectory.samples.size()) * interval)
             trajectory.samples.push_back(sample);
         if (ended) break;
+        recorded.clear();
+        const base::Vec3 centre = trials.herd().poseInTrack(0).position;
+        const contact::TrackPlacement placement = drive.placement(trials.time(0));
         trials.finish();
+        const double rate = batch.part->massProperties.mass / step_;
+        forces.clear();
+        for (const RecordedImpulse& given : recorded)
+            forces.push_back({centre + given.arm, rate * placement.turnBack(given.impulse)});
     }
     trajectory.outcome = trials.run(0).progress.outcome();
     control.advance(1);

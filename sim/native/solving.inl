@@ -152,6 +152,23 @@ inline void remember(Herd& herd, const SolveBatch& batch, const Row* rows) {
     }
 }
 
+/// Keeps what the contacts of the batch's first lane gave.
+inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, const Row* rows) {
+    for (int r = 0; r < batch.rows; ++r) {
+        const Row& row = rows[r];
+        const Triple impulse =
+            row.normal * row.axis[0] + row.tangential.x * row.axis[1] + row.tangential.y * row.axis[2];
+        alignas(64) float values[4][kWidestVector];
+        store(row.normal, values[0]);
+        store(impulse.x, values[1]);
+        store(impulse.y, values[2]);
+        store(impulse.z, values[3]);
+        if (values[0][0] <= 0.0F) continue;
+        recorded.push_back({{batch.touch(r, kArmX)[0], batch.touch(r, kArmY)[0], batch.touch(r, kArmZ)[0]},
+                            {values[1][0], values[2][0], values[3][0]}});
+    }
+}
+
 /// Solves all lanes of a batch and empties it.
 inline void solveBatch(Herd& herd, SolveBatch& batch) {
     // Slots that are left over do what the first one does, without its contacts.
@@ -186,6 +203,7 @@ inline void solveBatch(Herd& herd, SolveBatch& batch) {
     scatterThree(herd, batch, kAdvanceX, advance.velocity);
     scatterThree(herd, batch, kAdvanceSpinX, scaling.unscale(advance.spin));
     remember(herd, batch, rows);
+    if (herd.recorded != nullptr) record(*herd.recorded, batch, rows);
     batch.filled = 0;
 }
 

@@ -38,9 +38,10 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
         running.advanceTo(time);
         if (sampling) {
             const contact::BodyMotion motion = running.motion();
-            trajectory.samples.push_back(
-                {time, running.pose(), progress.toTrackCoordinates(running.poseInTrack()),
-                 drive.displacement(time), motion.velocity, motion.angularVelocity, running.contacts()});
+            trajectory.samples.push_back({time, running.pose(),
+                                          progress.toTrackCoordinates(running.poseInTrack()),
+                                          drive.displacement(time), motion.velocity, motion.angularVelocity,
+                                          static_cast<int>(running.forces().size()), running.forces()});
             continue;
         }
         ++checks;

@@ -54,7 +54,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
         const SimTK::MobilizedBody& track = matter_.getMobilizedBody(track_);
         const SimTK::MobilizedBody& part = matter_.getMobilizedBody(part_);
         const SimTK::Transform& trackInRoom = track.getBodyTransform(state);
-        pressing_ = 0;
+        pressing_.clear();
         for (const contact::ContactPoint& point : findContacts(state)) {
             if (point.gap >= 0.0) continue;
             const SimTK::Vec3 place = trackInRoom * toSimbody(point.point);
@@ -68,12 +68,12 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
             const double approach = known == approach_.end() ? std::max(-speed, 0.0) : known->second;
             const double pressure = contact::calcNormalForce(-point.gap, -speed, approach, damping_);
             if (pressure <= 0.0) continue;
-            ++pressing_;
             const SimTK::Vec3 slip = relative - speed * normal;
             const SimTK::Vec3 force =
                 pressure * normal - pressure * contact::calcFrictionRatio(slip.norm(), law_) * slip;
             part.applyForceToBodyPoint(state, onPart, force, bodyForces);
             track.applyForceToBodyPoint(state, onTrack, -force, bodyForces);
+            pressing_.push_back({point.point, fromSimbody(SimTK::Vec3(~trackInRoom.R() * force))});
         }
     }
 
@@ -101,7 +101,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
         approach_ = std::move(approach);
     }
 
-    [[nodiscard]] int pressing() const { return pressing_; }
+    [[nodiscard]] const std::vector<trial::ContactForce>& pressing() const { return pressing_; }
 
     [[nodiscard]] base::Pose poseInTrack(const SimTK::State& state) const {
         return fromSimbody(~matter_.getMobilizedBody(track_).getBodyTransform(state) *
@@ -128,7 +128,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
     mutable contact::Detector detector_;
     mutable base::Pose lastPose_;
     mutable std::vector<contact::ContactPoint> points_;
-    mutable int pressing_ = 0;
+    mutable std::vector<trial::ContactForce> pressing_;
 };
 
 /// The vibrating track as a body with prescribed motion.
@@ -229,7 +229,7 @@ contact::BodyMotion CertifyingTrial::motion() const {
             fromSimbody(model_->part.getBodyAngularVelocity(state))};
 }
 
-int CertifyingTrial::contacts() const {
+const std::vector<trial::ContactForce>& CertifyingTrial::forces() const {
     return model_->contactForce->pressing();
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/track/feeder_shape.h"
+#include "core/trial/contact_force.h"
 #include "core/trial/drive.h"
 #include "sim/contact/contact_body.h"
 #include "sim/contact/contact_track.h"
@@ -40,7 +41,7 @@ class CertifyingTrial {
     [[nodiscard]] base::Pose pose() const;  // part frame to room
     [[nodiscard]] base::Pose poseInTrack() const;
     [[nodiscard]] contact::BodyMotion motion() const;
-    [[nodiscard]] int contacts() const;  // that press
+    [[nodiscard]] const std::vector<trial::ContactForce>& forces() const;  // of the contacts that press
 
  private:
     struct Model;

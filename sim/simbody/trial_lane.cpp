@@ -60,6 +60,7 @@ trial::TrajectorySample TrialLane::sample(const FreeBodies& bodies, int slot) co
     sample.velocity = motion.velocity;
     sample.angularVelocity = motion.angularVelocity;
     sample.contacts = carrying_;
+    if (steps_ > 0) sample.forces = contact_.forces(1.0 / bodies.inverseMass());
     return sample;
 }
 

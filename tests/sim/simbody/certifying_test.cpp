@@ -84,7 +84,7 @@ class CertifyingTest : public QObject {
             for (const Vec3& point : {Vec3(0.0, 0.0, 0.0), Vec3(0.1, 0.0, 0.0), Vec3(0.0, 0.1, 0.1)})
                 QVERIFY((expected.apply(point) - got.apply(point)).norm() < 1e-9);
         }
-        QCOMPARE(running.contacts(), 0);
+        QVERIFY(running.forces().empty());
     }
 
     void aBounceAgrees_data() {
