@@ -21,34 +21,35 @@ namespace trapwright::pages {
 
 namespace {
 
-/// Counts of failures that are links to their trials.
-bool isLink(const QModelIndex& index) {
-    const QVariant verdict = index.data(models::VerdictRole);
-    return verdict.isValid() && verdict.toInt() >= 0 && index.data(models::ValueRole).toInt() > 0;
+bool isLink(const QModelIndex& index, const QSet<int>& columns) {
+    return columns.contains(index.column()) && index.data(models::ValueRole).toInt() > 0;
 }
 
 class LinkDelegate : public QStyledItemDelegate {
  public:
-    using QStyledItemDelegate::QStyledItemDelegate;
+    LinkDelegate(const QSet<int>& columns, QObject* parent) : QStyledItemDelegate(parent), columns_(columns) {}
 
  protected:
     void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
         QStyledItemDelegate::initStyleOption(option, index);
-        if (!isLink(index)) return;
+        if (!isLink(index, columns_)) return;
         option->font.setUnderline(true);
         option->palette.setColor(QPalette::Text, option->palette.color(QPalette::Link));
     }
+
+ private:
+    const QSet<int> columns_;
 };
 
 /// Shows a hand over links.
 class LinkTable : public QTableView {
  public:
-    using QTableView::QTableView;
+    QSet<int> columns;
 
  protected:
     void mouseMoveEvent(QMouseEvent* event) override {
-        viewport()->setCursor(isLink(indexAt(event->position().toPoint())) ? Qt::PointingHandCursor
-                                                                             : Qt::ArrowCursor);
+        const bool link = isLink(indexAt(event->position().toPoint()), columns);
+        viewport()->setCursor(link ? Qt::PointingHandCursor : Qt::ArrowCursor);
         QTableView::mouseMoveEvent(event);
     }
 };
@@ -74,7 +75,6 @@ ResultTable::ResultTable(const QString& name, const QString& title, QAbstractIte
     view_->setObjectName(name + ".table");
     view_->setAccessibleName(title);
     view_->setModel(&model_);
-    view_->setItemDelegate(new LinkDelegate(view_));
     view_->setMouseTracking(true);
     view_->setSelectionMode(QAbstractItemView::SingleSelection);
     view_->setShowGrid(false);
@@ -113,6 +113,11 @@ void ResultTable::setHead(const QString& text) {
 
 void ResultTable::setEmptyText(const QString& text) {
     empty_->setText(text);
+}
+
+void ResultTable::setLinkColumns(const QSet<int>& columns) {
+    static_cast<LinkTable*>(view_)->columns = columns;
+    view_->setItemDelegate(new LinkDelegate(columns, view_));
 }
 
 void ResultTable::showEmpty() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QSet>
 #include <QWidget>
 
 class QAbstractItemModel;
@@ -12,7 +13,7 @@ class QTableView;
 namespace trapwright::pages {
 
 /// A table of results with a sentence above it and actions beside that; while it is empty, it says what to do.
-/// Counts of failures (models::VerdictRole) look and work like links.
+/// Numbers in some columns look and work like links, unless they are 0.
 class ResultTable : public QWidget {
     Q_OBJECT
  public:
@@ -20,6 +21,7 @@ class ResultTable : public QWidget {
 
     void setHead(const QString& text);
     void setEmptyText(const QString& text);
+    void setLinkColumns(const QSet<int>& columns);
     /// Where actions go, right of the sentence.
     [[nodiscard]] QHBoxLayout& headRow() { return *head_; }
     [[nodiscard]] QTableView& view() { return *view_; }

@@ -73,6 +73,8 @@ void ReviewPage::addTables() {
     connect(selectionTable_.get(), &ResultTable::cellChosen, this, [this](const QModelIndex& index) {
         choice_->setWinner(index.data(models::GenerationRole).toInt(), index.data(models::IndividualRole).toInt());
     });
+    validationTable_->setLinkColumns({ValidationModel::Failures, ValidationModel::WrongOrientation,
+                                      ValidationModel::Stuck, ValidationModel::FellOff});
     connect(validationTable_.get(), &ResultTable::cellChosen, this, &ReviewPage::goToFailures);
     for (ResultTable* table : {selectionTable_.get(), validationTable_.get()})
         connect(table, &ResultTable::failed, this, &Page::failed);
