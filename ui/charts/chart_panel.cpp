@@ -57,9 +57,9 @@ ChartPanel::ChartPanel(const QString& name, const QString& title, QWidget* paren
     empty_->setForegroundRole(QPalette::PlaceholderText);
     legend_->setTheme(theme_);
 
-    savePicture_ = addPanelAction(tr("Save picture …"), QKeySequence::Save, &ChartPanel::askAndSavePicture);
+    savePicture_ = addPanelAction(tr("Save picture..."), QKeySequence::Save, &ChartPanel::askAndSavePicture);
     saveCsv_ =
-        addPanelAction(tr("Save numbers as CSV …"), QKeySequence("Ctrl+E"), &ChartPanel::askAndSaveCsv);
+        addPanelAction(tr("Save numbers as CSV..."), QKeySequence("Ctrl+E"), &ChartPanel::askAndSaveCsv);
     copyPicture_ = addPanelAction(tr("Copy picture"), QKeySequence::Copy, &ChartPanel::copyPicture);
     auto* menu = new QMenu(this);
     menu->addActions({savePicture_, saveCsv_, copyPicture_});
@@ -126,7 +126,6 @@ void ChartPanel::changeEvent(QEvent* event) {
 QImage ChartPanel::picture(QSize size, double devicePixelRatio) {
     QImage image(size * devicePixelRatio, QImage::Format_RGB32);
     image.setDevicePixelRatio(devicePixelRatio);
-    image.fill(Qt::white);
     QPainter painter(&image);
     paintPicture(painter, size);
     return image;
@@ -138,6 +137,7 @@ void ChartPanel::paintPicture(QPainter& painter, QSize size) {
     legend_->setTheme(paper);
     applyTheme(paper);
     painter.setRenderHint(QPainter::Antialiasing);
+    painter.fillRect(QRect(QPoint(0, 0), size), paper.background);
     QFont titleFont = font();
     titleFont.setBold(true);
     painter.setFont(titleFont);

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "ui/palette/okabe_ito.h"
+#include "ui/look/okabe_ito.h"
 
 namespace trapwright::charts {
 
@@ -31,7 +31,7 @@ ChartTheme makeTheme(const QColor& background, const QColor& text) {
 
 /// What has little contrast to the background comes last: it fills bars, but is no line.
 const std::array<QColor, kColours>& coloursOn(bool dark) {
-    using namespace palette;
+    using namespace look;
     static const std::array<QColor, kColours> light{kBlue,   kVermillion, kBluishGreen, kReddishPurple,
                                                     kOrange, kSkyBlue,    kYellow};
     static const std::array<QColor, kColours> onDark{kSkyBlue, kOrange,     kBluishGreen, kReddishPurple,

@@ -61,6 +61,7 @@ std::vector<double> percentages(const std::vector<Piece>& pieces, int Piece::*co
 }
 
 const CurveStyle kStart{SeriesColour::neutral, Qt::DashLine, Marker::square};
+const CurveStyle kTolerance{SeriesColour::neutral, Qt::DotLine, Marker::none};
 const CurveStyle kFinish{SeriesColour::first, Qt::SolidLine, Marker::circle};
 
 }  // namespace
@@ -115,6 +116,9 @@ void OrientationChart::update() {
     }
     entries.push_back({"start", tr("start"), tr("As parts are put on the lead-in."), kStart, true, true});
     entries.push_back({"finish", tr("finish"), tr("As parts pass the finish line."), kFinish, true, true});
+    entries.push_back({"tolerance", tr("tolerance %1°").arg(tolerance_ / base::kDegree, 0, 'g', 3),
+                       tr("Parts that finish within this angle count as successes."), kTolerance, true,
+                       true});
     legend()->setEntries(entries);
     bars_->setBars({{tr("start"), percentages(pieces, &Piece::start)},
                     {tr("finish"), percentages(pieces, &Piece::finish)}},
@@ -126,8 +130,7 @@ void OrientationChart::update() {
     plot.decimals = 1;
     plot.yIncluded = {0.0, kPercent};
     plot.leastWidth = kHalfTurn;
-    plot.mark = XMark{tolerance_ / base::kDegree,
-                      tr("tolerance %1°").arg(QString::number(tolerance_ / base::kDegree, 'g', 3))};
+    plot.mark = XMark{tolerance_ / base::kDegree, kTolerance};
     plot.curves = {
         {tr("start"), tr("Start within [%]"), {"start"}, kStart, cumulate(shares_.startAngles)},
         {tr("finish"), tr("Finish within [%]"), {"finish"}, kFinish, cumulate(shares_.finishAngles)}};

@@ -84,11 +84,8 @@ void Plot::paintMark(QPainter& painter) const {
     if (!sheet_.mark || !x_.contains(sheet_.mark->x)) return;
     const QRectF area = plotArea();
     const double x = area.left() + (sheet_.mark->x - x_.low) / x_.size() * area.width();
-    painter.setPen(QPen(theme_.faintText, 1.0, Qt::DashLine));
+    painter.setPen(curvePen(sheet_.mark->style, theme_));
     painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
-    painter.setPen(theme_.faintText);
-    painter.drawText(QRectF(x + 4.0, area.top(), area.right() - x - 4.0, area.height()),
-                     Qt::AlignLeft | Qt::AlignVCenter, sheet_.mark->text);
 }
 
 void Plot::paintMarkers(QPainter& painter, std::size_t curve) const {

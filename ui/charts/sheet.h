@@ -37,7 +37,7 @@ struct Curve {
 /// A place on the x axis that means something.
 struct XMark {
     double x = 0.0;
-    QString text;
+    CurveStyle style;
 };
 
 struct PlotSheet {

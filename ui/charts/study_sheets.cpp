@@ -43,11 +43,12 @@ void addCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const Q
     }
 }
 
-void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies) {
+/// `colour`: that of the curves, if all have the same.
+void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies,
+                SeriesColour colour = SeriesColour::neutral) {
     if (studies.size() < 2) return;
     for (std::size_t i = 0; i < studies.size(); ++i) {
-        CurveStyle style = kBest;
-        style.second = i > 0;
+        const CurveStyle style{colour, Qt::SolidLine, Marker::circle, i > 0};
         sheet.legend.push_back({studyKey(i), studies[i].name,
                                 Text::tr("The curves of the study %1.").arg(studies[i].name), style});
     }
@@ -189,6 +190,7 @@ ChartSheet strategySheet(const std::vector<StudyCurves>& studies) {
     PlotSheet plot = makePlot("strategy", Text::tr("Probability, mean of top 30 %"));
     plot.yScale = Scale::logarithmic;
     plot.decimals = 4;
+    plot.yIncluded = {1.0};
     plot.leastHeight = 1.0;
     struct Value {
         QString key;
@@ -236,7 +238,7 @@ ChartSheet speedSheet(const std::vector<StudyCurves>& studies) {
         plot.curves.push_back(std::move(curve));
     }
     sheet.plots.push_back(std::move(plot));
-    addStudies(sheet, studies);
+    addStudies(sheet, studies, kBest.colour);
     return sheet;
 }
 

@@ -5,7 +5,7 @@
 #include <QPainter>
 #include <QPainterPath>
 
-#include "ui/palette/okabe_ito.h"
+#include "ui/look/okabe_ito.h"
 
 namespace trapwright::models {
 
@@ -102,13 +102,13 @@ QString verdictText(TrialVerdict verdict) {
 QColor verdictColour(TrialVerdict verdict) {
     switch (verdict) {
         case TrialVerdict::finished:
-            return palette::kBluishGreen;
+            return look::kBluishGreen;
         case TrialVerdict::wrongOrientation:
-            return palette::kOrange;
+            return look::kOrange;
         case TrialVerdict::stuck:
-            return palette::kReddishPurple;
+            return look::kReddishPurple;
         case TrialVerdict::fellOff:
-            return palette::kVermillion;
+            return look::kVermillion;
     }
     return {};
 }

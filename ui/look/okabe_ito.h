@@ -4,7 +4,7 @@
 
 /// Eight colours that people with any kind of colour vision tell apart (Okabe and Ito 2008), for series and
 /// outcomes. Never the only difference: a dash, a marker, a glyph or a word goes with it.
-namespace trapwright::palette {
+namespace trapwright::look {
 
 inline const QColor kBlack{0x00, 0x00, 0x00};
 inline const QColor kOrange{0xE6, 0x9F, 0x00};
@@ -15,4 +15,4 @@ inline const QColor kBlue{0x00, 0x72, 0xB2};
 inline const QColor kVermillion{0xD5, 0x5E, 0x00};
 inline const QColor kReddishPurple{0xCC, 0x79, 0xA7};
 
-}  // namespace trapwright::palette
+}  // namespace trapwright::look
