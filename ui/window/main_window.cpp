@@ -34,6 +34,7 @@ bool isStudy(const std::filesystem::path& file) {
 
 MainWindow::MainWindow(session::Environment environment)
     : desk_(std::move(environment), nullptr),
+      run_(this),
       undo_(new QUndoGroup(this)),
       pages_(makePages(run_)),
       frame_(new SceneFrame(this)),

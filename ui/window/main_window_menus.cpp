@@ -58,7 +58,8 @@ void MainWindow::addFileMenu() {
         addItem(examples, "example." + name, {}, text, {}, this, [this, name] { openExample(name, false); });
     }
     menu.addSeparator();
-    studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."), QKeySequence::SaveAs, this,
+    studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."),
+                             QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S), this,
                              [this] { askForSaveAs([] {}); });
     studyActions_ << addItem(menu, "file.close", "close", tr("&Close study"), QKeySequence(Qt::CTRL | Qt::Key_W), this,
                              [this] { whenClosable([this] { desk_.close(true); }); });
