@@ -73,6 +73,18 @@ TrialReview::~TrialReview() {
         if (widget != nullptr && widget->parent() == nullptr) delete widget;
 }
 
+TrialList* TrialReview::list() const {
+    return list_;
+}
+
+TransportBar* TrialReview::bar() const {
+    return bar_;
+}
+
+charts::OrientationChart* TrialReview::orientation() const {
+    return orientation_;
+}
+
 void TrialReview::setSession(StudySession* session) {
     if (session_) session_->disconnect(this);
     session_ = session;

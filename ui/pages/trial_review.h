@@ -32,9 +32,9 @@ class TrialReview : public QObject {
     ~TrialReview() override;
 
     /// Widgets for their places in the window, which owns them from then on.
-    [[nodiscard]] TrialList* list() { return list_; }
-    [[nodiscard]] TransportBar* bar() { return bar_; }
-    [[nodiscard]] charts::OrientationChart* orientation() { return orientation_; }
+    [[nodiscard]] TrialList* list() const;
+    [[nodiscard]] TransportBar* bar() const;
+    [[nodiscard]] charts::OrientationChart* orientation() const;
     [[nodiscard]] ReplayPlayer& player() { return player_; }
     [[nodiscard]] const ReplayScene& scene() const { return scene_; }
 
