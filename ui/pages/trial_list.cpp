@@ -101,7 +101,6 @@ QWidget* TrialList::makeChips() {
         chip->setCheckable(true);
         chip->setChecked(true);
         chip->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-        chip->setToolTip(tr("List the trials that ended so"));
         connect(chip, &QToolButton::clicked, this, &TrialList::applyChips);
         chips_.insert(static_cast<int>(verdict), chip);
         grid->addWidget(chip, place / 2, place % 2);
@@ -180,9 +179,12 @@ void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {
 
 void TrialList::showCounts(int wanted) {
     for (const work::TrialVerdict verdict : models::kVerdicts) {
-        const QString text = tr("%1 %2").arg(QLocale().toString(model_.count(verdict)), models::verdictText(verdict));
-        chips_[static_cast<int>(verdict)]->setText(text);
-        chips_[static_cast<int>(verdict)]->setAccessibleName(text);
+        const QString count = QLocale().toString(model_.count(verdict));
+        const QString text = tr("%1 %2").arg(count, models::verdictText(verdict));
+        QToolButton& chip = *chips_[static_cast<int>(verdict)];
+        chip.setText(verdict == work::TrialVerdict::wrongOrientation ? tr("%1 wrong").arg(count) : text);
+        chip.setAccessibleName(text);
+        chip.setToolTip(tr("%1: list them").arg(text));
     }
     const int done = model_.rowCount();
     busy_->setVisible(done < wanted);
