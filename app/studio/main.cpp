@@ -43,7 +43,8 @@ int main(int argc, char** argv) {
     parser.setApplicationDescription(QApplication::tr("Designs tracks for vibratory part feeders."));
     parser.addHelpOption();
     parser.addVersionOption();
-    const QCommandLineOption shortcuts("shortcuts", QApplication::tr("Print the table of keyboard shortcuts and end."));
+    const QCommandLineOption shortcuts("shortcuts",
+                                       QApplication::tr("Print the table of keyboard shortcuts and end."));
     parser.addOption(shortcuts);
     parser.addPositionalArgument("file", QApplication::tr("A study to open, or a part to import."), "[file]");
     parser.process(application);
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
         return 0;
     }
     window.show();
-    if (!parser.positionalArguments().isEmpty()) window.openFile(toPath(parser.positionalArguments().front()));
+    if (!parser.positionalArguments().isEmpty())
+        window.openFile(toPath(parser.positionalArguments().front()));
     return QApplication::exec();
 }

@@ -58,8 +58,8 @@ class StudyFile {
     /// Replaces the settings. Once a generation is saved only the number of generations and what concerns
     /// selection and validation may change, because the stored scores belong to the rest.
     base::Status changeSettings(const study::Settings& settings);
-    /// Replaces the part, and the settings with it, which tell where it comes from. An error once a generation
-    /// is saved.
+    /// Replaces the part, and the settings with it, which tell where it comes from. An error once a
+    /// generation is saved.
     base::Status changePart(const StoredPart& part, const study::Settings& settings);
 
     /// Copies all that is saved to a new study. Nothing is left behind on failure. An error if the path

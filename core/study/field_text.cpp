@@ -35,7 +35,9 @@ class FieldLister {
         for (const auto& [name, value] : choices)
             info.choices.emplace_back(name);
     }
-    void rotation(std::string_view key, const std::optional<base::Quaternion>&) { add(key, FieldKind::rotation); }
+    void rotation(std::string_view key, const std::optional<base::Quaternion>&) {
+        add(key, FieldKind::rotation);
+    }
 
  private:
     FieldInfo& add(std::string_view key, FieldKind kind) {
@@ -142,7 +144,8 @@ class FieldReader {
         value = read;
     }
     void refuse(const std::string& wanted) {
-        status = base::Error{std::string(key_) + " is \"" + std::string(text_) + "\"; it must be " + wanted + "."};
+        status =
+            base::Error{std::string(key_) + " is \"" + std::string(text_) + "\"; it must be " + wanted + "."};
     }
 
     std::string_view key_;

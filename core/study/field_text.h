@@ -25,12 +25,13 @@ struct FieldInfo {
 /// All settings, in the order of the file.
 std::vector<FieldInfo> listFields();
 
-/// A setting's value as people write it: "60", "true", "bowl". Empty for a rotation that is not set, and for a
-/// number that is not finite. The key must be one of listFields().
+/// A setting's value as people write it: "60", "true", "bowl". Empty for a rotation that is not set, and for
+/// a number that is not finite. The key must be one of listFields().
 std::string fieldText(const Settings& settings, std::string_view key);
 
-/// Sets one setting from such a text; setField(s, key, fieldText(t, key)) copies it from t to the last bit. An
-/// error, and no change, if the text is no value of its kind. Ranges are not looked at: findProblems does that.
+/// Sets one setting from such a text; setField(s, key, fieldText(t, key)) copies it from t to the last bit.
+/// An error, and no change, if the text is no value of its kind. Ranges are not looked at: findProblems does
+/// that.
 base::Status setField(Settings& settings, std::string_view key, std::string_view text);
 
 }  // namespace trapwright::study

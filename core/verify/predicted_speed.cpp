@@ -14,9 +14,10 @@ ConveyingPrediction predictConveying(const trial::Drive& drive, const trial::Con
     ConveyingPrediction prediction;
     prediction.throwNumber = trial::calcThrowNumber(drive, gravity);
     const bool hops = prediction.throwNumber > 1.0;
-    prediction.speed = hops ? calcHoppingSpeed(drive, contact.kineticFriction, contact.restitution, gravity, kPeriods)
-                            : calcStickSlipSpeed(drive, contact.kineticFriction, gravity);
-    prediction.conveyance = hops ? Conveyance::hops
+    prediction.speed =
+        hops ? calcHoppingSpeed(drive, contact.kineticFriction, contact.restitution, gravity, kPeriods)
+             : calcStickSlipSpeed(drive, contact.kineticFriction, gravity);
+    prediction.conveyance = hops                             ? Conveyance::hops
                             : prediction.speed > kStandstill ? Conveyance::slides
                                                              : Conveyance::sticks;
     return prediction;

@@ -18,9 +18,10 @@ struct ConveyingPrediction {
     double speed = 0.0;  // mean [m/s]
 };
 
-/// Predicts how quickly a drive conveys before anything is simulated: the event-driven solutions of stick_slip.h
-/// and hopping.h for a point, whichever the throw number calls for. Below lift-off restitution plays no part. Some
-/// ten milliseconds of work. The drive and the parameters must be in their ranges (study::findProblems).
+/// Predicts how quickly a drive conveys before anything is simulated: the event-driven solutions of
+/// stick_slip.h and hopping.h for a point, whichever the throw number calls for. Below lift-off restitution
+/// plays no part. Some ten milliseconds of work. The drive and the parameters must be in their ranges
+/// (study::findProblems).
 ConveyingPrediction predictConveying(const trial::Drive& drive, const trial::ContactParameters& contact,
                                      double gravity);
 

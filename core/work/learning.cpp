@@ -20,7 +20,7 @@ base::Result<std::optional<study::GenerationRecord>> loadLast(const store::Study
 
 Result<LearnReport> learn(store::StudyFile& file, const study::StudyInputs& inputs,
                           const EngineMaker& makeEngine, const LearnEvents& events,
-                          study::LearningControl control) {
+                          const study::LearningControl& control) {
     auto last = loadLast(file);
     if (!last) return Failure{FailureKind::reading, last.error().message};
     const auto started = WinnerChecks::start(file, inputs, makeEngine, control.checks);

@@ -32,6 +32,6 @@ struct LearnReport {
 /// reference, winners are checked meanwhile; what is left of that at the end is not waited for.
 Result<LearnReport> learn(store::StudyFile& file, const study::StudyInputs& inputs,
                           const EngineMaker& makeEngine, const LearnEvents& events,
-                          study::LearningControl control);
+                          const study::LearningControl& control);
 
 }  // namespace trapwright::work

@@ -72,6 +72,7 @@ std::vector<UnitCandidate> listCandidates(const part::ImportedMesh& imported) {
     const base::Vec3 size = geometry::calcBoundingBox(imported.mesh).size();
     const auto present = part::findUnit(imported.units);
     std::vector<UnitCandidate> candidates;
+    candidates.reserve(kUnits.size());
     for (const char* name : kUnits)
         candidates.push_back({name, size * (part::findUnit(name)->metres / present->metres)});
     return candidates;

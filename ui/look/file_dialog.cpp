@@ -13,7 +13,8 @@ namespace {
 void ask(QWidget* parent, const FileQuestion& question, bool isNew, const FileAnswer& answer) {
     const QString setting = "folders/" + question.name;
     const QString home = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-    auto* dialog = new QFileDialog(parent, question.title, QSettings().value(setting, home).toString(), question.filter);
+    auto* dialog =
+        new QFileDialog(parent, question.title, QSettings().value(setting, home).toString(), question.filter);
     dialog->setObjectName("dialog.file");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(isNew ? QFileDialog::AnyFile : QFileDialog::ExistingFile);

@@ -20,7 +20,8 @@ struct FileQuestion {
 
 using FileAnswer = std::function<void(const std::filesystem::path&)>;
 
-/// Asks for an existing file, or for the name of a new one. Does not wait: `answer` is called if one is chosen.
+/// Asks for an existing file, or for the name of a new one. Does not wait: `answer` is called if one is
+/// chosen.
 void askForFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer);
 void askForNewFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer);
 

@@ -35,8 +35,9 @@ FoldingGroup::FoldingGroup(const QString& name, const QString& title, bool folde
     title_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     title_->setIconSize({14, 14});
     title_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    title_->setStyleSheet("QToolButton { text-align: left; font-weight: 600; padding: 4px 2px; border: none; }"
-                          "QToolButton:hover, QToolButton:focus { color: palette(highlight); }");
+    title_->setStyleSheet(
+        "QToolButton { text-align: left; font-weight: 600; padding: 4px 2px; border: none; }"
+        "QToolButton:hover, QToolButton:focus { color: palette(highlight); }");
     summary_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     summary_->setForegroundRole(QPalette::PlaceholderText);
 

@@ -8,7 +8,8 @@
 #include <QPixmapCache>
 #include <QSvgRenderer>
 
-// The linker leaves a library's resources out unless they are asked for, which Qt wants done outside namespaces.
+// The linker leaves a library's resources out unless they are asked for, which Qt wants done outside
+// namespaces.
 static void useIcons() {
     Q_INIT_RESOURCE(icons);
 }
@@ -19,9 +20,9 @@ namespace {
 
 /// A drawing with its two colours replaced.
 QPixmap drawIcon(const QString& name, const QColor& lines, const QColor& accent, QSize pixels) {
-    const QString key =
-        QString("trapwright/%1/%2/%3/%4x%5")
-            .arg(name, lines.name(), accent.name(), QString::number(pixels.width()), QString::number(pixels.height()));
+    const QString key = QString("trapwright/%1/%2/%3/%4x%5")
+                            .arg(name, lines.name(), accent.name(), QString::number(pixels.width()),
+                                 QString::number(pixels.height()));
     QPixmap pixmap;
     if (QPixmapCache::find(key, &pixmap)) return pixmap;
 
@@ -57,7 +58,8 @@ class IconEngine : public QIconEngine {
         const QPalette palette = QGuiApplication::palette();
         const auto group = mode == QIcon::Disabled ? QPalette::Disabled : QPalette::Active;
         const bool onAccent = mode == QIcon::Selected;
-        const QColor lines = palette.color(group, onAccent ? QPalette::HighlightedText : QPalette::ButtonText);
+        const QColor lines =
+            palette.color(group, onAccent ? QPalette::HighlightedText : QPalette::ButtonText);
         const bool plain = onAccent || mode == QIcon::Disabled;
         return drawIcon(name_, lines, plain ? lines : palette.color(QPalette::Highlight), size);
     }

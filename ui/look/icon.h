@@ -7,8 +7,8 @@
 
 namespace trapwright::look {
 
-/// The drawing icons/<name>.svg in the colours of the application's palette, which it follows; sharp at any size
-/// and pixel ratio.
+/// The drawing icons/<name>.svg in the colours of the application's palette, which it follows; sharp at any
+/// size and pixel ratio.
 QIcon icon(const QString& name);
 
 /// The program's own, for windows.

@@ -18,9 +18,12 @@ constexpr int kSign = 20;
 
 QString signOf(MessageKind kind) {
     switch (kind) {
-        case MessageKind::info: return "info";
-        case MessageKind::warning: return "warning";
-        case MessageKind::error: return "error";
+        case MessageKind::info:
+            return "info";
+        case MessageKind::warning:
+            return "warning";
+        case MessageKind::error:
+            return "error";
     }
     return {};
 }
@@ -96,8 +99,9 @@ void MessageBar::changeEvent(QEvent* event) {
 
 void MessageBar::colour() {
     const QPalette system = QPalette();
-    const QColor tone = kind_ == MessageKind::info ? system.color(QPalette::Highlight)
-                        : toneColour(kind_ == MessageKind::warning ? Tone::warning : Tone::bad, system);
+    const QColor tone = kind_ == MessageKind::info
+                            ? system.color(QPalette::Highlight)
+                            : toneColour(kind_ == MessageKind::warning ? Tone::warning : Tone::bad, system);
     sign_->setPixmap(signPixmap(signOf(kind_), tone, kSign, devicePixelRatioF()));
     const QString style =
         QString("#messageBar { border: none; border-left: 4px solid %1; border-bottom: 1px solid %2; }")

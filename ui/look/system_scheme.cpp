@@ -18,8 +18,7 @@ const QString kKey = QStringLiteral("color-scheme");
 
 }  // namespace
 
-SystemScheme::SystemScheme(QObject* parent)
-    : QObject(parent), scheme_(schemeOf(QGuiApplication::palette())) {
+SystemScheme::SystemScheme(QObject* parent) : QObject(parent), scheme_(schemeOf(QGuiApplication::palette())) {
     QDBusConnection bus = QDBusConnection::sessionBus();
     if (!bus.isConnected()) return;
     bus.connect(kPortal, kPath, kSettings, "SettingChanged", this,
@@ -41,8 +40,7 @@ void SystemScheme::settingChanged(const QString& group, const QString& key, cons
 
 void SystemScheme::take(const QVariant& value) {
     // Read wraps the value in a second variant.
-    const QVariant inner =
-        value.canConvert<QDBusVariant>() ? value.value<QDBusVariant>().variant() : value;
+    const QVariant inner = value.canConvert<QDBusVariant>() ? value.value<QDBusVariant>().variant() : value;
     bool isNumber = false;
     const uint preference = inner.toUInt(&isNumber);
     constexpr uint kNone = 0;

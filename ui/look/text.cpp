@@ -35,7 +35,8 @@ QString numberText(double value, int digits) {
     QLocale locale;
     QString text = locale.toString(value, 'f', decimals);
     if (decimals == 0) return text;
-    while (text.endsWith(locale.zeroDigit())) text.chop(1);
+    while (text.endsWith(locale.zeroDigit()))
+        text.chop(1);
     if (text.endsWith(locale.decimalPoint())) text.chop(1);
     return text;
 }

@@ -22,8 +22,8 @@ const Colours& coloursOf(Scheme scheme) {
     return scheme == Scheme::light ? light : dark;
 }
 
-/// What a palette cannot say: flat controls, slim scroll bars, a roomier menu bar. Colours are written out, because
-/// a style sheet's own palette() does not follow a new palette.
+/// What a palette cannot say: flat controls, slim scroll bars, a roomier menu bar. Colours are written out,
+/// because a style sheet's own palette() does not follow a new palette.
 QString makeStyleSheet(Scheme scheme) {
     const Colours& c = coloursOf(scheme);
     QString sheet = R"(
@@ -58,6 +58,7 @@ QToolTip { color: $text; background: $tip; border: 1px solid $line; padding: 4px
 QMenuBar { background: $window; border-bottom: 1px solid $line; spacing: 2px; }
 QMenuBar::item { padding: 8px 10px; background: transparent; }
 QMenuBar::item:selected, QMenuBar::item:pressed { background: $accent; color: $onAccent; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QProgressBar { border: none; border-radius: 3px; background: $line; }
 QProgressBar::chunk { border-radius: 3px; background: $accent; }
 QMainWindow::separator { background: $line; width: 1px; height: 1px; }
@@ -65,10 +66,17 @@ QMainWindow::separator:hover { background: $accent; }
 )";
     const QColor off = makePalette(scheme).color(QPalette::Disabled, QPalette::Text);
     const std::pair<const char*, QString> values[] = {
-        {"$onAccent", c.onAccent.name()}, {"$accent", c.accent.name()}, {"$button", c.button.name()},
-        {"$window", c.window.name()},     {"$faint", c.faint.name()},   {"$line", c.line.name()},
-        {"$base", c.base.name()},         {"$text", c.text.name()},     {"$tip", c.tip.name()},
-        {"$off", off.name()},             {"$scheme", scheme == Scheme::light ? "light" : "dark"}};
+        {"$onAccent", c.onAccent.name()},
+        {"$accent", c.accent.name()},
+        {"$button", c.button.name()},
+        {"$window", c.window.name()},
+        {"$faint", c.faint.name()},
+        {"$line", c.line.name()},
+        {"$base", c.base.name()},
+        {"$text", c.text.name()},
+        {"$tip", c.tip.name()},
+        {"$off", off.name()},
+        {"$scheme", scheme == Scheme::light ? "light" : "dark"}};
     for (const auto& [name, value] : values)
         sheet.replace(name, value);
     return sheet;
@@ -78,8 +86,8 @@ QMainWindow::separator:hover { background: $accent; }
 
 QPalette makePalette(Scheme scheme) {
     const Colours& c = coloursOf(scheme);
-    QPalette palette(c.text, c.button, c.button.lighter(120), c.line.darker(130), c.line, c.text, c.text, c.base,
-                     c.window);
+    QPalette palette(c.text, c.button, c.button.lighter(120), c.line.darker(130), c.line, c.text, c.text,
+                     c.base, c.window);
     palette.setColor(QPalette::AlternateBase, c.alternate);
     palette.setColor(QPalette::Highlight, c.accent);
     palette.setColor(QPalette::HighlightedText, c.onAccent);
@@ -90,8 +98,10 @@ QPalette makePalette(Scheme scheme) {
     palette.setColor(QPalette::PlaceholderText, c.faint);
     palette.setColor(QPalette::Midlight, scheme == Scheme::light ? c.line.lighter(112) : c.line.darker(125));
     palette.setColor(QPalette::Shadow, scheme == Scheme::light ? QColor(0x8a9097) : QColor(0x101214));
-    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::HighlightedText})
-        palette.setColor(QPalette::Disabled, role, scheme == Scheme::light ? QColor(0x9aa0a6) : QColor(0x6d747b));
+    for (const auto role :
+         {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::HighlightedText})
+        palette.setColor(QPalette::Disabled, role,
+                         scheme == Scheme::light ? QColor(0x9aa0a6) : QColor(0x6d747b));
     palette.setColor(QPalette::Disabled, QPalette::Highlight, c.line);
     palette.setColor(QPalette::Disabled, QPalette::Base, c.window);
     return palette;
@@ -106,9 +116,12 @@ Scheme schemeOf(const QPalette& palette) {
 QColor toneColour(Tone tone, const QPalette& palette) {
     const bool light = schemeOf(palette) == Scheme::light;
     switch (tone) {
-        case Tone::good: return light ? QColor(0x00795a) : QColor(0x3ec79c);
-        case Tone::warning: return light ? QColor(0x9a5b00) : QColor(0xf0b23e);
-        case Tone::bad: return light ? QColor(0xb8430a) : QColor(0xff8a52);
+        case Tone::good:
+            return light ? QColor(0x00795a) : QColor(0x3ec79c);
+        case Tone::warning:
+            return light ? QColor(0x9a5b00) : QColor(0xf0b23e);
+        case Tone::bad:
+            return light ? QColor(0xb8430a) : QColor(0xff8a52);
     }
     return palette.color(QPalette::WindowText);
 }

@@ -75,7 +75,8 @@ DriveCard::DriveCard(QWidget* parent)
     throw_->setToolTip(tr("Peak vertical acceleration over gravity. Parts lift off above 1."));
     speed_->setObjectName("drive.speed");
     speed_->setAccessibleName(tr("Predicted conveying speed"));
-    speed_->setToolTip(tr("Of a part that lies flat on a level track; from a closed solution, not from the simulator."));
+    speed_->setToolTip(
+        tr("Of a part that lies flat on a level track; from a closed solution, not from the simulator."));
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 4, 0, 0);
     layout->setSpacing(2);
@@ -97,12 +98,19 @@ void DriveCard::show(const study::Settings& settings) {
 void DriveCard::tell(const verify::ConveyingPrediction& prediction) {
     const QString number = look::numberText(prediction.throwNumber);
     switch (prediction.conveyance) {
-        case verify::Conveyance::sticks: throw_->setText(tr("Throw number %1: parts stay where they are").arg(number)); break;
-        case verify::Conveyance::slides: throw_->setText(tr("Throw number %1: parts slide").arg(number)); break;
-        case verify::Conveyance::hops: throw_->setText(tr("Throw number %1: parts hop").arg(number)); break;
+        case verify::Conveyance::sticks:
+            throw_->setText(tr("Throw number %1: parts stay where they are").arg(number));
+            break;
+        case verify::Conveyance::slides:
+            throw_->setText(tr("Throw number %1: parts slide").arg(number));
+            break;
+        case verify::Conveyance::hops:
+            throw_->setText(tr("Throw number %1: parts hop").arg(number));
+            break;
     }
     gauge_->show(prediction.throwNumber);
-    speed_->setText(tr("A flat part moves at about %1 mm/s").arg(look::numberText(prediction.speed * 1e3, 2)));
+    speed_->setText(
+        tr("A flat part moves at about %1 mm/s").arg(look::numberText(prediction.speed * 1e3, 2)));
 }
 
 }  // namespace trapwright::pages

@@ -86,8 +86,8 @@ QString translated(const char* text) {
 }  // namespace
 
 FieldText findFieldText(std::string_view key) {
-    const auto* found =
-        std::find_if(std::begin(kTexts), std::end(kTexts), [&](const RawText& text) { return text.key == key; });
+    const auto* found = std::find_if(std::begin(kTexts), std::end(kTexts),
+                                     [&](const RawText& text) { return text.key == key; });
     assert(found != std::end(kTexts));
     FieldText text{found->key, translated(found->label), translated(found->help)};
     for (const char* choice : found->choices)
@@ -106,31 +106,42 @@ QString unitOf(std::string_view key) {
 std::vector<FieldGroup> trackGroups() {
     const auto tr = [](const char* text) { return translated(text); };
     return {
-        {"feeder", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Feeder")),
+        {"feeder",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Feeder")),
          {"track.feeder", "track.bowlRadius_mm", "track.conveying"}},
-        {"drive", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Drive")),
+        {"drive",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Drive")),
          {"simulation.drive.frequency_Hz", "simulation.drive.halfStroke_mm", "simulation.drive.angle_deg"}},
-        {"trap", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Trap")),
-         {"track.crossSections", "track.pointsPerSection", "track.minSegmentLength_mm", "track.maxSegmentLength_mm",
-          "track.segmentWidth_mm", "track.segmentHeight_mm", "track.encoding"}},
-        {"ends", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Lead-in and lead-out")),
-         {"track.leadInLength_mm", "track.startFromLeadInEnd_mm", "track.leadOutSegments", "track.baseThickness_mm"}},
-        {"contact", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Contact")),
+        {"trap",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Trap")),
+         {"track.crossSections", "track.pointsPerSection", "track.minSegmentLength_mm",
+          "track.maxSegmentLength_mm", "track.segmentWidth_mm", "track.segmentHeight_mm", "track.encoding"}},
+        {"ends",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Lead-in and lead-out")),
+         {"track.leadInLength_mm", "track.startFromLeadInEnd_mm", "track.leadOutSegments",
+          "track.baseThickness_mm"}},
+        {"contact",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Contact")),
          {"simulation.contact.staticFriction", "simulation.contact.kineticFriction",
           "simulation.contact.restitution"}},
-        {"learning", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
-         {"evolution.generations", "evolution.populationSize", "evolution.trialsPerEvaluation", "simulation.engine",
-          "evolution.seed"}},
-        {"operators", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Genetic operators")),
+        {"learning",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
+         {"evolution.generations", "evolution.populationSize", "evolution.trialsPerEvaluation",
+          "simulation.engine", "evolution.seed"}},
+        {"operators",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Genetic operators")),
          {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
           "evolution.smoothingLimit", "evolution.orientationDistance", "evolution.simulateOverlapping",
           "evolution.racingTrials", "evolution.racingShare", "evolution.commonRandomNumbers"},
          true},
-        {"trial", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Trial")),
+        {"trial",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Trial")),
          {"simulation.termination.timeLimit_s", "simulation.termination.stuckTime_s",
-          "simulation.termination.stuckProgress_mm", "simulation.start.lateral_mm", "simulation.gravity_m_s2"},
+          "simulation.termination.stuckProgress_mm", "simulation.start.lateral_mm",
+          "simulation.gravity_m_s2"},
          true},
-        {"validation", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Selection and validation")),
+        {"validation",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Selection and validation")),
          {"validation.selectionWinners", "validation.selectionTrials", "validation.trialsPerPose",
           "validation.tolerance_deg"},
          true},

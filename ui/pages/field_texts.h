@@ -9,9 +9,9 @@ namespace trapwright::pages {
 
 /// What people are told of one setting.
 struct FieldText {
-    std::string_view key;              // as in core/study/settings_fields.h
-    QString label;                     // "Segment width"
-    QString help;                      // one sentence
+    std::string_view key;               // as in core/study/settings_fields.h
+    QString label;                      // "Segment width"
+    QString help;                       // one sentence
     std::vector<QString> choices = {};  // labels of a choice, in the order of its names
 };
 

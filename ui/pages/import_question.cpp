@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <filesystem>
 
 #include "ui/look/text.h"
@@ -21,7 +22,9 @@ QString fileName(const work::PartRequest& request) {
 ImportQuestion::ImportQuestion(QWidget* parent)
     : QFrame(parent), text_(new QLabel(this)), buttons_(new QWidget(this)), list_(new QVBoxLayout(buttons_)) {
     setObjectName("importQuestion");
-    setStyleSheet("#importQuestion { border: 1px solid palette(highlight); border-radius: 4px; background: palette(base); }");
+    setStyleSheet(
+        "#importQuestion { border: 1px solid palette(highlight); border-radius: 4px; background: "
+        "palette(base); }");
     text_->setObjectName("importQuestion.text");
     text_->setWordWrap(true);
     list_->setContentsMargins(0, 0, 0, 0);
@@ -34,9 +37,19 @@ ImportQuestion::ImportQuestion(QWidget* parent)
     hide();
 }
 
-void ImportQuestion::askUnit(const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates) {
-    begin(tr("In which unit is %1?").arg(fileName(request)), tr("The file does not say. The part would be this large:"));
-    for (const work::UnitCandidate& candidate : candidates) {
+void ImportQuestion::askUnit(const work::PartRequest& request,
+                             const std::vector<work::UnitCandidate>& candidates) {
+    begin(tr("In which unit is %1?").arg(fileName(request)),
+          tr("The file does not say. The part would be this large:"));
+    // What a feeder can feed comes first.
+    std::vector<work::UnitCandidate> ordered = candidates;
+    std::stable_partition(ordered.begin(), ordered.end(), [](const work::UnitCandidate& candidate) {
+        constexpr double kSmallest = 0.5e-3;
+        constexpr double kLargest = 0.2;
+        const double extent = candidate.size.maxCoeff();
+        return extent >= kSmallest && extent <= kLargest;
+    });
+    for (const work::UnitCandidate& candidate : ordered) {
         const QString unit = QString::fromStdString(candidate.name);
         work::PartRequest answer = request;
         answer.units = candidate.name;
@@ -62,13 +75,15 @@ void ImportQuestion::begin(const QString& question, const QString& text) {
     text_->setText("<b>" + question.toHtmlEscaped() + "</b><br>" + text.toHtmlEscaped());
 }
 
-QPushButton* ImportQuestion::addAnswer(const QString& name, const QString& text, const work::PartRequest& answer) {
+QPushButton* ImportQuestion::addAnswer(const QString& name, const QString& text,
+                                       const work::PartRequest& answer) {
     auto* button = new QPushButton(text, buttons_);
     button->setObjectName(name);
     button->setStyleSheet("text-align: left; padding: 5px 10px;");
     list_->addWidget(button);
     // The answer may take this very button away.
-    connect(button, &QPushButton::clicked, this, [this, answer] { emit answered(answer); }, Qt::QueuedConnection);
+    connect(
+        button, &QPushButton::clicked, this, [this, answer] { emit answered(answer); }, Qt::QueuedConnection);
     return button;
 }
 

@@ -21,7 +21,8 @@ class ImportQuestion : public QFrame {
     /// One button for each unit, with the size that it means.
     void askUnit(const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates);
     /// What is wrong with the mesh, and the offer to mend it.
-    void askRepair(const work::PartRequest& request, const geometry::MeshReport& found, const QString& message);
+    void askRepair(const work::PartRequest& request, const geometry::MeshReport& found,
+                   const QString& message);
 
  signals:
     /// The same request with the answer in it.

@@ -25,8 +25,8 @@ struct PageFace {
     QString tip;    // one sentence on what is done here
 };
 
-/// A chart or a table of a page. The window puts it into a dock of its own, which can be moved, floated, closed
-/// and is remembered by its name.
+/// A chart or a table of a page. The window puts it into a dock of its own, which can be moved, floated,
+/// closed and is remembered by its name.
 struct Panel {
     QString name;   // stable, "fitness"
     QString title;  // tr("Fitness")
@@ -34,11 +34,13 @@ struct Panel {
     Qt::DockWidgetArea area = Qt::BottomDockWidgetArea;
 };
 
-/// One step of the work: an inspector for the right dock that shows and changes one subject of the open study.
-/// A page is a view: it computes nothing, keeps no data of a study and does nothing long on its own thread.
+/// One step of the work: an inspector for the right dock that shows and changes one subject of the open
+/// study. A page is a view: it computes nothing, keeps no data of a study and does nothing long on its own
+/// thread.
 ///
 /// QActions added with addAction() are listed among the keyboard shortcuts and work while the page is shown.
-/// Colours follow the palette; a page that draws with colours of its own looks again on QEvent::PaletteChange.
+/// Colours follow the palette; a page that draws with colours of its own looks again on
+/// QEvent::PaletteChange.
 class Page : public QWidget {
     Q_OBJECT
  public:
@@ -62,14 +64,15 @@ class Page : public QWidget {
     virtual bool takeFile(const std::filesystem::path& file);
 
  signals:
-    /// To tell in the window's message bar: what was tried (a few words), and what was wrong, where, and what to
-    /// do about it.
+    /// To tell in the window's message bar: what was tried (a few words), and what was wrong, where, and what
+    /// to do about it.
     void failed(const QString& what, const QString& message);
-    /// Another page shall be shown; its name.
+    /// A page shall be shown; its name. Empty, while no study is open: none needs to be.
     void pageWanted(const QString& name);
     /// A new study of this part shall be opened in place of the one that is open, if any.
     void studyWanted(const trapwright::work::LoadedPart& part);
-    /// A new study with the settings and the part of the open one, and no generations, shall be opened in its place.
+    /// A new study with the settings and the part of the open one, and no generations, shall be opened in its
+    /// place.
     void forkWanted();
 
  private:

@@ -37,10 +37,10 @@ void FactList::show(const std::vector<std::pair<QString, QString>>& facts) {
 }
 
 Facts meshFacts(const geometry::MeshReport& report, std::size_t triangles) {
-    Facts facts = {
-        {FactList::tr("Triangles"), QLocale().toString(static_cast<qulonglong>(triangles))},
-        {FactList::tr("Bodies"), QString::number(report.shells)},
-        {FactList::tr("Surface"), report.isSolid() ? FactList::tr("closed, faces outward") : FactList::tr("mended")}};
+    Facts facts = {{FactList::tr("Triangles"), QLocale().toString(static_cast<qulonglong>(triangles))},
+                   {FactList::tr("Bodies"), QString::number(report.shells)},
+                   {FactList::tr("Surface"),
+                    report.isSolid() ? FactList::tr("closed, faces outward") : FactList::tr("mended")}};
     // Not the double vertices: every STL file has them.
     const std::pair<int, QString> defects[] = {
         {report.openEdges, FactList::tr("Open edges")},
@@ -64,12 +64,15 @@ Facts massFacts(const part::Part& part) {
     const geometry::MassProperties& mass = part.massProperties;
     const base::Vec3 moments =
         Eigen::SelfAdjointEigenSolver<base::Mat3>(mass.inertia).eigenvalues() * kGramSquareMillimetres;
-    return {{FactList::tr("Mass"), FactList::tr("%1 g").arg(numberText(mass.mass * kGrams))},
-            {FactList::tr("Volume"), FactList::tr("%1 mm³").arg(numberText(mass.volume * kCubicMillimetres, 4))},
-            {FactList::tr("Surface"), FactList::tr("%1 mm²").arg(numberText(mass.area * kSquareMillimetres, 4))},
-            {FactList::tr("Moments of inertia"), FactList::tr("%1, %2, %3 g mm²")
-                                           .arg(numberText(moments.x()), numberText(moments.y()), numberText(moments.z()))},
-            {FactList::tr("Farthest from centre"), FactList::tr("%1 mm").arg(numberText(part.boundingRadius * 1e3))}};
+    return {
+        {FactList::tr("Mass"), FactList::tr("%1 g").arg(numberText(mass.mass * kGrams))},
+        {FactList::tr("Volume"), FactList::tr("%1 mm³").arg(numberText(mass.volume * kCubicMillimetres, 4))},
+        {FactList::tr("Surface"), FactList::tr("%1 mm²").arg(numberText(mass.area * kSquareMillimetres, 4))},
+        {FactList::tr("Moments of inertia"),
+         FactList::tr("%1, %2, %3 g mm²")
+             .arg(numberText(moments.x()), numberText(moments.y()), numberText(moments.z()))},
+        {FactList::tr("Farthest from centre"),
+         FactList::tr("%1 mm").arg(numberText(part.boundingRadius * 1e3))}};
 }
 
 QString symmetryText(const part::SymmetryGroup& group) {

@@ -22,7 +22,9 @@ look::FileQuestion partQuestion() {
         const QString pattern = "*" + QString::fromStdString(extension);
         patterns << pattern << pattern.toUpper();
     }
-    return {"part", tr("Import a part"), tr("Import"), tr("Parts (%1);;All files (*)").arg(patterns.join(' ')), {}, {}};
+    return {"part",       tr("Import a part"),
+            tr("Import"), tr("Parts (%1);;All files (*)").arg(patterns.join(' ')),
+            {},           {}};
 }
 
 QString sizeText(const base::Vec3& size) {

@@ -13,12 +13,12 @@
 #include "core/study/field_text.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
+#include "ui/pages/import_question.h"
 #include "ui/pages/part_facts.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/pose_cards.h"
 #include "ui/pages/problem_text.h"
 #include "ui/pages/settings_form.h"
-#include "ui/pages/import_question.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_session.h"
 
@@ -50,7 +50,8 @@ QWidget* labelled(const QString& label, QWidget* editor, QWidget* parent) {
 }  // namespace
 
 PartPage::PartPage(QWidget* parent)
-    : Page({"part", tr("Part"), "part", tr("The part that is fed: import, material, symmetry, stable poses")}, parent) {
+    : Page({"part", tr("Part"), "part", tr("The part that is fed: import, material, symmetry, stable poses")},
+           parent) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(12, 12, 12, 12);
     layout->setSpacing(8);
@@ -70,19 +71,21 @@ PartPage::PartPage(QWidget* parent)
                 setBusy({});
                 question_->askUnit(request, candidates);
             });
-    connect(&import_, &session::PartImport::repairNeeded, this,
-            [this](const work::PartRequest& request, const geometry::MeshReport& found, const QString& message) {
-                setBusy({});
-                question_->askRepair(request, found, message);
-            });
-    connect(&import_, &session::PartImport::failed, this,
-            [this](const work::PartRequest& request, const QString& message) {
-                setBusy({});
-                showUnits();
-                emit failed(tr("%1 cannot be imported")
-                                .arg(look::toText(std::filesystem::path(request.part).filename())),
-                            message);
-            });
+    connect(
+        &import_, &session::PartImport::repairNeeded, this,
+        [this](const work::PartRequest& request, const geometry::MeshReport& found, const QString& message) {
+            setBusy({});
+            question_->askRepair(request, found, message);
+        });
+    connect(
+        &import_, &session::PartImport::failed, this,
+        [this](const work::PartRequest& request, const QString& message) {
+            leave();
+            showUnits();
+            emit failed(
+                tr("%1 cannot be imported").arg(look::toText(std::filesystem::path(request.part).filename())),
+                message);
+        });
     refresh();
 }
 
@@ -120,7 +123,7 @@ void PartPage::addHead() {
     stop->setObjectName("part.stopImport");
     connect(stop, &QPushButton::clicked, this, [this] {
         import_.cancel();
-        setBusy({});
+        leave();
     });
     auto* busyLayout = new QVBoxLayout(busy_);
     busyLayout->setContentsMargins(0, 0, 0, 0);
@@ -134,7 +137,7 @@ void PartPage::addHead() {
         question_->hide();
         import(request);
     });
-    connect(question_, &ImportQuestion::cancelled, question_, &QWidget::hide);
+    connect(question_, &ImportQuestion::cancelled, this, &PartPage::leave);
 
     misfit_ = new QLabel(this);
     misfit_->setObjectName("part.misfit");
@@ -149,12 +152,13 @@ void PartPage::addHead() {
 }
 
 void PartPage::addForm() {
-    form_ = new SettingsForm({{"part.poses", tr("Stable poses"), {}},
-                              {"part.material", tr("Material"), {"part.density_kg_m3"}},
-                              {"part.symmetry", tr("Symmetry"), {"part.symmetryTolerance", "evolution.orientationDistance"}},
-                              {"part.mass", tr("Mass properties"), {}},
-                              {"part.mesh", tr("Mesh"), {}}},
-                             {}, this);
+    form_ = new SettingsForm(
+        {{"part.poses", tr("Stable poses"), {}},
+         {"part.material", tr("Material"), {"part.density_kg_m3"}},
+         {"part.symmetry", tr("Symmetry"), {"part.symmetryTolerance", "evolution.orientationDistance"}},
+         {"part.mass", tr("Mass properties"), {}},
+         {"part.mesh", tr("Mesh"), {}}},
+        {}, this);
     connect(form_, &SettingsForm::edited, this, &PartPage::edit);
 
     poses_ = new PoseCards(form_);
@@ -227,6 +231,8 @@ void PartPage::askForFile() {
 void PartPage::import(const work::PartRequest& request) {
     question_->hide();
     setBusy(tr("Reading %1 ...").arg(look::toText(std::filesystem::path(request.part).filename())));
+    // Where it goes on, and what it asks, is to be seen without a study, too.
+    emit pageWanted(face().name);
     import_.start(request);
 }
 
@@ -239,6 +245,12 @@ void PartPage::take(const work::LoadedPart& part) {
     } else {
         session_->changePart(part, tr("Import of %1").arg(QString::fromStdString(part.part->name)));
     }
+}
+
+void PartPage::leave() {
+    setBusy({});
+    question_->hide();
+    if (!session_) emit pageWanted({});
 }
 
 void PartPage::setBusy(const QString& what) {
@@ -266,7 +278,8 @@ void PartPage::refresh() {
     for (const std::string& problem : study::findPartProblems(session_->settings(), *part))
         misfits << describeProblem(problem).text.toHtmlEscaped();
     misfit_->setVisible(!misfits.isEmpty());
-    misfit_->setText(misfits.join("<br>") + "<br><a href=\"track\">" + tr("Go to the track's settings") + "</a>");
+    misfit_->setText(misfits.join("<br>") + "<br><a href=\"track\">" + tr("Go to the track's settings") +
+                     "</a>");
 
     symmetry_->setText(symmetryText(part->symmetry));
     mass_->show(massFacts(*part));
@@ -277,41 +290,44 @@ void PartPage::refresh() {
     showScene();
 }
 
+bool PartPage::knowsImport() const {
+    return imported_ && imported_->settings.file == session_->settings().part.file;
+}
+
 void PartPage::showMesh() {
     if (session_->part() == shownMesh_) return;
     shownMesh_ = session_->part();
-    mesh_->show({});
-    notes_->clear();
-    const std::shared_ptr<const part::Part> part = shownMesh_;
-    const geometry::TriangleMesh mesh = session_->storedPart().mesh;
-    std::vector<std::string> notes;
-    if (imported_ && imported_->part == part) notes = imported_->notes;
-    meshCheck_.start([this, part, mesh, notes]() mutable -> session::NewestTask::Deliver {
+    const geometry::TriangleMesh& mesh = session_->storedPart().mesh;
+    meshCheck_.cancel();
+    if (knowsImport()) return tellMesh(imported_->found, mesh.triangles.size(), imported_->notes);
+    // A study that was opened does not keep what was found when its part came in.
+    meshCheck_.start([this, part = shownMesh_, mesh]() -> session::NewestTask::Deliver {
         const geometry::MeshReport report = geometry::checkMesh(mesh);
-        // A study that was opened does not keep what was mended when its part came in.
-        if (notes.empty()) {
-            if (auto repaired = geometry::repairMesh(mesh)) notes = std::move(repaired->notes);
-        }
+        std::vector<std::string> notes;
+        if (auto repaired = geometry::repairMesh(mesh)) notes = std::move(repaired->notes);
         return [this, part, report, notes, triangles = mesh.triangles.size()] {
-            if (!session_ || session_->part() != part) return;
-            Facts facts = meshFacts(report, triangles);
-            facts.emplace_back(tr("Convex pieces"), QString::number(part->pieces.size()));
-            mesh_->show(facts);
-            QStringList sentences;
-            for (const std::string& note : notes)
-                sentences << QString::fromStdString(note);
-            notes_->setText(sentences.join("\n"));
-            notes_->setVisible(!sentences.isEmpty());
+            if (session_ && session_->part() == part) tellMesh(report, triangles, notes);
         };
     });
+}
+
+void PartPage::tellMesh(const geometry::MeshReport& report, std::size_t triangles,
+                        const std::vector<std::string>& notes) {
+    Facts facts = meshFacts(report, triangles);
+    facts.emplace_back(tr("Convex pieces"), QString::number(shownMesh_->pieces.size()));
+    mesh_->show(facts);
+    QStringList sentences;
+    for (const std::string& note : notes)
+        sentences << QString::fromStdString(note);
+    notes_->setText(sentences.join("\n"));
+    notes_->setVisible(!sentences.isEmpty());
 }
 
 void PartPage::showUnits() {
     unit_->clear();
     if (!session_) return;
     const QString present = QString::fromStdString(session_->settings().part.units);
-    const bool known = imported_ && imported_->settings.file == session_->settings().part.file;
-    if (known) {
+    if (knowsImport()) {
         for (const work::UnitCandidate& candidate : imported_->candidates) {
             const QString name = QString::fromStdString(candidate.name);
             unit_->addItem(name, name);

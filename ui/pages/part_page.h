@@ -20,7 +20,8 @@ class PoseCards;
 class SettingsForm;
 class ImportQuestion;
 
-/// Step 1: the part. Import with its unit, what was found in the mesh and mended, material, symmetry, stable poses.
+/// Step 1: the part. Import with its unit, what was found in the mesh and mended, material, symmetry, stable
+/// poses.
 class PartPage : public Page {
     Q_OBJECT
  public:
@@ -38,10 +39,16 @@ class PartPage : public Page {
     void askForFile();
     void import(const work::PartRequest& request);
     void take(const work::LoadedPart& part);
+    /// Ends an import that came to nothing.
+    void leave();
     void setBusy(const QString& what);
 
     void refresh();
+    /// Whether the part of the study is the one that was imported last.
+    [[nodiscard]] bool knowsImport() const;
     void showMesh();
+    void tellMesh(const geometry::MeshReport& report, std::size_t triangles,
+                  const std::vector<std::string>& notes);
     void showUnits();
     void showMaterial();
     void changeUnits(int index);
@@ -53,8 +60,8 @@ class PartPage : public Page {
     scene::SceneView* scene_ = nullptr;  // while the page is shown
     session::PartImport import_;
     session::NewestTask meshCheck_;
-    std::optional<work::LoadedPart> imported_;  // the last one, for its report
-    std::shared_ptr<const part::Part> shownMesh_;    // whose mesh was checked
+    std::optional<work::LoadedPart> imported_;     // the last one, for its report
+    std::shared_ptr<const part::Part> shownMesh_;  // whose mesh was checked
 
     QLabel* name_;
     QLabel* size_;

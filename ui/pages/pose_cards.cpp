@@ -56,7 +56,8 @@ void PoseCards::rebuild() {
     for (const part::StablePose& pose : part_->stablePoses) {
         auto* card = new QFrame(this);
         card->setObjectName("poseCard");
-        card->setStyleSheet("#poseCard { border: 1px solid palette(mid); border-radius: 6px; background: palette(base); }");
+        card->setStyleSheet(
+            "#poseCard { border: 1px solid palette(mid); border-radius: 6px; background: palette(base); }");
         auto* picture = new QLabel(card);
         QPixmap pixmap =
             QPixmap::fromImage(pictures_.partPicture(part_, pose.rotation, kPicture * devicePixelRatioF()));

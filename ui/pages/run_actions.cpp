@@ -68,7 +68,8 @@ void RunActions::update() {
     const bool paused = state == RunState::paused;
     const bool idle = state == RunState::idle || state == RunState::simulating;
     const auto generations = session_ ? session_->summaries().size() : 0;
-    const bool complete = session_ && generations >= static_cast<std::size_t>(session_->settings().evolution.generations);
+    const bool complete =
+        session_ && generations >= static_cast<std::size_t>(session_->settings().evolution.generations);
 
     QString obstacle;
     if (!session_) {
@@ -78,7 +79,9 @@ void RunActions::update() {
     } else if (idle && complete) {
         obstacle = tr("All generations are there; raise their number to learn on");
     }
-    start_->setText(paused ? tr("Re&sume learning") : generations > 0 ? tr("&Start learning on") : tr("&Start learning"));
+    start_->setText(paused            ? tr("Re&sume learning")
+                    : generations > 0 ? tr("&Start learning on")
+                                      : tr("&Start learning"));
     start_->setToolTip(obstacle.isEmpty() ? tr("Learn from the last saved generation on") : obstacle);
     start_->setEnabled(paused || (idle && obstacle.isEmpty()));
     pause_->setEnabled(state == RunState::learning);

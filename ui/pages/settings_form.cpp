@@ -17,9 +17,10 @@ QString helpOf(const SettingsRow& row) {
     const study::FieldInfo& field = row.field();
     QString help = row.text().help;
     if (field.kind == study::FieldKind::number || field.kind == study::FieldKind::count) {
-        help += ' ' + SettingsForm::tr("%1 to %2 %3")
-                          .arg(QString::number(field.low), QString::number(field.high, 'g', 10), unitOf(field.key))
-                          .trimmed() +
+        help += ' ' +
+                SettingsForm::tr("%1 to %2 %3")
+                    .arg(QString::number(field.low), QString::number(field.high, 'g', 10), unitOf(field.key))
+                    .trimmed() +
                 '.';
     }
     return help;
@@ -45,17 +46,19 @@ SettingsForm::SettingsForm(const std::vector<FieldGroup>& groups, study::Setting
 
 void SettingsForm::addRow(Group& group, const std::string& key) {
     static const std::vector<study::FieldInfo> fields = study::listFields();
-    const auto field =
-        std::find_if(fields.begin(), fields.end(), [&](const study::FieldInfo& info) { return info.key == key; });
+    const auto field = std::find_if(fields.begin(), fields.end(),
+                                    [&](const study::FieldInfo& info) { return info.key == key; });
     Q_ASSERT(field != fields.end());
     auto* row = new SettingsRow(*field, group.widget);
     group.widget->body()->addWidget(row);
     group.rows.push_back(row);
     rows_.push_back(row);
-    connect(row, &SettingsRow::attended, this, [this, row] { emit attended(row->text().label, helpOf(*row)); });
+    connect(row, &SettingsRow::attended, this,
+            [this, row] { emit attended(row->text().label, helpOf(*row)); });
     connect(row, &SettingsRow::edited, this, [this, row](const QString& text) {
         study::Settings changed = settings_;
-        if (study::setField(changed, row->field().key, text.toStdString())) emit edited(changed, row->text().label);
+        if (study::setField(changed, row->field().key, text.toStdString()))
+            emit edited(changed, row->text().label);
     });
 }
 
@@ -65,7 +68,8 @@ void SettingsForm::show(const study::Settings& settings) {
         row->show(settings, defaults_);
 }
 
-void SettingsForm::setProblems(const std::vector<std::string>& problems, const std::vector<std::string>& advice) {
+void SettingsForm::setProblems(const std::vector<std::string>& problems,
+                               const std::vector<std::string>& advice) {
     std::map<std::string, std::pair<QString, bool>> reasons;  // by key: text, and whether it is only advice
     const auto add = [&](const std::vector<std::string>& sentences, bool isAdvice) {
         for (const std::string& sentence : sentences) {

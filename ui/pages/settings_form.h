@@ -19,8 +19,9 @@ namespace trapwright::pages {
 
 class SettingsRow;
 
-/// Edits settings in groups: a row for each, bad values marked in place with the reason, and each can be reset.
-/// Holds no settings but those it was shown last; who owns them is told by edited() what the user wants.
+/// Edits settings in groups: a row for each, bad values marked in place with the reason, and each can be
+/// reset. Holds no settings but those it was shown last; who owns them is told by edited() what the user
+/// wants.
 class SettingsForm : public QWidget {
     Q_OBJECT
  public:
@@ -28,8 +29,8 @@ class SettingsForm : public QWidget {
     SettingsForm(const std::vector<FieldGroup>& groups, study::Settings defaults, QWidget* parent = nullptr);
 
     void show(const study::Settings& settings);
-    /// Sentences of study::findProblems, findPartProblems (`problems`) and findRecommendations (`advice`). Those
-    /// that concern no field of this form are left out.
+    /// Sentences of study::findProblems, findPartProblems (`problems`) and findRecommendations (`advice`).
+    /// Those that concern no field of this form are left out.
     void setProblems(const std::vector<std::string>& problems, const std::vector<std::string>& advice);
     /// Only those for which `mayChange` is true can be edited.
     void setLocked(const std::function<bool(const std::string& key)>& mayChange);

@@ -67,7 +67,8 @@ SettingsRow::SettingsRow(study::FieldInfo field, QWidget* parent)
     QWidget* editor = edit_ != nullptr ? static_cast<QWidget*>(edit_) : combo_;
     editor->setObjectName("field." + key);
     editor->setFixedWidth(kEditorWidth);
-    editor->setAccessibleName(text_.label + (unitOf(field_.key).isEmpty() ? QString() : ", " + unitOf(field_.key)));
+    editor->setAccessibleName(text_.label +
+                              (unitOf(field_.key).isEmpty() ? QString() : ", " + unitOf(field_.key)));
     editor->setAccessibleDescription(text_.help);
     editor->installEventFilter(this);
     label_->setBuddy(editor);
@@ -115,7 +116,8 @@ void SettingsRow::show(const study::Settings& settings, const study::Settings& d
     }
     reset_->setToolTip(tr("Back to %1 %2").arg(default_, unitOf(field_.key)));
     study::Settings typed = settings;
-    const bool same = edit_->hasFocus() && study::setField(typed, field_.key, editorText().toStdString()).ok() &&
+    const bool same = edit_->hasFocus() &&
+                      study::setField(typed, field_.key, editorText().toStdString()).ok() &&
                       study::fieldText(typed, field_.key) == shown_.toStdString();
     if (!same) edit_->setText(shown_);
 }
@@ -174,13 +176,16 @@ void SettingsRow::showReason() {
     study::Settings trial;
     const bool readable = study::setField(trial, field_.key, editorText().toStdString()).ok();
     const bool whole = field_.kind == study::FieldKind::count || field_.kind == study::FieldKind::seed;
-    const QString reason = readable ? problem_ : whole ? tr("This is not a whole number.") : tr("This is not a number.");
+    const QString reason = readable ? problem_
+                           : whole  ? tr("This is not a whole number.")
+                                    : tr("This is not a number.");
     const bool bad = !reason.isEmpty() && !(readable && advice_);
     if (edit_ != nullptr) edit_->setBad(bad);
     reason_->setVisible(!reason.isEmpty());
     reason_->setText(reason);
     QPalette colours;
-    colours.setColor(QPalette::WindowText, look::toneColour(bad ? look::Tone::bad : look::Tone::warning, QPalette()));
+    colours.setColor(QPalette::WindowText,
+                     look::toneColour(bad ? look::Tone::bad : look::Tone::warning, QPalette()));
     reason_->setPalette(colours);
     QWidget* editor = edit_ != nullptr ? static_cast<QWidget*>(edit_) : combo_;
     editor->setAccessibleDescription(reason.isEmpty() ? text_.help : reason + " " + text_.help);

@@ -23,7 +23,8 @@ class SettingsRow : public QWidget {
     [[nodiscard]] const study::FieldInfo& field() const { return field_; }
     [[nodiscard]] const FieldText& text() const { return text_; }
 
-    /// The value of these settings, and what reset goes back to. What is being typed stays if it means the same.
+    /// The value of these settings, and what reset goes back to. What is being typed stays if it means the
+    /// same.
     void show(const study::Settings& settings, const study::Settings& defaults);
     /// What is wrong with the value, or advised; empty for nothing.
     void setProblem(const QString& reason, bool advice = false);

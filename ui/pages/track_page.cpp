@@ -43,7 +43,9 @@ QString contactTitle(std::string_view name) {
 }  // namespace
 
 TrackPage::TrackPage(QWidget* parent)
-    : Page({"track", tr("Track"), "track", tr("What the track is made of, how it vibrates and how it is learned")}, parent),
+    : Page({"track", tr("Track"), "track",
+            tr("What the track is made of, how it vibrates and how it is learned")},
+           parent),
       form_(new SettingsForm(trackGroups(), {}, this)),
       drive_(new DriveCard(form_)),
       contact_(new QComboBox(form_)),
@@ -83,11 +85,12 @@ TrackPage::TrackPage(QWidget* parent)
     connect(form_, &SettingsForm::attended, this, [this](const QString& label, const QString& help) {
         help_->setText("<b>" + label.toHtmlEscaped() + "</b>&nbsp; " + help.toHtmlEscaped());
     });
-    connect(&build_, &session::TrackBuild::built, this, [this](const std::shared_ptr<const track::Track>& track) {
-        track_ = track;
-        showTitle();
-        showTrack();
-    });
+    connect(&build_, &session::TrackBuild::built, this,
+            [this](const std::shared_ptr<const track::Track>& track) {
+                track_ = track;
+                showTitle();
+                showTrack();
+            });
     refresh();
 }
 

@@ -53,11 +53,16 @@ bool ValueEdit::event(QEvent* event) {
 void ValueEdit::keyPressEvent(QKeyEvent* event) {
     constexpr int kPage = 10;
     switch (event->key()) {
-        case Qt::Key_Up: return step(1);
-        case Qt::Key_Down: return step(-1);
-        case Qt::Key_PageUp: return step(kPage);
-        case Qt::Key_PageDown: return step(-kPage);
-        default: QLineEdit::keyPressEvent(event);
+        case Qt::Key_Up:
+            return step(1);
+        case Qt::Key_Down:
+            return step(-1);
+        case Qt::Key_PageUp:
+            return step(kPage);
+        case Qt::Key_PageDown:
+            return step(-kPage);
+        default:
+            QLineEdit::keyPressEvent(event);
     }
 }
 
@@ -71,7 +76,8 @@ void ValueEdit::wheelEvent(QWheelEvent* event) {
 void ValueEdit::resizeEvent(QResizeEvent* event) {
     QLineEdit::resizeEvent(event);
     const QSize size = unit_->sizeHint();
-    unit_->setGeometry(width() - size.width() - kUnitGap, (height() - size.height()) / 2, size.width(), size.height());
+    unit_->setGeometry(width() - size.width() - kUnitGap, (height() - size.height()) / 2, size.width(),
+                       size.height());
 }
 
 void ValueEdit::focusInEvent(QFocusEvent* event) {

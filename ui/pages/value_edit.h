@@ -6,9 +6,9 @@ class QLabel;
 
 namespace trapwright::pages {
 
-/// A field for one number with its unit in it. Any text can be typed, so that what is wrong can be shown where it
-/// is wrong. Up and Down change the last digit that counts, Page Up and Page Down ten times as much; so does the
-/// wheel in a field that has the focus.
+/// A field for one number with its unit in it. Any text can be typed, so that what is wrong can be shown
+/// where it is wrong. Up and Down change the last digit that counts, Page Up and Page Down ten times as much;
+/// so does the wheel in a field that has the focus.
 class ValueEdit : public QLineEdit {
     Q_OBJECT
  public:

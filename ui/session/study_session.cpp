@@ -204,7 +204,7 @@ base::Status StudySession::saveAs(const std::filesystem::path& path) {
         if (status) status = state_->writer.moveTo(path, state_->environment.program);
         moved.set_value(status);
     });
-    const base::Status status = moved.get_future().get();
+    base::Status status = moved.get_future().get();
     if (status) state_->path = path;
     auto reader = store::StudyFile::openReadOnly(state_->path);
     if (!reader) return reader.error();

@@ -8,7 +8,8 @@ class QToolButton;
 
 namespace trapwright::window {
 
-/// The title bar of a dock: drag it to move the dock, double-click it to float it; two buttons float and close it.
+/// The title bar of a dock: drag it to move the dock, double-click it to float it; two buttons float and
+/// close it.
 class DockTitle : public QWidget {
     Q_OBJECT
  public:

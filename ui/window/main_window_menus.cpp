@@ -24,8 +24,8 @@ namespace trapwright::window {
 namespace {
 
 template <class Target, class Slot>
-QAction* addItem(QMenu& menu, const QString& name, const QString& icon, const QString& text, const QKeySequence& key,
-                 Target* target, Slot slot) {
+QAction* addItem(QMenu& menu, const QString& name, const QString& icon, const QString& text,
+                 const QKeySequence& key, Target* target, Slot slot) {
     QAction* action = menu.addAction(icon.isEmpty() ? QIcon() : look::icon(icon), text);
     action->setObjectName(name);
     action->setShortcut(key);
@@ -35,9 +35,12 @@ QAction* addItem(QMenu& menu, const QString& name, const QString& icon, const QS
 
 QString choiceName(look::ThemeChoice choice) {
     switch (choice) {
-        case look::ThemeChoice::system: return "system";
-        case look::ThemeChoice::light: return "light";
-        case look::ThemeChoice::dark: return "dark";
+        case look::ThemeChoice::system:
+            return "system";
+        case look::ThemeChoice::light:
+            return "light";
+        case look::ThemeChoice::dark:
+            return "dark";
     }
     return {};
 }
@@ -47,21 +50,24 @@ QString choiceName(look::ThemeChoice choice) {
 void MainWindow::addFileMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&File"));
     addItem(menu, "file.new", "new", tr("&New study..."), QKeySequence::New, this, &MainWindow::askForPart);
-    addItem(menu, "file.open", "open", tr("&Open study..."), QKeySequence::Open, this, &MainWindow::askForStudy);
+    addItem(menu, "file.open", "open", tr("&Open study..."), QKeySequence::Open, this,
+            &MainWindow::askForStudy);
     recentMenu_ = menu.addMenu(look::icon("recent"), tr("Open &recent"));
     recentMenu_->setObjectName("menu.recent");
     QMenu& examples = *menu.addMenu(look::icon("example"), tr("Open &example"));
     examples.setObjectName("menu.examples");
     for (const part::BundledPart& part : part::listBundledParts()) {
         const QString name = QString::fromUtf8(part.name.data(), static_cast<qsizetype>(part.name.size()));
-        const QString text = QString::fromUtf8(part.description.data(), static_cast<qsizetype>(part.description.size()));
+        const QString text =
+            QString::fromUtf8(part.description.data(), static_cast<qsizetype>(part.description.size()));
         addItem(examples, "example." + name, {}, text, {}, this, [this, name] { openExample(name, false); });
     }
     menu.addSeparator();
     studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."),
                              QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S), this,
                              [this] { askForSaveAs([] {}); });
-    studyActions_ << addItem(menu, "file.close", "close", tr("&Close study"), QKeySequence(Qt::CTRL | Qt::Key_W), this,
+    studyActions_ << addItem(menu, "file.close", "close", tr("&Close study"),
+                             QKeySequence(Qt::CTRL | Qt::Key_W), this,
                              [this] { whenClosable([this] { desk_.close(true); }); });
     menu.addSeparator();
     addItem(menu, "file.quit", {}, tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), this, &MainWindow::close);
@@ -73,6 +79,8 @@ void MainWindow::addEditMenu() {
     QAction* redo = undo_->createRedoAction(this, tr("&Redo"));
     undo->setObjectName("edit.undo");
     redo->setObjectName("edit.redo");
+    undo->setProperty(kLastingText, tr("Undo"));
+    redo->setProperty(kLastingText, tr("Redo"));
     undo->setIcon(look::icon("undo"));
     redo->setIcon(look::icon("redo"));
     undo->setShortcut(QKeySequence::Undo);
@@ -96,14 +104,16 @@ void MainWindow::addViewMenu() {
     QMenu& themes = *menu.addMenu(look::icon("theme"), tr("&Theme"));
     auto* group = new QActionGroup(this);
     const QString stored = QSettings().value("theme").toString();
-    const std::vector<std::pair<look::ThemeChoice, QString>> choices = {{look::ThemeChoice::system, tr("&System")},
-                                                                        {look::ThemeChoice::light, tr("&Light")},
-                                                                        {look::ThemeChoice::dark, tr("&Dark")}};
+    const std::vector<std::pair<look::ThemeChoice, QString>> choices = {
+        {look::ThemeChoice::system, tr("&System")},
+        {look::ThemeChoice::light, tr("&Light")},
+        {look::ThemeChoice::dark, tr("&Dark")}};
     for (const auto& [choice, text] : choices) {
-        QAction* action = addItem(themes, "theme." + choiceName(choice), {}, text, {}, this, [this, choice = choice] {
-            theme_.choose(choice);
-            QSettings().setValue("theme", choiceName(choice));
-        });
+        QAction* action =
+            addItem(themes, "theme." + choiceName(choice), {}, text, {}, this, [this, choice = choice] {
+                theme_.choose(choice);
+                QSettings().setValue("theme", choiceName(choice));
+            });
         action->setCheckable(true);
         group->addAction(action);
         if (choiceName(choice) == stored) theme_.choose(choice);
@@ -130,10 +140,11 @@ void MainWindow::addHelpMenu() {
         box->setAttribute(Qt::WA_DeleteOnClose);
         box->setWindowTitle(tr("About Trapwright"));
         box->setIconPixmap(look::programIcon().pixmap(64, 64));
-        box->setText(tr("<b>%1</b><p>Designs tracks for vibratory part feeders: a genetic algorithm grows them, "
-                        "rigid-body contact simulation judges them.</p><p>Free software under the GNU General Public "
-                        "License, version 3 or later. Without any warranty.</p>")
-                         .arg(QString::fromStdString(desk_.environment().program)));
+        box->setText(
+            tr("<b>%1</b><p>Designs tracks for vibratory part feeders: a genetic algorithm grows them, "
+               "rigid-body contact simulation judges them.</p><p>Free software under the GNU General Public "
+               "License, version 3 or later. Without any warranty.</p>")
+                .arg(QString::fromStdString(desk_.environment().program)));
         box->setStandardButtons(QMessageBox::Close);
         box->open();
     });
@@ -163,8 +174,8 @@ void MainWindow::showRecent() {
     frame_->welcome().setRecent(studies, desk_.forgottenDrafts());
     recentMenu_->clear();
     for (const QString& study : studies) {
-        addItem(*recentMenu_, "recent." + study, {}, look::pathText(study.toStdString()).replace('&', "&&"), {}, this,
-                [this, study] { openStudy(QFile::encodeName(study).toStdString()); });
+        addItem(*recentMenu_, "recent." + study, {}, look::pathText(study.toStdString()).replace('&', "&&"),
+                {}, this, [this, study] { openStudy(QFile::encodeName(study).toStdString()); });
     }
     recentMenu_->addSeparator();
     addItem(*recentMenu_, "recent.clear", {}, tr("&Forget these"), {}, &desk_.recent(), &RecentFiles::clear);

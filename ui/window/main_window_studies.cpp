@@ -22,15 +22,16 @@ QString studyFilter() {
 }
 
 QMessageBox* question(QWidget* parent, const QString& name, const QString& text, const QString& detail) {
-    auto* box = new QMessageBox(QMessageBox::Question, MainWindow::tr("Trapwright"), text, QMessageBox::NoButton, parent);
+    auto* box = new QMessageBox(QMessageBox::Question, MainWindow::tr("Trapwright"), text,
+                                QMessageBox::NoButton, parent);
     box->setObjectName(name);
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->setInformativeText(detail);
     return box;
 }
 
-QPushButton* addAnswer(QMessageBox* box, const QString& name, const QString& text, QMessageBox::ButtonRole role,
-                       QObject* context, const std::function<void()>& act) {
+QPushButton* addAnswer(QMessageBox* box, const QString& name, const QString& text,
+                       QMessageBox::ButtonRole role, QObject* context, const std::function<void()>& act) {
     QPushButton* button = box->addButton(text, role);
     button->setObjectName(name);
     // Another question may follow: this one has to be gone by then.
@@ -64,8 +65,7 @@ void MainWindow::importPart(const std::filesystem::path& file, bool asNewStudy) 
     const auto import = [this, file] {
         frame_->messages().clear();
         pages::Page* page = findPage("part");
-        if (!page->takeFile(file)) fail(tr("The file cannot be used"), look::toText(file));
-        showPage("part");
+        page->takeFile(file);
     };
     if (!asNewStudy || desk_.session() == nullptr) return import();
     whenClosable([this, import] {
@@ -95,14 +95,15 @@ void MainWindow::openExample(const QString& name, bool learn) {
                     import->deleteLater();
                     fail(tr("The example cannot be opened"), message);
                 });
-        connect(import, &session::PartImport::finished, this, [this, import, learn](const work::LoadedPart& part) {
-            import->deleteLater();
-            const base::Status created = desk_.createDraft(part);
-            report(tr("The example cannot be opened"), created);
-            if (!created || !learn) return;
-            showPage("evolve");
-            desk_.session()->startLearning();
-        });
+        connect(import, &session::PartImport::finished, this,
+                [this, import, learn](const work::LoadedPart& part) {
+                    import->deleteLater();
+                    const base::Status created = desk_.createDraft(part);
+                    report(tr("The example cannot be opened"), created);
+                    if (!created || !learn) return;
+                    showPage("evolve");
+                    desk_.session()->startLearning();
+                });
         work::PartRequest request;
         request.part = name.toStdString();
         import->start(request);
@@ -113,10 +114,12 @@ void MainWindow::offerRecovery() {
     const auto interrupted = session::takeInterruptedStudies(desk_.environment().stateFolder);
     if (interrupted.empty() || desk_.session() != nullptr) return;
     const std::filesystem::path study = interrupted.front();
-    frame_->messages().show(look::MessageKind::warning, tr("%1 was learning when the program ended").arg(look::toText(study.stem())),
-                            tr("Every generation that was complete is saved. Learning can go on where it stopped."),
-                            {{tr("Go on learning"), [this, study] { openStudy(study, true); }},
-                             {tr("Only open it"), [this, study] { openStudy(study); }}});
+    frame_->messages().show(
+        look::MessageKind::warning,
+        tr("%1 was learning when the program ended").arg(look::toText(study.stem())),
+        tr("Every generation that was complete is saved. Learning can go on where it stopped."),
+        {{tr("Go on learning"), [this, study] { openStudy(study, true); }},
+         {tr("Only open it"), [this, study] { openStudy(study); }}});
 }
 
 void MainWindow::whenClosable(const std::function<void()>& afterwards) {
@@ -125,10 +128,11 @@ void MainWindow::whenClosable(const std::function<void()>& afterwards) {
     if (state == RunState::idle || state == RunState::simulating) return whenSaved(afterwards);
 
     const bool learns = state != RunState::selecting && state != RunState::validating;
-    QMessageBox* box =
-        question(this, "dialog.running", learns ? tr("The study is learning.") : tr("The study is simulating."),
-                 learns ? tr("All complete generations are saved. What is done of the present one is lost if it stops now.")
-                        : tr("What is not complete is lost if it stops now."));
+    QMessageBox* box = question(this, "dialog.running",
+                                learns ? tr("The study is learning.") : tr("The study is simulating."),
+                                learns ? tr("All complete generations are saved. What is done of the present "
+                                            "one is lost if it stops now.")
+                                       : tr("What is not complete is lost if it stops now."));
     if (learns) {
         addAnswer(box, "answer.stopAfter", tr("Stop after this generation"), QMessageBox::AcceptRole, this,
                   [this, afterwards] {
@@ -138,14 +142,16 @@ void MainWindow::whenClosable(const std::function<void()>& afterwards) {
                                   if (now != RunState::idle) return;
                                   waiting->deleteLater();
                                   QMetaObject::invokeMethod(
-                                      this, [this, afterwards] { whenClosable(afterwards); }, Qt::QueuedConnection);
+                                      this, [this, afterwards] { whenClosable(afterwards); },
+                                      Qt::QueuedConnection);
                               });
                       desk_.session()->stopAfterGeneration();
                   });
     }
     addAnswer(box, "answer.stopNow", tr("Stop now"), QMessageBox::DestructiveRole, this,
               [this, afterwards] { whenSaved(afterwards); });
-    box->setDefaultButton(addAnswer(box, "answer.goOn", tr("Keep it running"), QMessageBox::RejectRole, this, [] {}));
+    box->setDefaultButton(
+        addAnswer(box, "answer.goOn", tr("Keep it running"), QMessageBox::RejectRole, this, [] {}));
     box->open();
 }
 
@@ -157,14 +163,16 @@ void MainWindow::whenSaved(const std::function<void()>& afterwards) {
         desk_.close(false);
         return afterwards();
     }
-    QMessageBox* box = question(this, "dialog.draft", tr("Save the study of %1?").arg(QString::fromStdString(session.part()->name)),
+    QMessageBox* box = question(this, "dialog.draft",
+                                tr("Save the study of %1?").arg(QString::fromStdString(session.part()->name)),
                                 tr("It has no file of its own yet."));
     box->setDefaultButton(addAnswer(box, "answer.save", tr("Save as..."), QMessageBox::AcceptRole, this,
                                     [this, afterwards] { askForSaveAs(afterwards); }));
-    addAnswer(box, "answer.discard", tr("Discard it"), QMessageBox::DestructiveRole, this, [this, afterwards] {
-        desk_.close(false);
-        afterwards();
-    });
+    addAnswer(box, "answer.discard", tr("Discard it"), QMessageBox::DestructiveRole, this,
+              [this, afterwards] {
+                  desk_.close(false);
+                  afterwards();
+              });
     addAnswer(box, "answer.cancel", tr("Cancel"), QMessageBox::RejectRole, this, [] {});
     box->open();
 }

@@ -120,7 +120,8 @@ void PageDocks::arrange() {
     for (auto first = front.cbegin(); first != front.cend(); ++first) {
         first.value()->raise();
         const bool wide = first.key() == Qt::BottomDockWidgetArea || first.key() == Qt::TopDockWidgetArea;
-        window_.resizeDocks({first.value()}, {wide ? kPanelHeight : kPanelWidth}, wide ? Qt::Vertical : Qt::Horizontal);
+        window_.resizeDocks({first.value()}, {wide ? kPanelHeight : kPanelWidth},
+                            wide ? Qt::Vertical : Qt::Horizontal);
     }
     window_.resizeDocks({inspector_}, {kInspectorWidth}, Qt::Horizontal);
 }

@@ -16,8 +16,8 @@ class Page;
 
 namespace trapwright::window {
 
-/// The docks around the scene: the inspector with the page that is shown, and one for each panel of a page. Docks
-/// move, float and close; every page has an arrangement of its own, which is remembered between starts.
+/// The docks around the scene: the inspector with the page that is shown, and one for each panel of a page.
+/// Docks move, float and close; every page has an arrangement of its own, which is remembered between starts.
 class PageDocks : public QObject {
     Q_OBJECT
  public:

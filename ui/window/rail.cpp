@@ -16,11 +16,14 @@ constexpr int kIcon = 26;
 
 // The page that is shown has a bar of the accent at its left, and bold text: never colour alone.
 constexpr auto kStyle =
-    "#rail { border: none; border-right: 1px solid palette(mid); background: palette(base); spacing: 0px; padding: 4px 0px; }"
-    "#rail QToolButton { border: none; border-left: 3px solid transparent; border-radius: 0px; padding: 6px 3px 6px 0px; }"
+    "#rail { border: none; border-right: 1px solid palette(mid); background: palette(base); spacing: 0px; "
+    "padding: 4px 0px; }"
+    "#rail QToolButton { border: none; border-left: 3px solid transparent; border-radius: 0px; padding: 6px "
+    "3px 6px 0px; }"
     "#rail QToolButton:hover { background: palette(window); }"
     "#rail QToolButton:focus { border-left-color: palette(mid); background: palette(window); }"
-    "#rail QToolButton:checked { border-left-color: palette(highlight); background: palette(window); font-weight: 600; }";
+    "#rail QToolButton:checked { border-left-color: palette(highlight); background: palette(window); "
+    "font-weight: 600; }";
 
 }  // namespace
 
@@ -39,7 +42,8 @@ Rail::Rail(const std::vector<pages::Page*>& pages, QWidget* parent) : QToolBar(t
         action->setObjectName("page." + face.name + ".show");
         action->setCheckable(true);
         action->setShortcut(QKeySequence(QString("Ctrl+%1").arg(i + 1)));
-        action->setToolTip(QString("%1 (%2)").arg(face.tip, action->shortcut().toString(QKeySequence::NativeText)));
+        action->setToolTip(
+            QString("%1 (%2)").arg(face.tip, action->shortcut().toString(QKeySequence::NativeText)));
         group->addAction(action);
         actions_.push_back(action);
         connect(action, &QAction::triggered, this, [this, i] { emit chosen(i); });

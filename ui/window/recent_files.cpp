@@ -41,8 +41,9 @@ void RecentFiles::clear() {
 
 QStringList RecentFiles::list() const {
     QStringList files = stored();
-    files.erase(std::remove_if(files.begin(), files.end(), [](const QString& file) { return !QFile::exists(file); }),
-                files.end());
+    files.erase(
+        std::remove_if(files.begin(), files.end(), [](const QString& file) { return !QFile::exists(file); }),
+        files.end());
     return files;
 }
 

@@ -6,7 +6,8 @@
 
 namespace trapwright::window {
 
-/// The studies that were open lately, newest first, remembered between starts. Those that are gone are left out.
+/// The studies that were open lately, newest first, remembered between starts. Those that are gone are left
+/// out.
 class RecentFiles : public QObject {
     Q_OBJECT
  public:

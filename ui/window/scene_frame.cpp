@@ -24,7 +24,7 @@ struct ToolFace {
     Qt::Key key;
     const char* icon;
 };
-constexpr ToolFace kTools[] = {{Qt::Key_F, "fit"},        {Qt::Key_0, "view-iso"}, {Qt::Key_2, "view-top"},
+constexpr ToolFace kTools[] = {{Qt::Key_F, "fit"},        {Qt::Key_0, "view-iso"},  {Qt::Key_2, "view-top"},
                                {Qt::Key_1, "view-front"}, {Qt::Key_3, "view-side"}, {Qt::Key_H, "height"},
                                {Qt::Key_E, "edges"},      {Qt::Key_C, "follow"}};
 
@@ -83,7 +83,8 @@ QWidget* SceneFrame::makeTools() {
     bar->setObjectName("sceneTools");
     bar->setIconSize({kToolIcon, kToolIcon});
     bar->setToolButtonStyle(Qt::ToolButtonIconOnly);
-    bar->setStyleSheet("#sceneTools { border: none; border-bottom: 1px solid palette(mid); padding: 2px 6px; }");
+    bar->setStyleSheet(
+        "#sceneTools { border: none; border-bottom: 1px solid palette(mid); padding: 2px 6px; }");
     const QList<QAction*> actions = scene_->viewActions();
     for (const ToolFace& face : kTools) {
         const auto action = std::find_if(actions.begin(), actions.end(), [&](const QAction* one) {
@@ -91,7 +92,8 @@ QWidget* SceneFrame::makeTools() {
         });
         if (action == actions.end()) continue;
         (*action)->setIcon(look::icon(face.icon));
-        if ((*action)->isCheckable() && bar->findChild<QToolButton*>("switch") == nullptr) bar->addSeparator();
+        if ((*action)->isCheckable() && bar->findChild<QToolButton*>("switch") == nullptr)
+            bar->addSeparator();
         bar->addAction(*action);
         auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(*action));
         if ((*action)->isCheckable()) button->setObjectName("switch");

@@ -16,8 +16,8 @@ namespace trapwright::window {
 
 class Welcome;
 
-/// The middle of the window: messages, then the scene with its views, then what the page has below it. Without a
-/// study the welcome takes the place of the scene.
+/// The middle of the window: messages, then the scene with its views, then what the page has below it.
+/// Without a study the welcome takes the place of the scene.
 class SceneFrame : public QWidget {
     Q_OBJECT
  public:

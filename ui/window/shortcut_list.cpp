@@ -42,7 +42,10 @@ class Collector {
         QStringList keys;
         for (const QKeySequence& key : action.shortcuts())
             keys.push_back(key.toString(QKeySequence::NativeText));
-        found.push_back({place, plain(action.text()), keys.join(QObject::tr(" or "))});
+        // Undo's text tells what would be undone at the moment.
+        const QVariant lasting = action.property(kLastingText);
+        found.push_back({place, plain(lasting.isValid() ? lasting.toString() : action.text()),
+                         keys.join(QObject::tr(" or "))});
     }
 
  private:
@@ -108,7 +111,8 @@ void showShortcuts(QWidget* parent, const std::vector<Shortcut>& shortcuts) {
             bool any = false;
             for (int j = 0; j < group->childCount(); ++j) {
                 QTreeWidgetItem* item = group->child(j);
-                const bool matches = (item->text(0) + ' ' + item->text(1)).contains(text, Qt::CaseInsensitive);
+                const bool matches =
+                    (item->text(0) + ' ' + item->text(1)).contains(text, Qt::CaseInsensitive);
                 item->setHidden(!matches);
                 any = any || matches;
             }

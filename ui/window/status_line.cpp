@@ -30,25 +30,33 @@ StateFace faceOf(RunState state, bool problems) {
         case RunState::idle:
             return problems ? StateFace{StatusLine::tr("Not ready to learn"), "warning", false}
                             : StateFace{StatusLine::tr("Ready"), "good", false};
-        case RunState::learning: return {StatusLine::tr("Learning"), "start", true};
-        case RunState::paused: return {StatusLine::tr("Paused"), "pause", true};
+        case RunState::learning:
+            return {StatusLine::tr("Learning"), "start", true};
+        case RunState::paused:
+            return {StatusLine::tr("Paused"), "pause", true};
         case RunState::stoppingAfterGeneration:
             return {StatusLine::tr("Stopping after this generation"), "stop-after", true};
-        case RunState::stopping: return {StatusLine::tr("Stopping"), "stop", true};
-        case RunState::selecting: return {StatusLine::tr("Simulating the best winners"), "start", true};
-        case RunState::validating: return {StatusLine::tr("Validating"), "start", true};
-        case RunState::simulating: return {StatusLine::tr("Simulating"), "start", false};
+        case RunState::stopping:
+            return {StatusLine::tr("Stopping"), "stop", true};
+        case RunState::selecting:
+            return {StatusLine::tr("Simulating the best winners"), "start", true};
+        case RunState::validating:
+            return {StatusLine::tr("Validating"), "start", true};
+        case RunState::simulating:
+            return {StatusLine::tr("Simulating"), "start", false};
     }
     return {};
 }
 
 }  // namespace
 
-StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent), sign_(new QLabel(this)), bar_(new QProgressBar(this)) {
+StatusLine::StatusLine(QWidget* parent)
+    : QStatusBar(parent), sign_(new QLabel(this)), bar_(new QProgressBar(this)) {
     setObjectName("statusLine");
     setSizeGripEnabled(false);
-    setStyleSheet("QStatusBar { border-top: 1px solid palette(mid); } QStatusBar::item { border: none; }"
-                  "#statusSign { padding-left: 8px; } #status\\.engines { padding-right: 8px; }");
+    setStyleSheet(
+        "QStatusBar { border-top: 1px solid palette(mid); } QStatusBar::item { border: none; }"
+        "#statusSign { padding-left: 8px; } #status\\.engines { padding-right: 8px; }");
     sign_->setObjectName("statusSign");
     addWidget(sign_);
     state_ = addField("state", tr("What the study is doing"));
@@ -110,7 +118,7 @@ void StatusLine::update() {
     generation_->setVisible(session_ && !session_->summaries().empty());
     if (!session_) return;
 
-    const QColor colour = problems ? look::toneColour(look::Tone::warning, QPalette())
+    const QColor colour = problems      ? look::toneColour(look::Tone::warning, QPalette())
                           : face.active ? QPalette().color(QPalette::Highlight)
                                         : look::toneColour(look::Tone::good, QPalette());
     sign_->setPixmap(look::signPixmap(face.icon, colour, kSign, devicePixelRatioF()));
@@ -124,7 +132,8 @@ void StatusLine::update() {
     const RunProgress progress = session_->progress();
     if (progress.generations > 0) {
         generation_->setVisible(true);
-        generation_->setText(tr("generation %1 of %2").arg(progress.generation + 1).arg(progress.generations));
+        generation_->setText(
+            tr("generation %1 of %2").arg(progress.generation + 1).arg(progress.generations));
     }
     individual_->setText(tr("individual %1 of %2").arg(progress.individualsDone).arg(progress.individuals));
     individual_->setVisible(progress.individuals > 0);
@@ -133,7 +142,8 @@ void StatusLine::update() {
     left_->setText(tr("%1 left").arg(look::durationText(progress.secondsLeft)));
     left_->setVisible(progress.secondsLeft > 0);
     const double done = progress.trials > 0 ? double(progress.trialsDone) / double(progress.trials) : 0.0;
-    const double whole = progress.generations > 0 ? (progress.generation + done) / progress.generations : done;
+    const double whole =
+        progress.generations > 0 ? (progress.generation + done) / progress.generations : done;
     constexpr int kSteps = 1000;
     bar_->setMaximum(kSteps);
     bar_->setValue(qRound(std::clamp(whole, 0.0, 1.0) * kSteps));
@@ -146,14 +156,17 @@ void StatusLine::updateEngines() {
     }
     const study::CheckRecord& check = session_->checks().back();
     if (check.trials <= 0) return;
-    const double difference = 100.0 * std::abs(check.learning.oriented - check.reference.oriented) / check.trials;
+    const double difference =
+        100.0 * std::abs(check.learning.oriented - check.reference.oriented) / check.trials;
     engines_->setText(tr("%1, %2 within %3 %")
                           .arg(QString::fromStdString(check.learning.engine),
-                               QString::fromStdString(check.reference.engine), look::numberText(difference, 2)));
-    engines_->setToolTip(tr("Generation %1's winner on the same %2 trials in both engines: how many parts end oriented "
-                            "differs by this much")
-                             .arg(check.generation + 1)
-                             .arg(check.trials));
+                               QString::fromStdString(check.reference.engine),
+                               look::numberText(difference, 2)));
+    engines_->setToolTip(
+        tr("Generation %1's winner on the same %2 trials in both engines: how many parts end oriented "
+           "differs by this much")
+            .arg(check.generation + 1)
+            .arg(check.trials));
 }
 
 }  // namespace trapwright::window

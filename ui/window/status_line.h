@@ -12,8 +12,8 @@ class StudySession;
 
 namespace trapwright::window {
 
-/// What the open study is doing, at the bottom of the window: state, generation, individual, trials per second,
-/// time left, and what the reference engine says of the last winner that it checked.
+/// What the open study is doing, at the bottom of the window: state, generation, individual, trials per
+/// second, time left, and what the reference engine says of the last winner that it checked.
 class StatusLine : public QStatusBar {
     Q_OBJECT
  public:

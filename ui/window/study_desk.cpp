@@ -12,7 +12,8 @@ namespace {
 
 std::filesystem::path draftFolder() {
     return std::filesystem::path(
-               QFile::encodeName(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)).toStdString()) /
+               QFile::encodeName(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation))
+                   .toStdString()) /
            "drafts";
 }
 
@@ -82,14 +83,16 @@ base::Status StudyDesk::forkToDraft() {
     return base::success();
 }
 
-void StudyDesk::open(const std::filesystem::path& file, const std::function<void(const base::Status&)>& opened) {
+void StudyDesk::open(const std::filesystem::path& file,
+                     const std::function<void(const base::Status&)>& opened) {
     const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    opening_.start(path, environment_, [this, path, opened](base::Result<std::unique_ptr<session::StudySession>> study) {
-        if (!study) return opened(study.error());
-        adopt(std::move(*study));
-        if (!isDraft()) recent_.add(path);
-        opened(base::success());
-    });
+    opening_.start(path, environment_,
+                   [this, path, opened](base::Result<std::unique_ptr<session::StudySession>> study) {
+                       if (!study) return opened(study.error());
+                       adopt(std::move(*study));
+                       if (!isDraft()) recent_.add(path);
+                       opened(base::success());
+                   });
 }
 
 void StudyDesk::close(bool keepDraft) {

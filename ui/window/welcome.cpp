@@ -28,9 +28,10 @@ class Choice : public QPushButton {
         setAccessibleDescription(text);
         setFixedSize(kChoiceWidth, kChoiceHeight);
         setCursor(Qt::PointingHandCursor);
-        setStyleSheet("QPushButton { border: 1px solid palette(mid); border-radius: 8px; background: palette(base); }"
-                      "QPushButton:hover, QPushButton:focus { border: 2px solid palette(highlight); }"
-                      "QPushButton:pressed { background: palette(window); }");
+        setStyleSheet(
+            "QPushButton { border: 1px solid palette(mid); border-radius: 8px; background: palette(base); }"
+            "QPushButton:hover, QPushButton:focus { border: 2px solid palette(highlight); }"
+            "QPushButton:pressed { background: palette(window); }");
         auto* titleLabel = new QLabel(title, this);
         QFont font = titleLabel->font();
         font.setPointSizeF(font.pointSizeF() * 1.25);
@@ -59,7 +60,9 @@ class Choice : public QPushButton {
     }
 
  private:
-    void draw() { icon_->setPixmap(look::icon(iconName_).pixmap({kChoiceIcon, kChoiceIcon}, devicePixelRatioF())); }
+    void draw() {
+        icon_->setPixmap(look::icon(iconName_).pixmap({kChoiceIcon, kChoiceIcon}, devicePixelRatioF()));
+    }
 
     QLabel* icon_;
     QString iconName_;
@@ -68,7 +71,10 @@ class Choice : public QPushButton {
 }  // namespace
 
 Welcome::Welcome(QWidget* parent)
-    : QWidget(parent), choices_(new QWidget(this)), recent_(new QWidget(this)), recentList_(new QVBoxLayout(recent_)) {
+    : QWidget(parent),
+      choices_(new QWidget(this)),
+      recent_(new QWidget(this)),
+      recentList_(new QVBoxLayout(recent_)) {
     setObjectName("welcome");
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Window);
@@ -84,8 +90,10 @@ Welcome::Welcome(QWidget* parent)
     auto* row = new QHBoxLayout(choices_);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(16);
-    QPushButton* import = addChoice("import", "import", tr("Import a part"), tr("STL, STEP, 3MF, OBJ, PLY, glTF or IGES"));
-    QPushButton* open = addChoice("open", "open", tr("Open a study"), tr("Go on with learning, look at tracks, export"));
+    QPushButton* import =
+        addChoice("import", "import", tr("Import a part"), tr("STL, STEP, 3MF, OBJ, PLY, glTF or IGES"));
+    QPushButton* open =
+        addChoice("open", "open", tr("Open a study"), tr("Go on with learning, look at tracks, export"));
     QPushButton* example =
         addChoice("example", "example", tr("Watch an example"), tr("A 4 × 8 × 12 mm cuboid; learns at once"));
     connect(import, &QPushButton::clicked, this, &Welcome::importWanted);
@@ -106,7 +114,8 @@ Welcome::Welcome(QWidget* parent)
     layout->addStretch(3);
 }
 
-QPushButton* Welcome::addChoice(const QString& name, const QString& icon, const QString& title, const QString& text) {
+QPushButton* Welcome::addChoice(const QString& name, const QString& icon, const QString& title,
+                                const QString& text) {
     auto* button = new Choice(icon, title, text, choices_);
     button->setObjectName("welcome." + name);
     choices_->layout()->addWidget(button);
@@ -135,9 +144,11 @@ void Welcome::setRecent(const QStringList& studies, const QStringList& drafts) {
         link->setText(name + "    " + place);
         link->setAccessibleName(tr("Open %1").arg(name));
         link->setToolTip(path);
-        link->setStyleSheet("QPushButton { text-align: left; padding: 5px 6px; border: 1px solid transparent; border-radius: 4px; }"
-                            "QPushButton:hover { background: palette(base); }"
-                            "QPushButton:focus { border-color: palette(highlight); }");
+        link->setStyleSheet(
+            "QPushButton { text-align: left; padding: 5px 6px; border: 1px solid transparent; border-radius: "
+            "4px; }"
+            "QPushButton:hover { background: palette(base); }"
+            "QPushButton:focus { border-color: palette(highlight); }");
         connect(link, &QPushButton::clicked, this, [this, path] { emit studyWanted(path); });
         recentList_->addWidget(link);
     };

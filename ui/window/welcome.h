@@ -25,7 +25,8 @@ class Welcome : public QWidget {
     void studyWanted(const QString& path);
 
  private:
-    QPushButton* addChoice(const QString& name, const QString& icon, const QString& title, const QString& text);
+    QPushButton* addChoice(const QString& name, const QString& icon, const QString& title,
+                           const QString& text);
 
     QWidget* choices_;
     QWidget* recent_;

@@ -13,7 +13,8 @@ namespace {
 
 FieldInfo find(const std::string& key) {
     const std::vector<FieldInfo> fields = study::listFields();
-    const auto field = std::find_if(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.key == key; });
+    const auto field =
+        std::find_if(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.key == key; });
     return field == fields.end() ? FieldInfo{} : *field;
 }
 
@@ -58,15 +59,24 @@ class FieldTextTest : public QObject {
     void unreadableTextChangesNothing_data() {
         QTest::addColumn<QString>("key");
         QTest::addColumn<QString>("text");
-        QTest::newRow("no number") << "track.segmentWidth_mm" << "wide";
-        QTest::newRow("empty") << "track.segmentWidth_mm" << "";
-        QTest::newRow("two numbers") << "track.segmentWidth_mm" << "1 2";
-        QTest::newRow("no whole number") << "track.crossSections" << "2.5";
-        QTest::newRow("more than fits") << "track.crossSections" << "99999999999";
-        QTest::newRow("negative seed") << "evolution.seed" << "-1";
-        QTest::newRow("no such choice") << "track.feeder" << "belt";
-        QTest::newRow("no flag") << "evolution.simulateOverlapping" << "yes";
-        QTest::newRow("three of four") << "simulation.start.nearPose" << "1 0 0";
+        QTest::newRow("no number") << "track.segmentWidth_mm"
+                                   << "wide";
+        QTest::newRow("empty") << "track.segmentWidth_mm"
+                               << "";
+        QTest::newRow("two numbers") << "track.segmentWidth_mm"
+                                     << "1 2";
+        QTest::newRow("no whole number") << "track.crossSections"
+                                         << "2.5";
+        QTest::newRow("more than fits") << "track.crossSections"
+                                        << "99999999999";
+        QTest::newRow("negative seed") << "evolution.seed"
+                                       << "-1";
+        QTest::newRow("no such choice") << "track.feeder"
+                                        << "belt";
+        QTest::newRow("no flag") << "evolution.simulateOverlapping"
+                                 << "yes";
+        QTest::newRow("three of four") << "simulation.start.nearPose"
+                                       << "1 0 0";
     }
     void unreadableTextChangesNothing() {
         QFETCH(QString, key);

@@ -40,9 +40,10 @@ class FieldTextsTest : public QObject {
         for (const pages::FieldGroup& group : pages::trackGroups())
             keys.insert(group.keys.begin(), group.keys.end());
         for (const char* key :
-             {"track.crossSections", "track.pointsPerSection", "track.minSegmentLength_mm", "track.maxSegmentLength_mm",
-              "track.segmentWidth_mm", "track.segmentHeight_mm", "evolution.trialsPerEvaluation",
-              "evolution.populationSize", "evolution.tournamentSize", "evolution.staticMutation"}) {
+             {"track.crossSections", "track.pointsPerSection", "track.minSegmentLength_mm",
+              "track.maxSegmentLength_mm", "track.segmentWidth_mm", "track.segmentHeight_mm",
+              "evolution.trialsPerEvaluation", "evolution.populationSize", "evolution.tournamentSize",
+              "evolution.staticMutation"}) {
             QVERIFY2(keys.count(key) == 1, key);
         }
     }

@@ -25,12 +25,13 @@ struct Owner {
     QStringList changes;
 
     Owner() {
-        QObject::connect(&form, &SettingsForm::edited, [this](const study::Settings& changed, const QString& what) {
-            settings = changed;
-            changes << what;
-            form.show(settings);
-            form.setProblems(study::findProblems(settings), study::findRecommendations(settings));
-        });
+        QObject::connect(
+            &form, &SettingsForm::edited, [this](const study::Settings& changed, const QString& what) {
+                settings = changed;
+                changes << what;
+                form.show(settings);
+                form.setProblems(study::findProblems(settings), study::findRecommendations(settings));
+            });
         form.resize(340, 900);
         form.show(settings);
         form.QWidget::show();
@@ -117,7 +118,8 @@ class SettingsFormTest : public QObject {
         auto* field = owner.find<pages::ValueEdit>("field.track.segmentWidth_mm");
         owner.type("field.track.segmentWidth_mm", "wide");
         QTRY_VERIFY(field->isBad());
-        QCOMPARE(owner.find<QLabel>("reason.track.segmentWidth_mm")->text(), QString("This is not a number."));
+        QCOMPARE(owner.find<QLabel>("reason.track.segmentWidth_mm")->text(),
+                 QString("This is not a number."));
         QTest::keyClick(field, Qt::Key_Return);
         QCOMPARE(field->text(), QString("60"));
         QVERIFY(!field->isBad());

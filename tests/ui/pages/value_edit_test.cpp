@@ -48,7 +48,8 @@ class ValueEditTest : public QObject {
     void theWheelNeedsTheFocus() {
         pages::ValueEdit edit("mm", 0.0, 100.0, false);
         edit.setText("60");
-        QWheelEvent wheel({5, 5}, {5, 5}, {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+        QWheelEvent wheel({5, 5}, {5, 5}, {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase,
+                          false);
         QCoreApplication::sendEvent(&edit, &wheel);
         QCOMPARE(edit.text(), QString("60"));
     }

@@ -1,98 +1,24 @@
 #include "ui/window/main_window.h"
 
-#include <QAction>
-#include <QComboBox>
 #include <QDockWidget>
-#include <QDropEvent>
-#include <QFile>
-#include <QLabel>
-#include <QLineEdit>
-#include <QMenuBar>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QPushButton>
-#include <QSettings>
-#include <QTemporaryDir>
-#include <QToolButton>
 #include <QTreeWidget>
-#include <QUndoStack>
-#include <QtTest>
 
-#include "core/part/bundled.h"
-#include "ui/look/message_bar.h"
+#include "tests/ui/window/user.h"
 #include "ui/look/theme.h"
-#include "ui/pages/page.h"
 #include "ui/pages/value_edit.h"
-#include "ui/scene/scene_view.h"
 #include "ui/window/shortcut_list.h"
 
 using namespace trapwright;
-
-namespace {
-
-constexpr int kPatience = 20000;  // [ms] for what happens in the background, on a busy machine
-
-base::Result<std::shared_ptr<const trial::Engine>> noEngine(const std::string&, const trial::EngineOptions&) {
-    return base::Error{"There is no engine in this test."};
-}
-
-std::filesystem::path bundled(const char* name) {
-    return part::findBundledFile(part::findBundledPart(name).value());
-}
-
-/// The window and what a user does in it.
-struct User {
-    window::MainWindow window{{noEngine, "trapwright test", {}}};
-
-    User() {
-        window.resize(1280, 720);
-        window.show();
-        window.activateWindow();
-        (void)QTest::qWaitForWindowActive(&window);
-    }
-    ~User() {
-        window.desk().close(false);
-        window.close();
-    }
-    session::StudySession* session() { return window.desk().session(); }
-    template <class Object>
-    Object* find(const QString& name) {
-        return window.findChild<Object*>(name);
-    }
-    QAction* action(const QString& name) { return find<QAction>(name); }
-    QString message() { return find<look::MessageBar>("messageBar")->text(); }
-
-    bool import(const char* name) {
-        window.openFile(bundled(name));
-        return QTest::qWaitFor([&] { return session() != nullptr; }, kPatience);
-    }
-    bool show(const QString& page) {
-        window.showPage(page);
-        return QTest::qWaitFor([&] { return find<pages::Page>("page." + page)->isVisible(); });
-    }
-    void type(const QString& field, const QString& text) {
-        auto* edit = find<QLineEdit>("field." + field);
-        edit->setFocus();
-        edit->selectAll();
-        QTest::keyClicks(edit, text);
-        QTest::keyClick(edit, Qt::Key_Return);
-    }
-};
-
-}  // namespace
+using tests::kPatience;
+using tests::User;
 
 class MainWindowTest : public QObject {
     Q_OBJECT
 
  private slots:
-    void initTestCase() {
-        QVERIFY(folder_.isValid());
-        QSettings::setDefaultFormat(QSettings::IniFormat);
-        QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
-        qputenv("XDG_DATA_HOME", folder_.filePath("data").toLocal8Bit());
-        QCoreApplication::setOrganizationName("Trapwright");
-        QCoreApplication::setApplicationName("main_window_test");
-    }
+    void initTestCase() { tests::useFolder(folder_, "main_window_test"); }
     void init() { QSettings().clear(); }
 
     void withoutAStudyThereAreThreeWaysToBegin() {
@@ -102,47 +28,6 @@ class MainWindowTest : public QObject {
         QVERIFY(!user.find<scene::SceneView>("scene")->isVisible());
         QVERIFY(!user.action("run.start")->isEnabled());
         QVERIFY(!user.action("file.saveAs")->isEnabled());
-    }
-
-    void importShowsThePart() {
-        User user;
-        QVERIFY(user.import("cuboid"));
-        QCOMPARE(user.find<QLabel>("part.name")->text(), QString("cuboid"));
-        QCOMPARE(user.find<QLabel>("part.size")->text(), QString("4 × 8 × 12 mm"));
-        QVERIFY(user.find<QLabel>("part.symmetry")->text().startsWith("D2"));
-        // Three pairs of faces, each face a pose.
-        QTRY_COMPARE(user.window.findChildren<QFrame*>("poseCard").size(), 6);
-        QVERIFY(user.find<scene::SceneView>("scene")->contents().stablePoses != nullptr);
-        QVERIFY(user.action("run.start")->isEnabled());
-    }
-
-    // STL has no unit; 4 x 8 x 12 of what would be 0.3 m in feet.
-    void anotherUnitChangesTheSizeAndCanBeUndone() {
-        User user;
-        QVERIFY(user.import("cuboid"));
-        auto* unit = user.find<QComboBox>("part.unit");
-        QVERIFY(unit->findData("cm") >= 0);
-        unit->setCurrentIndex(unit->findData("cm"));
-        emit unit->activated(unit->currentIndex());
-        QTRY_COMPARE_WITH_TIMEOUT(user.find<QLabel>("part.size")->text(), QString("40 × 80 × 120 mm"), kPatience);
-        // It does not fit the track any more: said here, and learning waits for it.
-        QVERIFY(user.find<QLabel>("part.misfit")->isVisible());
-        QVERIFY(!user.action("run.start")->isEnabled());
-        user.action("edit.undo")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(user.find<QLabel>("part.size")->text(), QString("4 × 8 × 12 mm"), kPatience);
-        QVERIFY(user.action("run.start")->isEnabled());
-    }
-
-    void materialSetsTheDensity() {
-        User user;
-        QVERIFY(user.import("cuboid"));
-        auto* material = user.find<QComboBox>("part.material");
-        material->setCurrentIndex(material->findText("steel"));
-        emit material->activated(material->currentIndex());
-        // EN 1991-1-1.
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->settings().part.density, 7850.0, kPatience);
-        QCOMPARE(user.session()->part()->density, 7850.0);
-        QCOMPARE(user.find<QLineEdit>("field.part.density_kg_m3")->text(), QString("7850"));
     }
 
     void anEditIsUndoneAndRedone() {
@@ -175,7 +60,8 @@ class MainWindowTest : public QObject {
         QVERIFY(user.action("run.start")->isEnabled());
         user.type("track.crossSections", "0");
         QVERIFY(user.find<pages::ValueEdit>("field.track.crossSections")->isBad());
-        QCOMPARE(user.find<QLabel>("reason.track.crossSections")->text(), QString("It must be from 1 to 200."));
+        QCOMPARE(user.find<QLabel>("reason.track.crossSections")->text(),
+                 QString("It must be from 1 to 200."));
         QVERIFY(!user.action("run.start")->isEnabled());
         QVERIFY(user.find<QLabel>("track.problems")->isVisible());
         QCOMPARE(user.find<QLabel>("status.state")->text(), QString("Not ready to learn"));
@@ -205,41 +91,6 @@ class MainWindowTest : public QObject {
         QVERIFY(user.session()->settings().part == before.part);
         user.action("edit.undo")->trigger();
         QVERIFY(user.session()->settings() == before);
-    }
-
-    void droppedFilesAreOpened() {
-        User user;
-        QMimeData data;
-        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(bundled("pin").string()))});
-        QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QCoreApplication::sendEvent(&user.window, &enter);
-        QVERIFY(enter.isAccepted());
-        QDropEvent drop({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QCoreApplication::sendEvent(&user.window, &drop);
-        QVERIFY2(QTest::qWaitFor([&] { return user.session() != nullptr; }, kPatience), qPrintable(user.message()));
-        QCOMPARE(user.find<QLabel>("part.name")->text(), QString("pin"));
-    }
-
-    void aFileThatIsNoPartIsToldWithoutADialog_data() {
-        QTest::addColumn<QString>("name");
-        QTest::addColumn<QByteArray>("content");
-        QTest::newRow("empty") << "empty.stl" << QByteArray();
-        QTest::newRow("damaged") << "damaged.stl" << QByteArray("solid x\nfacet normal 0 0");
-        QTest::newRow("another kind") << "letter.txt" << QByteArray("hello");
-        QTest::newRow("damaged study") << "damaged.trap" << QByteArray("no database");
-    }
-    void aFileThatIsNoPartIsToldWithoutADialog() {
-        QFETCH(QString, name);
-        QFETCH(QByteArray, content);
-        QFile file(folder_.filePath(name));
-        QVERIFY(file.open(QIODevice::WriteOnly) && file.write(content) == content.size());
-        file.close();
-        User user;
-        user.window.openFile(file.fileName().toStdString());
-        QTRY_VERIFY_WITH_TIMEOUT(!user.message().isEmpty(), kPatience);
-        QVERIFY2(user.message().contains(name), qPrintable(user.message()));
-        QVERIFY(user.session() == nullptr);
-        QVERIFY(QApplication::activeModalWidget() == nullptr);
     }
 
     void savedStudiesAreOpenedAgainFromTheRecentOnes() {
@@ -328,8 +179,8 @@ class MainWindowTest : public QObject {
             QVERIFY(!shortcut.text.isEmpty() && !shortcut.keys.isEmpty());
             keys << shortcut.keys;
         }
-        for (const char* expected : {"Ctrl+N", "Ctrl+O", "Ctrl+Shift+S", "Ctrl+W", "Ctrl+Q", "Ctrl+Z", "Ctrl+1", "Ctrl+2",
-                                     "Ctrl+I", "F1", "F5", "F11"}) {
+        for (const char* expected : {"Ctrl+N", "Ctrl+O", "Ctrl+Shift+S", "Ctrl+W", "Ctrl+Q", "Ctrl+Z",
+                                     "Ctrl+1", "Ctrl+2", "Ctrl+I", "F1", "F5", "F11"}) {
             QVERIFY2(keys.contains(expected), expected);
         }
         keys.sort();
@@ -348,7 +199,9 @@ class MainWindowTest : public QObject {
         int shown = 0;
         for (int i = 0; i < list->topLevelItemCount(); ++i)
             for (int j = 0; j < list->topLevelItem(i)->childCount(); ++j)
-                shown += !list->topLevelItem(i)->isHidden() && !list->topLevelItem(i)->child(j)->isHidden() ? 1 : 0;
+                shown += !list->topLevelItem(i)->isHidden() && !list->topLevelItem(i)->child(j)->isHidden()
+                             ? 1
+                             : 0;
         QCOMPARE(shown, 1);
     }
 
@@ -360,7 +213,8 @@ class MainWindowTest : public QObject {
             QVERIFY(user.show(page));
             for (const QAbstractButton* button : user.window.findChildren<QAbstractButton*>()) {
                 if (!button->isVisible() || button->objectName().startsWith("qt_")) continue;
-                const QString name = button->accessibleName().isEmpty() ? button->text() : button->accessibleName();
+                const QString name =
+                    button->accessibleName().isEmpty() ? button->text() : button->accessibleName();
                 QVERIFY2(!name.isEmpty(), qPrintable(button->objectName()));
                 QVERIFY2(button->focusPolicy() & Qt::TabFocus, qPrintable(button->objectName() + name));
             }
@@ -373,9 +227,12 @@ class MainWindowTest : public QObject {
         QVERIFY(user.import("cuboid"));
         for (const char* page : {"part", "track"}) {
             QVERIFY(user.show(page));
-            QVERIFY2(user.window.minimumSizeHint().width() <= 1280 && user.window.minimumSizeHint().height() <= 720, page);
+            QVERIFY2(user.window.minimumSizeHint().width() <= 1280 &&
+                         user.window.minimumSizeHint().height() <= 720,
+                     page);
             QCOMPARE(user.window.size(), QSize(1280, 720));
-            auto* field = user.find<QWidget>(page == QString("part") ? "field.part.density_kg_m3" : "track.presets");
+            auto* field =
+                user.find<QWidget>(page == QString("part") ? "field.part.density_kg_m3" : "track.presets");
             QVERIFY(user.window.rect().contains(field->mapTo(&user.window, field->rect().bottomRight())));
         }
     }

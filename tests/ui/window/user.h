@@ -1,0 +1,79 @@
+#pragma once
+
+#include <QAction>
+#include <QApplication>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "core/part/bundled.h"
+#include "ui/look/message_bar.h"
+#include "ui/pages/page.h"
+#include "ui/scene/scene_view.h"
+#include "ui/window/main_window.h"
+
+/// What the tests of the window share.
+namespace trapwright::tests {
+
+inline constexpr int kPatience = 20000;  // [ms] for what happens in the background, on a busy machine
+
+inline base::Result<std::shared_ptr<const trial::Engine>> noEngine(const std::string&,
+                                                                   const trial::EngineOptions&) {
+    return base::Error{"There is no engine in this test."};
+}
+
+inline std::filesystem::path bundled(const char* name) {
+    return part::findBundledFile(part::findBundledPart(name).value());
+}
+
+/// Settings and drafts of a test go to a folder of its own.
+inline void useFolder(const QTemporaryDir& folder, const QString& program) {
+    QSettings::setDefaultFormat(QSettings::IniFormat);
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder.path());
+    qputenv("XDG_DATA_HOME", folder.filePath("data").toLocal8Bit());
+    QCoreApplication::setOrganizationName("Trapwright");
+    QCoreApplication::setApplicationName(program);
+}
+
+/// The window and what a user does in it.
+struct User {
+    window::MainWindow window{{noEngine, "trapwright test", {}}};
+
+    User() {
+        window.resize(1280, 720);
+        window.show();
+        window.activateWindow();
+        (void)QTest::qWaitForWindowActive(&window);
+    }
+    ~User() {
+        window.desk().close(false);
+        window.close();
+    }
+    session::StudySession* session() { return window.desk().session(); }
+    template <class Object>
+    Object* find(const QString& name) {
+        return window.findChild<Object*>(name);
+    }
+    QAction* action(const QString& name) { return find<QAction>(name); }
+    QString message() { return find<look::MessageBar>("messageBar")->text(); }
+
+    bool import(const char* name) {
+        window.openFile(bundled(name));
+        return QTest::qWaitFor([&] { return session() != nullptr; }, kPatience);
+    }
+    bool show(const QString& page) {
+        window.showPage(page);
+        return QTest::qWaitFor([&] { return find<pages::Page>("page." + page)->isVisible(); });
+    }
+    void type(const QString& field, const QString& text) {
+        auto* edit = find<QLineEdit>("field." + field);
+        edit->setFocus();
+        edit->selectAll();
+        QTest::keyClicks(edit, text);
+        QTest::keyClick(edit, Qt::Key_Return);
+    }
+};
+
+}  // namespace trapwright::tests
