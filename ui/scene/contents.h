@@ -61,6 +61,7 @@ struct SceneContents {
     std::vector<Highlight> highlights;
     bool heightShading = false;
     bool edges = false;
+    bool forceLegend = false;  // how long the arrow of which force is; there is a part
 };
 
 }  // namespace trapwright::scene

@@ -6,10 +6,8 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "ui/scene/actors.h"
+#include "ui/scene/contact_arrows.h"
 #include "ui/scene/layers.h"
 #include "ui/scene/meshes.h"
 
@@ -17,20 +15,17 @@ namespace trapwright::scene {
 
 namespace {
 
-constexpr double kTraceWidth = 2.0;    // logical pixels
-constexpr double kLongestArrow = 6.0;  // in bounding radii
+constexpr double kTraceWidth = 2.0;  // logical pixels
 
-/// The arrows begin where they push: a force of the part's weight is one bounding radius long, and the length
-/// grows with the square root, because impacts are a hundred times the weight.
+/// The arrows begin where they push.
 std::vector<Arrow> makeContactArrows(const SceneContents& contents) {
     std::vector<Arrow> arrows;
     if (!contents.part) return arrows;
     const part::Part& part = *contents.part;
-    const double weight = part.massProperties.mass * base::kStandardGravity;
     for (const ContactArrow& contact : contents.contacts) {
         const double force = contact.force.norm();
-        if (force <= 0.0 || weight <= 0.0) continue;
-        const double length = part.boundingRadius * std::min(std::sqrt(force / weight), kLongestArrow);
+        const double length = arrowLength(part, force);
+        if (length <= 0.0) continue;
         const base::Vec3 along = contact.force / force;
         arrows.push_back({contact.point, contact.point + length * along, 0.06 * part.boundingRadius});
     }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "ui/scene/force_legend.h"
 #include "ui/scene/height_colours.h"
 #include "ui/scene/orbit_cube.h"
 #include "ui/scene/pose_row.h"
@@ -220,6 +221,7 @@ std::vector<OverlayItem> overlayOf(const SceneContents& contents, const Camera& 
     if (contents.stablePoses) addPoseLabels(items, contents, camera, screen);
     addScaleBar(items, contents, camera, screen);
     if (contents.track && contents.heightShading) addHeightLegend(items, contents, screen);
+    if (contents.part && contents.forceLegend) items.push_back(makeForceLegend(contents, camera, screen));
     items.push_back({orbitCubeArea(screen), [=, theme = contents.theme](QPainter& painter) {
                          paintOrbitCube(painter, camera, theme, screen, hovered);
                      }});

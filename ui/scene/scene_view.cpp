@@ -144,14 +144,18 @@ void SceneView::showPart(std::shared_ptr<const part::Part> part) {
     contents.partColours.clear();
     contents.traces.clear();
     contents.contacts.clear();
+    state_->placed = false;
     if (contents.part) contents.partPoses.emplace_back();
     state_->fitUnlessMoved();
 }
 
 void SceneView::setPartPoses(std::span<const base::Pose> poses) {
     std::vector<base::Pose>& shown = state_->contents.partPoses;
-    if (state_->follow && !shown.empty() && !poses.empty())
-        state_->camera.focus += poses.front().position - shown.front().position;
+    if (state_->follow && !poses.empty()) {
+        const base::Vec3& to = poses.front().position;
+        state_->camera.focus = state_->placed ? state_->camera.focus + to - shown.front().position : to;
+    }
+    state_->placed = !poses.empty();
     shown.assign(poses.begin(), poses.end());
     update();
 }
@@ -168,6 +172,11 @@ void SceneView::setTraces(std::vector<Trace> traces) {
 
 void SceneView::setContacts(std::span<const ContactArrow> contacts) {
     state_->contents.contacts.assign(contacts.begin(), contacts.end());
+    update();
+}
+
+void SceneView::setForceLegend(bool on) {
+    state_->contents.forceLegend = on;
     update();
 }
 

@@ -46,6 +46,7 @@ class SceneView : public QOpenGLWidget {
     void setPartColours(std::span<const QColor> colours);
     void setTraces(std::vector<Trace> traces);
     void setContacts(std::span<const ContactArrow> contacts);
+    void setForceLegend(bool on);  // arrows of round forces with their sizes in N
     void setHighlights(std::vector<Highlight> highlights);
 
     void setHeightShading(bool on);  // with a legend in mm

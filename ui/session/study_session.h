@@ -29,6 +29,7 @@ struct PartVersion;
 /// Trials that were simulated again, and how each is counted.
 struct SimulatedTrials {
     work::TrialsRequest request;
+    int wanted = 0;                        // in the end
     std::vector<trial::Outcome> outcomes;  // slot i for trial i
     work::JudgedTrials judged;             // likewise
 };
@@ -78,6 +79,11 @@ class StudySession : public QObject {
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
     [[nodiscard]] base::Result<study::Winner> loadWinner(int generation, int individual) const;
 
+    /// The track that the work goes on with, to be validated and exported: the user's choice, else the one that was
+    /// validated last, else the best of the last selection, else the last winner. None without generations.
+    [[nodiscard]] std::optional<study::Winner> chosen() const;
+    void choose(const study::Winner& individual);
+
     /// What keeps the study from learning, as sentences (study::findProblems and findPartProblems).
     [[nodiscard]] const std::vector<std::string>& problems() const;
     [[nodiscard]] const std::vector<std::string>& recommendations() const;
@@ -119,7 +125,8 @@ class StudySession : public QObject {
     /// if not the most frequent one.
     void startValidation(const study::Winner& winner,
                          const std::optional<base::Quaternion>& expected = std::nullopt);
-    /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed().
+    /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed(); until then
+    /// trialsArrived() tells the first ones. A replay need not wait for the last one.
     void simulateTrials(const work::TrialsRequest& request);
     /// Poses of one of these trials every `interval` seconds. Ends with replayed() or failed().
     void replay(const work::TrialsRequest& request, int trial, double interval);
@@ -147,6 +154,9 @@ class StudySession : public QObject {
     void checkSaved(int generation);
     void selectionSaved();
     void validationSaved();
+    void chosenChanged();
+    /// The first trials of those that are being simulated, and what they count as by what is known so far.
+    void trialsArrived(const trapwright::session::SimulatedTrials& trials);
     void trialsSimulated(const trapwright::session::SimulatedTrials& trials);
     void replayed(const trapwright::work::TrialsRequest& request, int trial,
                   const std::shared_ptr<const trapwright::trial::Trajectory>& trajectory);
@@ -173,9 +183,12 @@ class StudySession : public QObject {
     void tellState();
 
     struct Simulation;
-    using Simulate = std::function<base::Result<std::function<void()>>(const Simulation&)>;
+    using Deliver = base::Result<std::function<void()>>;  // to be called in the GUI thread
+    using Simulate = std::function<Deliver(const std::shared_ptr<const Simulation>&)>;
     void makeAgain(const QString& what, const work::TrialsRequest& request, unsigned threads,
                    Simulate simulate);
+    Deliver simulateSome(const std::shared_ptr<const Simulation>& simulation, SimulatedTrials trials);
+    void postSimulation(const QString& what, const base::RunControl& control, std::function<Deliver()> simulate);
     void countSimulations(int change);
 
     std::unique_ptr<State> state_;

@@ -45,14 +45,14 @@ struct StudySession::Run {
     }
 };
 
-/// Trials that are being made again.
+/// Trials that are being made again. Values that any thread may read.
 struct StudySession::Simulation {
-    const study::Settings& settings;
-    const part::Part& part;
-    const work::StoredTrials& stored;
-    const trial::TrialBatch& batch;
-    const trial::Engine& engine;
-    const base::RunControl& control;
+    study::Settings settings;
+    std::shared_ptr<const part::Part> part;
+    work::StoredTrials stored;
+    trial::TrialBatch batch;
+    std::shared_ptr<const trial::Engine> engine;
+    base::RunControl control;
 };
 
 struct StudySession::State {
@@ -67,6 +67,7 @@ struct StudySession::State {
     std::vector<study::CheckRecord> checks;
     std::vector<study::SelectionRecord> selections;
     std::vector<study::ValidationRecord> validations;
+    std::optional<study::Winner> chosen;  // by the user, as long as the study is open
     std::vector<std::string> problems;
     std::vector<std::string> recommendations;
     std::optional<store::StudyFile> reader;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/work/estimate.h"
 #include "ui/session/study_session_state.h"
 
@@ -6,14 +8,19 @@ namespace trapwright::session {
 namespace {
 
 constexpr double kEstimateBudget = 0.5;  // [s]
+constexpr int kAtOnce = 60;              // trials, before others have their turn
 
 QString noTrials() {
     return StudySession::tr("This individual has no such trials. Choose another one, or simulate it first.");
 }
 
+QString trialsFailed() {
+    return StudySession::tr("The trials could not be simulated");
+}
+
 }  // namespace
 
-/// What a thread needs to make trials again; `Deliver` is called in the GUI thread.
+/// Finds the trials and has `simulate` called on the thread that makes them again.
 void StudySession::makeAgain(const QString& what, const work::TrialsRequest& request, unsigned threads,
                              Simulate simulate) {
     if (!state_->reader) {
@@ -28,54 +35,81 @@ void StudySession::makeAgain(const QString& what, const work::TrialsRequest& req
     if (stored->engine.empty())
         stored->engine = work::engineFor(state_->settings.simulation.engine, work::EngineUse::judging);
     if (!request.engine.empty()) stored->engine = request.engine;
+    postSimulation(what, state_->simulated,
+                   [this, request, threads, stored = std::move(*stored), simulate = std::move(simulate),
+                    settings = state_->settings, part = state_->part.part,
+                    control = state_->simulated]() -> Deliver {
+                       auto batch = work::makeTrials(settings, part, request, stored);
+                       if (!batch) return batch.error();
+                       auto engine = state_->environment.makeEngine(stored.engine, {threads, 0.0});
+                       if (!engine) return engine.error();
+                       return simulate(std::make_shared<const Simulation>(
+                           Simulation{settings, part, stored, std::move(*batch), std::move(*engine), control}));
+                   });
+}
+
+/// `simulate` works on the thread for it, after what was posted before.
+void StudySession::postSimulation(const QString& what, const base::RunControl& control,
+                                  std::function<Deliver()> simulate) {
     countSimulations(1);
-    state_->simulating->post([this, what, request, threads, stored = std::move(*stored),
-                              simulate = std::move(simulate), settings = state_->settings,
-                              part = state_->part.part, control = state_->simulated] {
-        auto deliver = [&]() -> base::Result<std::function<void()>> {
-            if (control.cancelled()) return std::function<void()>();
-            const auto batch = work::makeTrials(settings, part, request, stored);
-            if (!batch) return batch.error();
-            const auto engine = state_->environment.makeEngine(stored.engine, {threads, 0.0});
-            if (!engine) return engine.error();
-            return simulate({settings, *part, stored, *batch, **engine, control});
-        }();
+    state_->simulating->post([this, what, control, simulate = std::move(simulate)] {
+        auto deliver = control.cancelled() ? Deliver(std::function<void()>()) : simulate();
         tell(this, [this, what, control, deliver = std::move(deliver)] {
-            countSimulations(-1);
-            if (control.cancelled()) return;
-            if (deliver) {
-                (*deliver)();
-            } else {
-                emit failed(what, QString::fromStdString(deliver.error().message));
+            if (!control.cancelled()) {
+                if (deliver) {
+                    (*deliver)();
+                } else {
+                    emit failed(what, QString::fromStdString(deliver.error().message));
+                }
             }
+            countSimulations(-1);
         });
     });
 }
 
 void StudySession::simulateTrials(const work::TrialsRequest& request) {
-    makeAgain(
-        tr("The trials could not be simulated"), request, state_->threads,
-        [this, request](const Simulation& simulation) -> base::Result<std::function<void()>> {
-            auto outcomes = study::runTrials(simulation.engine, {&simulation.batch, 1}, simulation.control);
-            if (!outcomes) return outcomes.error();
-            SimulatedTrials trials;
-            trials.request = request;
-            trials.outcomes = std::move(outcomes->front());
-            trials.judged =
-                work::judgeTrials(trials.outcomes, simulation.part.symmetry, simulation.stored.expected,
-                                  simulation.settings.validation.tolerance);
-            return std::function([this, trials = std::move(trials)] { emit trialsSimulated(trials); });
-        });
+    makeAgain(trialsFailed(), request, state_->threads,
+              [this, request](const std::shared_ptr<const Simulation>& simulation) {
+                  SimulatedTrials trials;
+                  trials.request = request;
+                  trials.wanted = static_cast<int>(simulation->batch.trials.size());
+                  return simulateSome(simulation, std::move(trials));
+              });
+}
+
+/// Simulates the next trials after these, and posts those that are left.
+StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Simulation>& simulation,
+                                                 SimulatedTrials trials) {
+    trial::TrialBatch batch = simulation->batch;
+    const auto first = static_cast<std::ptrdiff_t>(trials.outcomes.size());
+    batch.trials.assign(simulation->batch.trials.begin() + first,
+                        simulation->batch.trials.begin() + std::min<std::ptrdiff_t>(first + kAtOnce, trials.wanted));
+    const auto outcomes = study::runTrials(*simulation->engine, {&batch, 1}, simulation->control);
+    if (!outcomes) return outcomes.error();
+    trials.outcomes.insert(trials.outcomes.end(), outcomes->front().begin(), outcomes->front().end());
+    trials.judged = work::judgeTrials(trials.outcomes, simulation->part->symmetry, simulation->stored.expected,
+                                      simulation->settings.validation.tolerance);
+    return std::function([this, simulation, trials = std::move(trials)] {
+        if (static_cast<int>(trials.outcomes.size()) == trials.wanted) {
+            emit trialsSimulated(trials);
+            return;
+        }
+        emit trialsArrived(trials);
+        // Who was told may have had enough.
+        if (simulation->control.cancelled()) return;
+        postSimulation(trialsFailed(), simulation->control,
+                       [this, simulation, trials] { return simulateSome(simulation, trials); });
+    });
 }
 
 void StudySession::replay(const work::TrialsRequest& request, int trial, double interval) {
     makeAgain(tr("The trial could not be replayed"), request, 1,
               [this, request, trial,
-               interval](const Simulation& simulation) -> base::Result<std::function<void()>> {
-                  if (trial < 0 || trial >= static_cast<int>(simulation.batch.trials.size()))
+               interval](const std::shared_ptr<const Simulation>& simulation) -> Deliver {
+                  if (trial < 0 || trial >= static_cast<int>(simulation->batch.trials.size()))
                       return base::Error{noTrials().toStdString()};
-                  auto replay = simulation.engine.replay(simulation.batch, static_cast<std::size_t>(trial),
-                                                         interval, simulation.control);
+                  auto replay = simulation->engine->replay(simulation->batch, static_cast<std::size_t>(trial),
+                                                           interval, simulation->control);
                   if (!replay) return replay.error();
                   const auto trajectory = std::make_shared<const trial::Trajectory>(std::move(*replay));
                   return std::function(

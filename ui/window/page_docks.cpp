@@ -41,6 +41,7 @@ PageDocks::PageDocks(QMainWindow& window, const std::vector<pages::Page*>& pages
     window.setDockNestingEnabled(true);
     window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     inspector_->setObjectName("dock.inspector");
     inspector_->setTitleBarWidget(new DockTitle(*inspector_));
     inspector_->setWidget(stack_);
@@ -117,13 +118,19 @@ void PageDocks::arrange() {
             }
         }
     }
+    QList<QDockWidget*> beside = {inspector_};
+    QList<int> widths = {kInspectorWidth};
     for (auto first = front.cbegin(); first != front.cend(); ++first) {
         first.value()->raise();
         const bool wide = first.key() == Qt::BottomDockWidgetArea || first.key() == Qt::TopDockWidgetArea;
-        window_.resizeDocks({first.value()}, {wide ? kPanelHeight : kPanelWidth},
-                            wide ? Qt::Vertical : Qt::Horizontal);
+        if (wide) window_.resizeDocks({first.value()}, {kPanelHeight}, Qt::Vertical);
+        if (first.key() == Qt::LeftDockWidgetArea) {
+            beside.push_back(first.value());
+            widths.push_back(kPanelWidth);
+        }
     }
-    window_.resizeDocks({inspector_}, {kInspectorWidth}, Qt::Horizontal);
+    // In one call: one after the other they would take room from each other.
+    window_.resizeDocks(beside, widths, Qt::Horizontal);
 }
 
 QString PageDocks::setting() const {

@@ -2,12 +2,13 @@
 
 #include "ui/pages/evolve_page.h"
 #include "ui/pages/part_page.h"
+#include "ui/pages/review_page.h"
 #include "ui/pages/track_page.h"
 
 namespace trapwright::window {
 
 std::vector<pages::Page*> makePages(pages::RunActions& run) {
-    return {new pages::PartPage, new pages::TrackPage, new pages::EvolvePage(run)};
+    return {new pages::PartPage, new pages::TrackPage, new pages::EvolvePage(run), new pages::ReviewPage};
 }
 
 }  // namespace trapwright::window

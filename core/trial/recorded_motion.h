@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "core/track/feeder_shape.h"
+#include "core/trial/outcome.h"
+
+namespace trapwright::trial {
+
+/// The part's pose in the frame of the track's mesh, which vibrates in the room.
+base::Pose poseOnTrack(const TrajectorySample& sample, const track::FeederShape& shape);
+
+/// A replay as it is seen from the track, by time.
+class RecordedMotion {
+ public:
+    RecordedMotion(const Trajectory& trajectory, const track::FeederShape& shape);
+
+    /// Of the last sample; 0 if there are none. [s]
+    [[nodiscard]] double duration() const { return times_.empty() ? 0.0 : times_.back(); }
+    /// Part frame to the track's mesh, between the samples before and after; at other times the nearest one.
+    [[nodiscard]] base::Pose poseAt(double time) const;
+    /// Those of the last sample that is not later.
+    [[nodiscard]] const std::vector<ContactForce>& forcesAt(double time) const;
+    /// Where the centre of mass comes along, samples that are nearer than `spacing` [m] to the one before left out.
+    [[nodiscard]] std::vector<base::Vec3> path(double spacing) const;
+
+ private:
+    /// The last sample that is not later; the first one before all. There are samples.
+    [[nodiscard]] std::size_t indexAt(double time) const;
+
+    std::vector<double> times_;  // rising [s]
+    std::vector<base::Pose> poses_;
+    std::vector<std::vector<ContactForce>> forces_;
+};
+
+}  // namespace trapwright::trial

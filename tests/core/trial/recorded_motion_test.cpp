@@ -1,0 +1,90 @@
+#include "core/trial/recorded_motion.h"
+
+#include <QtTest>
+#include <cmath>
+
+using namespace trapwright;
+using namespace trapwright::trial;
+using base::Vec3;
+
+namespace {
+
+/// A part that rides on a vibrating track without moving on it, as it is seen in the room.
+Trajectory makeRide(const track::FeederShape& shape, const base::Pose& onTrack) {
+    Trajectory ride;
+    for (int i = 0; i <= 40; ++i) {
+        TrajectorySample sample;
+        sample.time = 1e-3 * i;
+        const double sine = std::sin(2.0 * base::kPi * 50.0 * sample.time);
+        sample.drive = Vec3(0.8e-3 * sine, 0.0, 0.2e-3 * sine);
+        base::Quaternion turn = base::Quaternion::Identity();
+        Vec3 shift = sample.drive;
+        if (shape.type == track::FeederType::bowl) {
+            const double sense = shape.conveying == track::Conveying::clockwise ? -1.0 : 1.0;
+            turn = Eigen::AngleAxisd(sense * sample.drive.x() / shape.bowlRadius, Vec3::UnitZ());
+            shift = Vec3(0.0, 0.0, sample.drive.z());
+        }
+        sample.room = {turn * onTrack.rotation, turn * onTrack.position + shift};
+        sample.forces.resize(static_cast<std::size_t>(i));
+        ride.samples.push_back(sample);
+    }
+    return ride;
+}
+
+}  // namespace
+
+class RecordedMotionTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void whatRidesOnTheTrackStandsStill_data() {
+        QTest::addColumn<int>("type");
+        QTest::addColumn<int>("conveying");
+        QTest::newRow("linear") << 0 << 0;
+        QTest::newRow("clockwise bowl") << 1 << 0;
+        QTest::newRow("anticlockwise bowl") << 1 << 1;
+    }
+
+    void whatRidesOnTheTrackStandsStill() {
+        QFETCH(int, type);
+        QFETCH(int, conveying);
+        const track::FeederShape shape{static_cast<track::FeederType>(type), 0.175,
+                                       static_cast<track::Conveying>(conveying)};
+        const base::Pose rest{base::Quaternion(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())),
+                              shape.toRoom({0.05, 0.01, 0.02})};
+        const RecordedMotion motion(makeRide(shape, rest), shape);
+        QCOMPARE(motion.duration(), 0.04);
+        for (const double time : {-1.0, 0.0, 0.0053, 0.02, 0.0399, 9.0}) {
+            const base::Pose pose = motion.poseAt(time);
+            QVERIFY((pose.position - rest.position).norm() < 1e-12);
+            QVERIFY(pose.rotation.angularDistance(rest.rotation) < 1e-7);
+        }
+        QCOMPARE(motion.path(1e-6).size(), std::size_t{1});
+    }
+
+    void posesBetweenSamplesAreInterpolated() {
+        Trajectory trajectory;
+        trajectory.samples.resize(2);
+        trajectory.samples[1].time = 0.5;
+        trajectory.samples[1].room = {base::Quaternion(Eigen::AngleAxisd(1.0, Vec3::UnitX())), {0.0, 4.0, 0.0}};
+        trajectory.samples[1].forces.resize(1);
+        const RecordedMotion motion(trajectory, {});
+        const base::Pose pose = motion.poseAt(0.125);
+        QVERIFY((pose.position - Vec3(0.0, 1.0, 0.0)).norm() < 1e-12);
+        QVERIFY(std::abs(pose.rotation.angularDistance(base::Quaternion::Identity()) - 0.25) < 1e-7);
+        QVERIFY(motion.forcesAt(0.49).empty());
+        QCOMPARE(motion.forcesAt(0.5).size(), std::size_t{1});
+        QCOMPARE(motion.path(0.1).size(), std::size_t{2});
+    }
+
+    void nothingIsNoMotion() {
+        const RecordedMotion motion({}, {});
+        QCOMPARE(motion.duration(), 0.0);
+        QVERIFY(motion.poseAt(1.0) == base::Pose());
+        QVERIFY(motion.forcesAt(1.0).empty());
+        QVERIFY(motion.path(1e-3).empty());
+    }
+};
+
+QTEST_GUILESS_MAIN(RecordedMotionTest)
+#include "recorded_motion_test.moc"

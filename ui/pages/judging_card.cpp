@@ -1,0 +1,153 @@
+#include "ui/pages/judging_card.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLocale>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "ui/look/text.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+using session::RunState;
+using session::StudySession;
+
+namespace {
+
+QLabel* makeSentence(QWidget* parent) {
+    auto* label = new QLabel(parent);
+    label->setWordWrap(true);
+    label->setForegroundRole(QPalette::PlaceholderText);
+    return label;
+}
+
+}  // namespace
+
+JudgingCard::JudgingCard(QWidget* parent)
+    : QWidget(parent),
+      compare_(new QAction(tr("&Compare the best winners"), this)),
+      validate_(new QAction(tr("&Validate this track"), this)),
+      compareText_(makeSentence(this)),
+      validateText_(makeSentence(this)),
+      busy_(makeProgress()) {
+    compare_->setObjectName("review.compare");
+    compare_->setShortcut(Qt::Key_F8);
+    connect(compare_, &QAction::triggered, this, [this] { session_->startSelection(); });
+    validate_->setObjectName("review.validate");
+    validate_->setShortcut(Qt::Key_F9);
+    connect(validate_, &QAction::triggered, this, [this] { session_->startValidation(*winner_); });
+
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(6);
+    column->addWidget(busy_);
+    column->addWidget(makeButton(compare_));
+    column->addWidget(compareText_);
+    column->addSpacing(6);
+    column->addWidget(makeButton(validate_));
+    column->addWidget(validateText_);
+    update();
+}
+
+QPushButton* JudgingCard::makeButton(QAction* action) {
+    auto* button = new QPushButton(action->text(), this);
+    button->setObjectName(action->objectName() + ".button");
+    connect(button, &QPushButton::clicked, action, &QAction::trigger);
+    const auto follow = [button, action] {
+        button->setEnabled(action->isEnabled());
+        button->setToolTip(action->toolTip());
+    };
+    connect(action, &QAction::changed, button, follow);
+    follow();
+    return button;
+}
+
+QWidget* JudgingCard::makeProgress() {
+    auto* busy = new QWidget(this);
+    busyText_ = new QLabel(busy);
+    busyText_->setObjectName("review.progress");
+    busyText_->setWordWrap(true);
+    bar_ = new QProgressBar(busy);
+    bar_->setTextVisible(false);
+    bar_->setFixedHeight(6);
+    auto* stop = new QPushButton(tr("Stop"), busy);
+    stop->setObjectName("review.stop");
+    connect(stop, &QPushButton::clicked, this, [this] {
+        if (session_) session_->stopNow();
+    });
+    auto* row = new QHBoxLayout;
+    row->addWidget(busyText_, 1);
+    row->addWidget(stop);
+    auto* column = new QVBoxLayout(busy);
+    column->setContentsMargins(0, 0, 0, 4);
+    column->setSpacing(4);
+    column->addLayout(row);
+    column->addWidget(bar_);
+    busy->hide();
+    return busy;
+}
+
+void JudgingCard::setSession(StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    if (session_) {
+        connect(session_, &StudySession::stateChanged, this, &JudgingCard::update);
+        connect(session_, &StudySession::settingsChanged, this, &JudgingCard::update);
+        connect(session_, &StudySession::generationSaved, this, &JudgingCard::update);
+        connect(session_, &StudySession::progressed, this, &JudgingCard::showProgress);
+    }
+    update();
+}
+
+void JudgingCard::setWinner(const std::optional<study::Winner>& winner) {
+    winner_ = winner;
+    update();
+}
+
+void JudgingCard::update() {
+    const RunState state = session_ ? session_->state() : RunState::idle;
+    const bool judging = state == RunState::selecting || state == RunState::validating;
+    QString obstacle;
+    if (!session_ || session_->winners().empty()) {
+        obstacle = tr("Learn a track first");
+    } else if (state != RunState::idle && state != RunState::simulating) {
+        obstacle = judging ? tr("Wait for the end of what is being simulated, or stop it")
+                           : tr("Wait until the study has learned, or stop it");
+    }
+    compare_->setEnabled(obstacle.isEmpty());
+    validate_->setEnabled(obstacle.isEmpty() && winner_.has_value());
+    compare_->setToolTip(obstacle.isEmpty() ? tr("Simulate the highest winners many times each and rank them") : obstacle);
+    validate_->setToolTip(obstacle.isEmpty() ? tr("Simulate parts that start in each stable pose") : obstacle);
+    busy_->setVisible(judging);
+    showProgress();
+    if (!session_) return;
+    const study::ValidationSettings& settings = session_->settings().validation;
+    const QLocale locale;
+    const auto winners = std::min<std::size_t>(static_cast<std::size_t>(settings.selectionWinners), session_->winners().size());
+    compareText_->setText(tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials)));
+    validateText_->setText(tr("%1 stable poses, %2 trials each")
+                               .arg(session_->part()->stablePoses.size())
+                               .arg(locale.toString(settings.trialsPerPose)));
+}
+
+void JudgingCard::showProgress() {
+    if (!session_ || busy_->isHidden()) return;
+    const session::RunProgress progress = session_->progress();
+    const QLocale locale;
+    QString text = session_->state() == RunState::selecting ? tr("Comparing") : tr("Validating");
+    if (progress.trials > 0)
+        text = tr("%1: %2 of %3 trials")
+                   .arg(text, locale.toString(static_cast<qlonglong>(progress.trialsDone)),
+                        locale.toString(static_cast<qlonglong>(progress.trials)));
+    if (progress.secondsLeft > 0.0) text += tr(", %1 left").arg(look::durationText(progress.secondsLeft));
+    busyText_->setText(text);
+    bar_->setRange(0, static_cast<int>(progress.trials));
+    bar_->setValue(static_cast<int>(progress.trialsDone));
+}
+
+}  // namespace trapwright::pages

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+#include <optional>
+
+#include "core/study/records.h"
+
+class QAction;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace trapwright::session {
+class StudySession;
+}
+
+namespace trapwright::pages {
+
+/// Starts the comparison of the best winners and the validation of one track, and shows how far they have come.
+class JudgingCard : public QWidget {
+    Q_OBJECT
+ public:
+    explicit JudgingCard(QWidget* parent);
+
+    void setSession(session::StudySession* session);
+    /// The track that would be validated; none if there is none.
+    void setWinner(const std::optional<study::Winner>& winner);
+
+    [[nodiscard]] QAction* compareAction() { return compare_; }
+    [[nodiscard]] QAction* validateAction() { return validate_; }
+
+ private:
+    QWidget* makeProgress();
+    QPushButton* makeButton(QAction* action);
+    void update();
+    void showProgress();
+
+    QPointer<session::StudySession> session_;
+    std::optional<study::Winner> winner_;
+    QAction* compare_;
+    QAction* validate_;
+    QLabel* compareText_;
+    QLabel* validateText_;
+    QWidget* busy_;
+    QLabel* busyText_;
+    QProgressBar* bar_;
+};
+
+}  // namespace trapwright::pages

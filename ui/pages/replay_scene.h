@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/part/part.h"
+#include "core/track/track.h"
+#include "core/trial/recorded_motion.h"
+#include "core/work/study_trials.h"
+
+namespace trapwright::scene {
+class SceneView;
+}
+
+namespace trapwright::pages {
+
+/// A trial that is shown, and how it is counted.
+struct ReplayedTrial {
+    int trial = 0;
+    work::TrialVerdict verdict = work::TrialVerdict::finished;
+    std::shared_ptr<const trial::RecordedMotion> motion;
+};
+
+/// What of a replay is drawn beside the part.
+struct ReplayView {
+    bool trace = true;
+    bool forces = false;
+};
+
+/// A track with the trials that are replayed on it, in the 3D scene: the first as the part itself, the others as
+/// ghosts in the colours of their verdicts.
+class ReplayScene {
+ public:
+    /// The scene to draw in from now on, at once with everything; null: none.
+    void setScene(scene::SceneView* scene);
+    void setTrack(std::shared_ptr<const track::Track> track, std::shared_ptr<const part::Part> part);
+    void setTrials(std::vector<ReplayedTrial> trials);
+    void setView(const ReplayView& view);
+
+    [[nodiscard]] const std::vector<ReplayedTrial>& trials() const { return trials_; }
+    [[nodiscard]] const ReplayView& view() const { return view_; }
+    /// Until the longest of the trials ends. [s]
+    [[nodiscard]] double duration() const;
+
+    void showTime(double time);
+
+ private:
+    void showTrack();
+    void showTrials();
+
+    scene::SceneView* scene_ = nullptr;
+    std::shared_ptr<const track::Track> track_;
+    std::shared_ptr<const part::Part> part_;
+    std::vector<ReplayedTrial> trials_;
+    ReplayView view_;
+    double time_ = 0.0;
+};
+
+}  // namespace trapwright::pages

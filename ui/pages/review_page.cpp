@@ -1,0 +1,212 @@
+#include "ui/pages/review_page.h"
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QKeyEvent>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "ui/charts/orientation_chart.h"
+#include "ui/look/folding_group.h"
+#include "ui/look/text.h"
+#include "ui/pages/judging_card.h"
+#include "ui/pages/replay_files.h"
+#include "ui/pages/result_table.h"
+#include "ui/pages/track_choice.h"
+#include "ui/pages/transport_bar.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+using models::ValidationModel;
+using session::StudySession;
+using work::TrialVerdict;
+
+namespace {
+
+QString fromText(const std::string& text) {
+    return QString::fromStdString(text);
+}
+
+}  // namespace
+
+ReviewPage::ReviewPage(QWidget* parent)
+    : Page({"review", tr("Review"), "review", tr("Compare the winners, validate the best one, replay its trials")},
+           parent),
+      review_(this),
+      choice_(new TrackChoice(this)),
+      judging_(new JudgingCard(this)),
+      files_(new ReplayFiles(review_.player(), this)),
+      selectionTable_(std::make_unique<ResultTable>("review.comparison", tr("Comparison"), selection_)),
+      validationTable_(std::make_unique<ResultTable>("review.validation", tr("Validation"), validation_)),
+      shownSelection_(selectionTable_.get()),
+      shownValidation_(validationTable_.get()) {
+    addInspector();
+    addTables();
+    addKeys();
+    connect(choice_, &TrackChoice::winnerChanged, this, &ReviewPage::showWinner);
+    connect(choice_, &TrackChoice::failed, this, &Page::failed);
+    connect(files_, &ReplayFiles::failed, this, &Page::failed);
+    connect(&review_, &TrialReview::failed, this, &Page::failed);
+    setSession(nullptr);
+}
+
+ReviewPage::~ReviewPage() = default;
+
+void ReviewPage::addInspector() {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(12, 12, 12, 12);
+    column->setSpacing(8);
+    const auto addGroup = [&](const QString& name, const QString& title, QWidget* contents) {
+        auto* group = new look::FoldingGroup(name, title, false, this);
+        group->body()->addWidget(contents);
+        column->addWidget(group);
+    };
+    addGroup("review.track", tr("Track"), choice_);
+    addGroup("review.judging", tr("Simulate it again"), judging_);
+    addGroup("review.files", tr("Picture and film"), files_);
+    column->addStretch(1);
+}
+
+void ReviewPage::addTables() {
+    selectionTable_->view().setSelectionBehavior(QAbstractItemView::SelectRows);
+    connect(selectionTable_.get(), &ResultTable::cellChosen, this, [this](const QModelIndex& index) {
+        choice_->setWinner(index.data(models::GenerationRole).toInt(), index.data(models::IndividualRole).toInt());
+    });
+    validationTable_->setLinkColumns({ValidationModel::Failures, ValidationModel::WrongOrientation,
+                                      ValidationModel::Stuck, ValidationModel::FellOff});
+    connect(validationTable_.get(), &ResultTable::cellChosen, this, &ReviewPage::goToFailures);
+    for (ResultTable* table : {selectionTable_.get(), validationTable_.get()})
+        connect(table, &ResultTable::failed, this, &Page::failed);
+}
+
+void ReviewPage::addKeys() {
+    addAction(judging_->compareAction());
+    addAction(judging_->validateAction());
+    addActions(review_.bar()->actions());
+}
+
+std::vector<Panel> ReviewPage::panels() {
+    return {{"trials", tr("Trials"), review_.list(), Qt::LeftDockWidgetArea},
+            {"validation", tr("Validation"), validationTable_.release(), Qt::BottomDockWidgetArea},
+            {"comparison", tr("Comparison"), selectionTable_.release(), Qt::BottomDockWidgetArea},
+            {"orientation", tr("Orientation"), review_.orientation(), Qt::BottomDockWidgetArea}};
+}
+
+QWidget* ReviewPage::sceneBar() {
+    return review_.bar();
+}
+
+void ReviewPage::setSession(StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    review_.setSession(session);
+    judging_->setSession(session);
+    choice_->setSession(session);
+    showSelection();
+    if (!session_) return;
+    connect(session_, &StudySession::generationSaved, choice_, &TrackChoice::refresh);
+    connect(session_, &StudySession::selectionSaved, this, [this] {
+        choice_->refresh();
+        showSelection();
+        review_.refreshSources();
+        // The best of them is what one wants to see now.
+        const study::SelectionRecord& last = session_->selections().back();
+        if (!last.entries.empty())
+            choice_->setWinner(last.entries.front().generation, last.entries.front().individual);
+    });
+    connect(session_, &StudySession::validationSaved, this, [this] {
+        choice_->refresh();
+        showValidation();
+        review_.refreshSources();
+    });
+}
+
+void ReviewPage::activate(scene::SceneView& scene) {
+    choice_->refresh();
+    review_.setScene(&scene);
+    files_->setScene(&scene);
+    qApp->installEventFilter(this);
+}
+
+void ReviewPage::deactivate() {
+    qApp->removeEventFilter(this);
+    files_->setScene(nullptr);
+    review_.setScene(nullptr);
+}
+
+bool ReviewPage::eventFilter(QObject* watched, QEvent* event) {
+    // A button that has the focus is pressed by the space bar; everywhere else that plays.
+    if (event->type() == QEvent::ShortcutOverride && qobject_cast<QAbstractButton*>(watched) != nullptr &&
+        static_cast<QKeyEvent*>(event)->key() == Qt::Key_Space) {
+        event->accept();
+        return true;
+    }
+    return Page::eventFilter(watched, event);
+}
+
+void ReviewPage::showWinner() {
+    judging_->setWinner(choice_->winner());
+    review_.setWinner(choice_->winner());
+    if (session_ && choice_->winner())
+        files_->setName(QString("%1-%2-%3")
+                            .arg(fromText(session_->part()->name))
+                            .arg(choice_->winner()->generation)
+                            .arg(choice_->winner()->individual));
+    showValidation();
+}
+
+void ReviewPage::showSelection() {
+    if (!shownSelection_) return;
+    shownSelection_->setEmptyText(session_ && !session_->winners().empty()
+                                      ? tr("The winners were not compared yet. Compare them to find the best one.")
+                                      : tr("Learn a track first: then the winners can be compared."));
+    if (!session_ || session_->selections().empty()) {
+        shownSelection_->setHead({});
+        return selection_.clear();
+    }
+    const study::SelectionRecord& last = session_->selections().back();
+    shownSelection_->setHead(tr("Simulated by %1. Choose a row to look at its track.").arg(fromText(last.engine)));
+    selection_.setSelection(last);
+}
+
+void ReviewPage::showValidation() {
+    if (!shownValidation_) return;
+    const std::optional<study::Winner>& winner = choice_->winner();
+    shownValidation_->setEmptyText(winner ? tr("This track was not validated yet. Validate it to see how often it fails.")
+                                          : tr("Learn a track first: then it can be validated."));
+    const study::ValidationRecord* found = nullptr;
+    if (session_ && winner) {
+        for (const study::ValidationRecord& record : session_->validations())
+            if (record.generation == winner->generation && record.individual == winner->individual) found = &record;
+    }
+    if (found == nullptr) {
+        shownValidation_->setHead({});
+        return validation_.clear();
+    }
+    shownValidation_->setHead(tr("Simulated by %1; success is within %2° of the expected orientation. Choose a number of "
+                                 "failures to see them.")
+                                  .arg(fromText(found->engine), look::numberText(found->tolerance / base::kDegree)));
+    validation_.setValidation(*found);
+}
+
+void ReviewPage::goToFailures(const QModelIndex& cell) {
+    if (cell.data(models::ValueRole).toInt() == 0) return;
+    std::set<TrialVerdict> verdicts;
+    if (cell.data(models::VerdictRole).toInt() >= 0) {
+        verdicts = {static_cast<TrialVerdict>(cell.data(models::VerdictRole).toInt())};
+    } else if (cell.column() == ValidationModel::Failures) {
+        verdicts = {TrialVerdict::wrongOrientation, TrialVerdict::stuck, TrialVerdict::fellOff};
+    } else {
+        return;
+    }
+    // Of the total: the first pose that has such failures.
+    int pose = cell.data(models::PoseRole).toInt();
+    for (int row = 0; pose < 0 && row < validation_.rowCount(); ++row) {
+        const QModelIndex same = validation_.index(row, cell.column());
+        if (same.data(models::ValueRole).toInt() > 0) pose = same.data(models::PoseRole).toInt();
+    }
+    review_.goToTrials(pose, verdicts);
+}
+
+}  // namespace trapwright::pages

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <QPointer>
+#include <memory>
+
+#include "ui/models/selection_model.h"
+#include "ui/models/validation_model.h"
+#include "ui/pages/page.h"
+#include "ui/pages/trial_review.h"
+
+namespace trapwright::pages {
+
+class JudgingCard;
+class ReplayFiles;
+class ResultTable;
+class TrackChoice;
+
+/// Step 4: how good a track is. The best winners are compared, the chosen one is validated, and every trial can be
+/// looked at.
+class ReviewPage : public Page {
+    Q_OBJECT
+ public:
+    explicit ReviewPage(QWidget* parent = nullptr);
+    ~ReviewPage() override;
+
+    void setSession(session::StudySession* session) override;
+    void activate(scene::SceneView& scene) override;
+    void deactivate() override;
+    std::vector<Panel> panels() override;
+    QWidget* sceneBar() override;
+
+ protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+    void addInspector();
+    void addTables();
+    void addKeys();
+    void showWinner();
+    void showSelection();
+    void showValidation();
+    void goToFailures(const QModelIndex& cell);
+
+    QPointer<session::StudySession> session_;
+    TrialReview review_;
+    models::SelectionModel selection_;
+    models::ValidationModel validation_;
+    TrackChoice* choice_;
+    JudgingCard* judging_;
+    ReplayFiles* files_;
+    std::unique_ptr<ResultTable> selectionTable_;  // until the window takes it
+    std::unique_ptr<ResultTable> validationTable_;
+    QPointer<ResultTable> shownSelection_;
+    QPointer<ResultTable> shownValidation_;
+};
+
+}  // namespace trapwright::pages

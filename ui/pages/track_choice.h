@@ -1,0 +1,52 @@
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+#include <optional>
+
+#include "core/study/records.h"
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+
+namespace trapwright::session {
+class StudySession;
+}
+
+namespace trapwright::pages {
+
+class FactList;
+
+/// Which track of a study is looked at, what is known of it, and whether it is the final one.
+class TrackChoice : public QWidget {
+    Q_OBJECT
+ public:
+    explicit TrackChoice(QWidget* parent);
+
+    void setSession(session::StudySession* session);
+    [[nodiscard]] const std::optional<study::Winner>& winner() const { return winner_; }
+    /// Any individual of the study.
+    void setWinner(int generation, int individual);
+    /// What is known of the track may have changed.
+    void refresh();
+
+ signals:
+    void winnerChanged();
+    void failed(const QString& what, const QString& message);
+
+ private:
+    void listWinners();
+    void showFacts();
+    void showFinal();
+    [[nodiscard]] bool isFinal() const;
+
+    QPointer<session::StudySession> session_;
+    std::optional<study::Winner> winner_;
+    QComboBox* list_;
+    FactList* facts_;
+    QPushButton* take_;
+    QLabel* final_;
+};
+
+}  // namespace trapwright::pages

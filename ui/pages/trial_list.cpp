@@ -1,0 +1,238 @@
+#include "ui/pages/trial_list.h"
+
+#include <QComboBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QStackedLayout>
+#include <QTableView>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "ui/look/icon.h"
+#include "ui/models/verdict_look.h"
+
+namespace trapwright::pages {
+
+using models::TrialModel;
+
+namespace {
+
+constexpr int kMostGhosts = 30;
+constexpr int kNarrow = 240;
+
+}  // namespace
+
+TrialList::TrialList()
+    : source_(new QComboBox(this)),
+      table_(new QTableView(this)),
+      empty_(new QLabel),
+      stack_(new QStackedLayout),
+      ghosts_(new QSpinBox(this)),
+      busy_(new QWidget(this)),
+      busyText_(new QLabel(busy_)),
+      bar_(new QProgressBar(busy_)) {
+    setObjectName("review.trials");
+    setMinimumWidth(kNarrow);
+    source_->setObjectName("trials.source");
+    source_->setAccessibleName(tr("Trials"));
+    source_->setToolTip(tr("Which of the simulated trials are listed"));
+    connect(source_, &QComboBox::activated, this, &TrialList::sourceChosen);
+
+    empty_->setAlignment(Qt::AlignCenter);
+    empty_->setWordWrap(true);
+    empty_->setMargin(16);
+    empty_->setForegroundRole(QPalette::PlaceholderText);
+    makeTable();
+    stack_->addWidget(empty_);
+    stack_->addWidget(table_);
+
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(8, 8, 8, 8);
+    column->setSpacing(6);
+    column->addWidget(source_);
+    column->addWidget(makeChips());
+    column->addLayout(stack_, 1);
+    column->addWidget(makeFoot());
+    showCounts(0);
+}
+
+void TrialList::makeTable() {
+    table_->setObjectName("trials.table");
+    table_->setAccessibleName(tr("Simulated trials"));
+    filter_.setSourceModel(&model_);
+    table_->setModel(&filter_);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    table_->setSortingEnabled(true);
+    table_->sortByColumn(TrialModel::Trial, Qt::AscendingOrder);
+    table_->setShowGrid(false);
+    table_->setWordWrap(false);
+    table_->setTabKeyNavigation(false);
+    table_->verticalHeader()->hide();
+    table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
+    table_->horizontalHeader()->setHighlightSections(false);
+    table_->setColumnHidden(TrialModel::Pose, true);
+    connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+        if (!restoring_) emit chosenChanged();
+    });
+    connect(table_, &QTableView::activated, this, &TrialList::playWanted);
+}
+
+QWidget* TrialList::makeChips() {
+    auto* chips = new QWidget(this);
+    auto* grid = new QGridLayout(chips);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setSpacing(4);
+    int place = 0;
+    for (const work::TrialVerdict verdict : models::kVerdicts) {
+        auto* chip = new QToolButton(chips);
+        chip->setObjectName("trials.chip" + QString::number(static_cast<int>(verdict)));
+        chip->setIcon(models::verdictIcon(verdict));
+        chip->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+        chip->setCheckable(true);
+        chip->setChecked(true);
+        chip->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        connect(chip, &QToolButton::clicked, this, &TrialList::applyChips);
+        chips_.insert(static_cast<int>(verdict), chip);
+        grid->addWidget(chip, place / 2, place % 2);
+        ++place;
+    }
+    return chips;
+}
+
+QWidget* TrialList::makeFoot() {
+    auto* foot = new QWidget(this);
+    ghosts_->setObjectName("trials.ghosts");
+    ghosts_->setRange(0, kMostGhosts);
+    ghosts_->setAccessibleName(tr("Ghosts"));
+    ghosts_->setToolTip(tr("How many of the next trials of the list are shown at once, in the colours of how they end"));
+    connect(ghosts_, &QSpinBox::valueChanged, this, &TrialList::chosenChanged);
+    auto* sign = new QLabel(foot);
+    sign->setPixmap(look::icon("ghosts").pixmap(16));
+    auto* label = new QLabel(tr("Next ones as &ghosts"), foot);
+    label->setBuddy(ghosts_);
+    auto* row = new QHBoxLayout;
+    row->addWidget(sign);
+    row->addWidget(label, 1);
+    row->addWidget(ghosts_);
+
+    auto* stop = new QPushButton(tr("Stop"), busy_);
+    stop->setObjectName("trials.stop");
+    connect(stop, &QPushButton::clicked, this, &TrialList::stopWanted);
+    bar_->setTextVisible(false);
+    bar_->setFixedHeight(6);
+    auto* line = new QHBoxLayout;
+    line->addWidget(busyText_, 1);
+    line->addWidget(stop);
+    auto* busy = new QVBoxLayout(busy_);
+    busy->setContentsMargins(0, 0, 0, 0);
+    busy->setSpacing(4);
+    busy->addLayout(line);
+    busy->addWidget(bar_);
+
+    auto* column = new QVBoxLayout(foot);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addLayout(row);
+    column->addWidget(busy_);
+    return foot;
+}
+
+void TrialList::setSources(const std::vector<TrialSource>& sources, int current) {
+    const QSignalBlocker blocker(source_);
+    source_->clear();
+    for (const TrialSource& source : sources)
+        source_->addItem(tr("%1 (%2)").arg(source.name, QLocale().toString(source.count)));
+    source_->setVisible(!sources.empty());
+    source_->setCurrentIndex(current);
+}
+
+void TrialList::setEmptyText(const QString& text) {
+    empty_->setText(text);
+}
+
+void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {
+    const std::vector<int> before = chosen();
+    const bool sized = model_.rowCount() > 0;
+    restoring_ = true;
+    model_.setTrials(std::move(rows));
+    stack_->setCurrentIndex(model_.rowCount() == 0 ? 0 : 1);
+    if (!sized && model_.rowCount() > 0) table_->resizeColumnsToContents();
+    if (!before.empty() && before.front() < model_.rowCount()) {
+        // The ghosts that only follow are found again by themselves.
+        const QModelIndex current = filter_.mapFromSource(model_.index(before.front(), TrialModel::Trial));
+        table_->selectionModel()->setCurrentIndex(
+            current, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    }
+    restoring_ = false;
+    showCounts(wanted);
+    if (chosen() != before) emit chosenChanged();
+}
+
+void TrialList::showCounts(int wanted) {
+    for (const work::TrialVerdict verdict : models::kVerdicts) {
+        const QString count = QLocale().toString(model_.count(verdict));
+        const QString text = tr("%1 %2").arg(count, models::verdictText(verdict));
+        QToolButton& chip = *chips_[static_cast<int>(verdict)];
+        chip.setText(verdict == work::TrialVerdict::wrongOrientation ? tr("%1 wrong").arg(count) : text);
+        chip.setAccessibleName(text);
+        chip.setToolTip(tr("%1: list them").arg(text));
+    }
+    const int done = model_.rowCount();
+    busy_->setVisible(done < wanted);
+    busyText_->setText(tr("Simulating: %1 of %2").arg(QLocale().toString(done), QLocale().toString(wanted)));
+    bar_->setRange(0, wanted);
+    bar_->setValue(done);
+}
+
+void TrialList::setVerdicts(const std::set<work::TrialVerdict>& verdicts) {
+    for (const work::TrialVerdict verdict : models::kVerdicts)
+        chips_[static_cast<int>(verdict)]->setChecked(verdicts.contains(verdict));
+    applyChips();
+}
+
+void TrialList::applyChips() {
+    std::set<work::TrialVerdict> verdicts;
+    for (const work::TrialVerdict verdict : models::kVerdicts)
+        if (chips_[static_cast<int>(verdict)]->isChecked()) verdicts.insert(verdict);
+    filter_.setVerdicts(std::move(verdicts));
+    if (ghosts_->value() > 0) emit chosenChanged();
+}
+
+void TrialList::select(int trial) {
+    const QModelIndex index = filter_.mapFromSource(model_.index(trial, TrialModel::Trial));
+    table_->selectionModel()->setCurrentIndex(index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    table_->scrollTo(index);
+}
+
+std::optional<int> TrialList::firstShown() const {
+    if (filter_.rowCount() == 0) return std::nullopt;
+    return filter_.index(0, 0).data(models::TrialRole).toInt();
+}
+
+std::vector<int> TrialList::chosen() const {
+    const QItemSelectionModel& selection = *table_->selectionModel();
+    const QModelIndex current = selection.currentIndex();
+    std::vector<int> trials;
+    const auto add = [&](const QModelIndex& index) {
+        const int trial = index.data(models::TrialRole).toInt();
+        if (std::find(trials.begin(), trials.end(), trial) == trials.end()) trials.push_back(trial);
+    };
+    if (!current.isValid() || !selection.isRowSelected(current.row(), {})) return trials;
+    add(current);
+    for (const QModelIndex& index : selection.selectedRows())
+        if (trials.size() <= kMostGhosts) add(index);
+    for (int i = 1; i <= ghosts_->value() && current.row() + i < filter_.rowCount(); ++i)
+        add(filter_.index(current.row() + i, 0));
+    return trials;
+}
+
+}  // namespace trapwright::pages

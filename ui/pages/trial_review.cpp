@@ -1,0 +1,296 @@
+#include "ui/pages/trial_review.h"
+
+#include <algorithm>
+
+#include "core/trial/fitness.h"
+#include "ui/charts/orientation_chart.h"
+#include "ui/pages/transport_bar.h"
+
+namespace trapwright::pages {
+
+using session::SimulatedTrials;
+using session::StudySession;
+using work::TrialKind;
+
+namespace {
+
+constexpr double kInterval = 1e-3;  // between the samples of a replay [s]
+
+bool isSame(const work::TrialsRequest& a, const work::TrialsRequest& b) {
+    return a.kind == b.kind && a.pose == b.pose && a.winner.generation == b.winner.generation &&
+           a.winner.individual == b.winner.individual;
+}
+
+std::vector<models::TrialRow> makeRows(const SimulatedTrials& trials, const part::SymmetryGroup& symmetry) {
+    std::vector<models::TrialRow> rows;
+    for (std::size_t i = 0; i < trials.outcomes.size(); ++i) {
+        const trial::Outcome& outcome = trials.outcomes[i];
+        models::TrialRow row{static_cast<int>(i), trials.request.kind == TrialKind::validation ? trials.request.pose : -1,
+                             trials.judged.verdicts[i], outcome};
+        if (outcome.ending == trial::Ending::finished)
+            row.angle = trial::calcOrientationAngle(outcome.farthest.rotation, trials.judged.expected, symmetry,
+                                                    trial::OrientationDistance::symmetric);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+}  // namespace
+
+TrialReview::TrialReview(QObject* parent)
+    : QObject(parent),
+      player_(this),
+      list_(new TrialList),
+      bar_(new TransportBar(player_)),
+      orientation_(new charts::OrientationChart) {
+    connect(list_, &TrialList::sourceChosen, this, &TrialReview::setSource);
+    connect(list_, &TrialList::stopWanted, this, [this] {
+        if (session_) session_->cancelSimulations();
+        requested_.clear();
+        list_->setTrials(list_->trials().rows(), 0);
+    });
+    connect(list_, &TrialList::chosenChanged, this, &TrialReview::wantReplays);
+    connect(list_, &TrialList::playWanted, this, [this] {
+        player_.setTime(0.0);
+        player_.play();
+    });
+    connect(bar_, &TransportBar::viewChanged, this, [this](const ReplayView& view) { scene_.setView(view); });
+    connect(&player_, &ReplayPlayer::timeChanged, this, [this](double time) { scene_.showTime(time); });
+    connect(orientation_, &charts::ChartPanel::failed, this, &TrialReview::failed);
+    connect(&build_, &session::TrackBuild::built, this, [this](const std::shared_ptr<const track::Track>& track) {
+        track_ = track;
+        showTrack();
+        wantReplays();
+    });
+    connect(&build_, &session::TrackBuild::failed, this,
+            [this](const QString& message) { emit failed(tr("The track cannot be shown"), message); });
+    setWinner(std::nullopt);
+}
+
+TrialReview::~TrialReview() {
+    // What the window took is the window's.
+    for (QWidget* widget : {static_cast<QWidget*>(list_), static_cast<QWidget*>(bar_), static_cast<QWidget*>(orientation_)})
+        if (widget != nullptr && widget->parent() == nullptr) delete widget;
+}
+
+TrialList* TrialReview::list() const {
+    return list_;
+}
+
+TransportBar* TrialReview::bar() const {
+    return bar_;
+}
+
+charts::OrientationChart* TrialReview::orientation() const {
+    return orientation_;
+}
+
+void TrialReview::setSession(StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    setWinner(std::nullopt);
+    if (!session_) return;
+    bar_->setFrequency(session_->settings().simulation.drive.frequency);
+    connect(session_, &StudySession::trialsArrived, this, &TrialReview::takeTrials);
+    connect(session_, &StudySession::trialsSimulated, this, &TrialReview::takeTrials);
+    connect(session_, &StudySession::replayed, this, &TrialReview::takeReplay);
+    // The window tells why.
+    connect(session_, &StudySession::failed, this, [this] { list_->setTrials(list_->trials().rows(), 0); });
+}
+
+void TrialReview::setWinner(const std::optional<study::Winner>& winner) {
+    winner_ = winner;
+    track_.reset();
+    build_.cancel();
+    source_ = 0;
+    forgetTrials();
+    makeSources();
+    showTrack();
+    list_->setEmptyText(winner ? tr("This track was never simulated. Compare the winners or validate it first.")
+                               : tr("Learn a track first: its trials are listed here."));
+    bar_->setHint(winner ? tr("Choose a trial to replay it") : QString());
+    if (!winner_) return;
+    build_.buildIndividual(session_->settings().track, winner_->record.chromosome);
+    wantTrials();
+}
+
+void TrialReview::refreshSources() {
+    std::optional<TrialSource> before;
+    if (source_ < static_cast<int>(sources_.size())) before = sources_[static_cast<std::size_t>(source_)];
+    makeSources();
+    const auto same = std::find_if(sources_.begin(), sources_.end(), [&](const TrialSource& source) {
+        return before && isSame(source.request, before->request) && source.count == before->count;
+    });
+    // A new validation may expect another orientation.
+    if (same == sources_.end() || same->request.kind == TrialKind::validation) return setSource(0);
+    source_ = static_cast<int>(same - sources_.begin());
+    list_->setSources(sources_, source_);
+}
+
+void TrialReview::setScene(scene::SceneView* scene) {
+    visible_ = scene != nullptr;
+    scene_.setScene(scene);
+    if (!visible_) player_.pause();
+    wantTrials();
+}
+
+void TrialReview::goToTrials(int pose, const std::set<work::TrialVerdict>& verdicts) {
+    const auto wanted = std::find_if(sources_.begin(), sources_.end(), [&](const TrialSource& source) {
+        return source.request.kind == TrialKind::validation && source.request.pose == pose;
+    });
+    if (wanted == sources_.end()) return;
+    list_->setVerdicts(verdicts);
+    const auto index = static_cast<int>(wanted - sources_.begin());
+    if (index != source_) setSource(index);
+    playWanted_ = true;
+    playFirstShown();
+}
+
+void TrialReview::showTrack() {
+    scene_.setTrack(track_, session_ && track_ ? session_->part() : nullptr);
+    player_.setDuration(scene_.duration());
+}
+
+void TrialReview::makeSources() {
+    sources_.clear();
+    if (session_ && winner_) {
+        const auto isWinner = [this](const auto& record) {
+            return record.generation == winner_->generation && record.individual == winner_->individual;
+        };
+        if (winner_->record.trials > 0)
+            sources_.push_back({tr("Learning"), {TrialKind::learning, *winner_}, winner_->record.trials});
+        int selected = 0;
+        for (const study::SelectionRecord& selection : session_->selections())
+            for (const study::SelectionEntry& entry : selection.entries)
+                if (isWinner(entry)) selected = entry.trials;
+        if (selected > 0) sources_.push_back({tr("Comparison"), {TrialKind::selection, *winner_}, selected});
+        const study::ValidationRecord* last = nullptr;
+        for (const study::ValidationRecord& validation : session_->validations())
+            if (isWinner(validation)) last = &validation;
+        if (last != nullptr) {
+            for (const study::ValidationRow& row : last->rows)
+                sources_.push_back({tr("Validation, pose %1").arg(row.pose + 1),
+                                    {TrialKind::validation, *winner_, row.pose},
+                                    row.trials});
+        }
+    }
+    list_->setSources(sources_, source_);
+}
+
+void TrialReview::setSource(int source) {
+    source_ = source;
+    list_->setSources(sources_, source_);
+    forgetTrials();
+    wantTrials();
+}
+
+void TrialReview::forgetTrials() {
+    if (simulated_ && session_) session_->cancelSimulations();
+    simulated_ = false;
+    playWanted_ = false;
+    counting_.cancel();
+    wanted_.clear();
+    requested_.clear();
+    replays_.clear();
+    list_->setTrials({}, 0);
+    orientation_->clear();
+    showReplays();
+}
+
+void TrialReview::wantTrials() {
+    if (simulated_ || !visible_ || !session_ || source_ < 0 || source_ >= static_cast<int>(sources_.size())) return;
+    simulated_ = true;
+    const TrialSource& source = sources_[static_cast<std::size_t>(source_)];
+    list_->setEmptyText(tr("The trials are being simulated."));
+    list_->setTrials({}, source.count);
+    session_->simulateTrials(source.request);
+}
+
+bool TrialReview::isShown(const work::TrialsRequest& request) const {
+    return simulated_ && isSame(request, sources_[static_cast<std::size_t>(source_)].request);
+}
+
+void TrialReview::takeTrials(const SimulatedTrials& trials) {
+    if (!isShown(trials.request)) return;
+    const double tolerance = session_->settings().validation.tolerance;
+    counting_.start([this, trials, tolerance, part = session_->part()]() -> session::NewestTask::Deliver {
+        auto rows = makeRows(trials, part->symmetry);
+        auto shares = study::calcOrientationShares(*part, trials.outcomes, trials.judged.expected);
+        return [this, rows = std::move(rows), shares = std::move(shares), tolerance, wanted = trials.wanted]() mutable {
+            showTrials(std::move(rows), wanted, std::move(shares), tolerance);
+        };
+    });
+}
+
+void TrialReview::showTrials(std::vector<models::TrialRow> rows, int wanted, study::OrientationShares shares,
+                             double tolerance) {
+    list_->setTrials(std::move(rows), wanted);
+    orientation_->setShares(std::move(shares), tolerance);
+    playFirstShown();
+}
+
+void TrialReview::playFirstShown() {
+    const std::optional<int> first = list_->firstShown();
+    if (!first) return;
+    if (playWanted_) {
+        list_->select(*first);
+    } else if (list_->chosen().empty()) {
+        // Something to see before anything was asked for; it stands still.
+        list_->select(*first);
+    }
+}
+
+void TrialReview::wantReplays() {
+    const std::vector<int> chosen = list_->chosen();
+    emit chosenChanged();
+    if (chosen == wanted_ || !track_ || !simulated_) return;
+    const bool other = wanted_.empty() || chosen.empty() || chosen.front() != wanted_.front();
+    wanted_ = chosen;
+    if (other) {
+        player_.pause();
+        player_.setTime(0.0);
+    }
+    std::erase_if(replays_, [this](const ReplayedTrial& replay) {
+        return std::find(wanted_.begin(), wanted_.end(), replay.trial) == wanted_.end();
+    });
+    for (const int trial : wanted_) {
+        const bool there = std::any_of(replays_.begin(), replays_.end(),
+                                       [&](const ReplayedTrial& replay) { return replay.trial == trial; });
+        if (there || std::find(requested_.begin(), requested_.end(), trial) != requested_.end()) continue;
+        requested_.push_back(trial);
+        session_->replay(sources_[static_cast<std::size_t>(source_)].request, trial, kInterval);
+    }
+    showReplays();
+}
+
+void TrialReview::takeReplay(const work::TrialsRequest& request, int trial,
+                             const std::shared_ptr<const trial::Trajectory>& trajectory) {
+    if (!isShown(request) || !track_) return;
+    std::erase(requested_, trial);
+    if (std::find(wanted_.begin(), wanted_.end(), trial) == wanted_.end()) return;
+    const auto& rows = list_->trials().rows();
+    const auto row = static_cast<std::size_t>(trial);
+    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : work::TrialVerdict::finished,
+                        std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape)});
+    showReplays();
+    if (playWanted_ && trial == wanted_.front()) {
+        playWanted_ = false;
+        player_.play();
+    }
+}
+
+/// In the order in which they are wanted: the first one is the part itself.
+void TrialReview::showReplays() {
+    std::vector<ReplayedTrial> shown;
+    for (const int trial : wanted_) {
+        const auto replay = std::find_if(replays_.begin(), replays_.end(),
+                                         [&](const ReplayedTrial& one) { return one.trial == trial; });
+        if (replay != replays_.end()) shown.push_back(*replay);
+    }
+    // Ghosts without the part would take its place.
+    if (!shown.empty() && shown.front().trial != wanted_.front()) shown.clear();
+    scene_.setTrials(std::move(shown));
+    player_.setDuration(scene_.duration());
+}
+
+}  // namespace trapwright::pages

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <QObject>
+#include <QPointer>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/study/orientation_shares.h"
+#include "ui/pages/replay_player.h"
+#include "ui/pages/replay_scene.h"
+#include "ui/pages/trial_list.h"
+#include "ui/session/newest_task.h"
+#include "ui/session/study_session.h"
+#include "ui/session/track_build.h"
+
+namespace trapwright::charts {
+class OrientationChart;
+}
+
+namespace trapwright::pages {
+
+class TransportBar;
+
+/// The trials of one individual of a study: listed, replayed in the scene, and their orientations as a chart. Trials
+/// are simulated when they are to be seen.
+class TrialReview : public QObject {
+    Q_OBJECT
+ public:
+    explicit TrialReview(QObject* parent);
+    ~TrialReview() override;
+
+    /// Widgets for their places in the window, which owns them from then on.
+    [[nodiscard]] TrialList* list() const;
+    [[nodiscard]] TransportBar* bar() const;
+    [[nodiscard]] charts::OrientationChart* orientation() const;
+    [[nodiscard]] ReplayPlayer& player() { return player_; }
+    [[nodiscard]] const ReplayScene& scene() const { return scene_; }
+
+    void setSession(session::StudySession* session);
+    void setWinner(const std::optional<study::Winner>& winner);
+    /// Lists its trials anew, after a selection or validation added some.
+    void refreshSources();
+    /// Where replays are seen; null while they are not.
+    void setScene(scene::SceneView* scene);
+
+    /// Lists the validation's trials of a pose that ended so, and plays the first of them as soon as it is known.
+    void goToTrials(int pose, const std::set<work::TrialVerdict>& verdicts);
+
+ signals:
+    void failed(const QString& what, const QString& message);
+    void chosenChanged();
+
+ private:
+    void showTrack();
+    void makeSources();
+    void setSource(int source);
+    void wantTrials();
+    void takeTrials(const session::SimulatedTrials& trials);
+    void showTrials(std::vector<models::TrialRow> rows, int wanted, study::OrientationShares shares, double tolerance);
+    void playFirstShown();
+    void wantReplays();
+    void takeReplay(const work::TrialsRequest& request, int trial,
+                    const std::shared_ptr<const trial::Trajectory>& trajectory);
+    void showReplays();
+    void forgetTrials();
+    [[nodiscard]] bool isShown(const work::TrialsRequest& request) const;
+
+    QPointer<session::StudySession> session_;
+    std::optional<study::Winner> winner_;
+    std::vector<TrialSource> sources_;
+    int source_ = 0;
+    bool visible_ = false;
+    bool simulated_ = false;     // the trials of the source are there or on their way
+    bool playWanted_ = false;    // the first trial shown, when there is one
+    std::vector<int> wanted_;    // replays, as they are to be shown
+    std::vector<int> requested_;  // of these, that have not come yet
+    std::vector<ReplayedTrial> replays_;
+
+    session::TrackBuild build_;
+    session::NewestTask counting_;
+    std::shared_ptr<const track::Track> track_;
+    ReplayPlayer player_;
+    ReplayScene scene_;
+    QPointer<TrialList> list_;
+    QPointer<TransportBar> bar_;
+    QPointer<charts::OrientationChart> orientation_;
+};
+
+}  // namespace trapwright::pages
