@@ -51,6 +51,9 @@ class SceneView : public QOpenGLWidget {
     void setHeightShading(bool on);  // with a legend in mm
     void setEdges(bool on);          // silhouettes and sharp edges as thin lines
     void setFollow(bool on);         // the camera goes with the first part
+    /// Edges are drawn smooth where that is quick: always with a graphics processor. On: always, for pictures
+    /// of the window.
+    void setAlwaysSmooth(bool on);
     void setView(StandardView view);
     void fitView();
 
@@ -69,7 +72,9 @@ class SceneView : public QOpenGLWidget {
     void failed(const QString& message);  // no OpenGL to draw with
 
  protected:
+    void showEvent(QShowEvent* event) override;
     void initializeGL() override;
+    void resizeGL(int width, int height) override;
     void paintGL() override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;

@@ -1,0 +1,154 @@
+#include "ui/scene/camera.h"
+
+#include <QTest>
+#include <random>
+
+using namespace trapwright;
+using base::Vec3;
+using scene::Camera;
+using scene::StandardView;
+
+class CameraTest : public QObject {
+    Q_OBJECT
+
+    const QSizeF screen_{1280.0, 720.0};
+
+    static Camera anyCamera(std::mt19937& random) {
+        const auto draw = [&random](double low, double high) {
+            return std::uniform_real_distribution<double>(low, high)(random);
+        };
+        Camera camera;
+        camera.focus = {draw(-0.2, 0.2), draw(-0.2, 0.2), draw(-0.1, 0.1)};
+        camera.azimuth = draw(-3.1, 3.1);
+        camera.elevation = draw(-1.5, 1.5);
+        camera.distance = draw(0.05, 1.0);
+        camera.parallel = draw(0.0, 1.0) < 0.5;
+        return camera;
+    }
+
+ private slots:
+    void axesAreRightHandedAndUnit() {
+        std::mt19937 random(1);
+        for (int i = 0; i < 100; ++i) {
+            const Camera camera = anyCamera(random);
+            QVERIFY((camera.right().cross(camera.up()) + camera.forward()).norm() < 1e-12);
+            QVERIFY(std::abs(camera.forward().norm() - 1.0) < 1e-12);
+            QVERIFY(camera.up().z() >= 0.0);  // upright
+        }
+    }
+
+    void focusIsInTheMiddle() {
+        std::mt19937 random(2);
+        const Camera camera = anyCamera(random);
+        const auto place = camera.project(camera.focus, screen_);
+        QVERIFY(place);
+        QCOMPARE(*place, QPointF(640.0, 360.0));
+    }
+
+    void rayLeadsBackToThePixel() {
+        std::mt19937 random(3);
+        for (int i = 0; i < 100; ++i) {
+            const Camera camera = anyCamera(random);
+            const QPointF place(std::uniform_real_distribution<double>(0.0, 1280.0)(random),
+                                std::uniform_real_distribution<double>(0.0, 720.0)(random));
+            const scene::Ray ray = rayThrough(camera, place, screen_);
+            const auto again = camera.project(ray.origin + 1.3 * camera.distance * ray.direction, screen_);
+            QVERIFY(again);
+            QVERIFY(std::hypot(again->x() - place.x(), again->y() - place.y()) < 1e-6);
+        }
+    }
+
+    void scaleHoldsAtTheFocus() {
+        std::mt19937 random(4);
+        for (int i = 0; i < 20; ++i) {
+            const Camera camera = anyCamera(random);
+            const double scale = camera.metresPerPixel(screen_);
+            const auto place = camera.project(camera.focus + 100.0 * scale * camera.right(), screen_);
+            QVERIFY(std::abs(place->x() - 740.0) < 1e-6);
+        }
+    }
+
+    void zoomKeepsThePlaceUnderTheCursor() {
+        std::mt19937 random(5);
+        const QPointF cursor(1000.0, 200.0);
+        for (int i = 0; i < 20; ++i) {
+            const Camera camera = anyCamera(random);
+            const double scale = camera.metresPerPixel(screen_);
+            const Vec3 under = camera.focus + 360.0 * scale * camera.right() + 160.0 * scale * camera.up();
+            const auto place = zoomed(camera, 1.7, cursor, screen_).project(under, screen_);
+            QVERIFY(std::hypot(place->x() - cursor.x(), place->y() - cursor.y()) < 1e-6);
+        }
+    }
+
+    void panFollowsTheDrag() {
+        std::mt19937 random(6);
+        const Camera camera = anyCamera(random);
+        const auto place = panned(camera, {37.0, -21.0}, screen_).project(camera.focus, screen_);
+        QVERIFY(std::hypot(place->x() - 677.0, place->y() - 339.0) < 1e-6);
+    }
+
+    void standardViewsLookAlongTheAxes_data() {
+        QTest::addColumn<StandardView>("view");
+        QTest::addColumn<double>("x");
+        QTest::addColumn<double>("y");
+        QTest::addColumn<double>("z");
+        QTest::newRow("top") << StandardView::top << 0.0 << 0.0 << -1.0;
+        QTest::newRow("bottom") << StandardView::bottom << 0.0 << 0.0 << 1.0;
+        QTest::newRow("front") << StandardView::front << 0.0 << 1.0 << 0.0;
+        QTest::newRow("back") << StandardView::back << 0.0 << -1.0 << 0.0;
+        QTest::newRow("left") << StandardView::left << 1.0 << 0.0 << 0.0;
+        QTest::newRow("right") << StandardView::right << -1.0 << 0.0 << 0.0;
+    }
+
+    void standardViewsLookAlongTheAxes() {
+        QFETCH(StandardView, view);
+        QFETCH(double, x);
+        QFETCH(double, y);
+        QFETCH(double, z);
+        const Camera camera = turnedTo(Camera(), view);
+        QVERIFY((camera.forward() - Vec3(x, y, z)).norm() < 1e-12);
+        QVERIFY(camera.parallel);
+        // Conveying goes to the right, seen from the front and from above.
+        if (view == StandardView::top || view == StandardView::front)
+            QVERIFY((camera.right() - Vec3::UnitX()).norm() < 1e-12);
+    }
+
+    void fittedBoxFillsTheScreen_data() {
+        QTest::addColumn<bool>("parallel");
+        QTest::newRow("perspective") << false;
+        QTest::newRow("parallel") << true;
+    }
+
+    void fittedBoxFillsTheScreen() {
+        QFETCH(bool, parallel);
+        std::mt19937 random(7);
+        const geometry::Box box{{-0.02, -0.03, -0.003}, {0.27, 0.03, 0.03}};
+        for (int i = 0; i < 50; ++i) {
+            Camera camera = anyCamera(random);
+            camera.parallel = parallel;
+            camera = fitted(camera, box, screen_, 0.1);
+            double left = 1e9;
+            double right = -1e9;
+            double top = 1e9;
+            double bottom = -1e9;
+            for (int corner = 0; corner < 8; ++corner) {
+                const auto place = camera.project({(corner & 1) != 0 ? box.high.x() : box.low.x(),
+                                                   (corner & 2) != 0 ? box.high.y() : box.low.y(),
+                                                   (corner & 4) != 0 ? box.high.z() : box.low.z()},
+                                                  screen_);
+                QVERIFY(place);
+                left = std::min(left, place->x());
+                right = std::max(right, place->x());
+                top = std::min(top, place->y());
+                bottom = std::max(bottom, place->y());
+            }
+            QVERIFY(left > 127.0 && right < 1153.0 && top > 71.0 && bottom < 649.0);
+            QVERIFY(right - left > 0.93 * 1024.0 || bottom - top > 0.93 * 576.0);
+        }
+    }
+
+    void emptyBoxLeavesTheCamera() { QCOMPARE(fitted(Camera(), geometry::Box(), screen_), Camera()); }
+};
+
+QTEST_APPLESS_MAIN(CameraTest)
+#include "camera_test.moc"

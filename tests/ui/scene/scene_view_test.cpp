@@ -1,0 +1,298 @@
+#include "ui/scene/scene_view.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QSignalSpy>
+#include <QTest>
+
+#include "tests/ui/scene/scene_samples.h"
+#include "ui/scene/height_colours.h"
+#include "ui/scene/orbit_cube.h"
+#include "ui/scene/surface_places.h"
+
+using namespace trapwright;
+using scene::SceneView;
+
+/// Runs twice: at one and at two pixels per logical pixel.
+class SceneViewTest : public QObject {
+    Q_OBJECT
+
+    std::shared_ptr<const track::Track> cuboidTrack_ = samples::loadTrack("cuboid_track.json");
+    std::shared_ptr<const track::Track> coneTrack_ = samples::loadTrack("cone_track.json");
+    std::shared_ptr<const part::Part> cuboid_ = samples::loadPart("cuboid");
+    std::unique_ptr<SceneView> view_;
+
+    [[nodiscard]] QImage grab() const { return view_->grabFramebuffer(); }
+
+    /// A pose on the track's surface.
+    [[nodiscard]] base::Pose poseAt(double x) const {
+        return {base::Quaternion::Identity(),
+                scene::surfacePoint(*cuboidTrack_, x, 0.0) + 6e-3 * base::Vec3::UnitZ()};
+    }
+
+    [[nodiscard]] QPoint onScreen(const base::Vec3& point) const {
+        return view_->camera().project(point, view_->size())->toPoint();
+    }
+
+ private slots:
+    void init() {
+        view_ = std::make_unique<SceneView>();
+        view_->resize(640, 400);
+        view_->setAlwaysSmooth(true);
+        view_->show();
+        QVERIFY(QTest::qWaitForWindowExposed(view_.get()));
+        QTRY_VERIFY(view_->isValid());
+    }
+
+    void cleanup() { view_.reset(); }
+
+    void trackIsDrawn() {
+        const QImage empty = grab();
+        QCOMPARE(empty.size(), QSize(640, 400) * view_->devicePixelRatioF());
+        view_->showTrack(cuboidTrack_);
+        const QImage shown = grab();
+        const double changed = samples::shareChanged(empty, shown);
+        QVERIFY2(changed > 0.15 && changed < 0.7, qPrintable(QString::number(changed)));
+        // In the middle of the view lies the track, in its cool colour.
+        const QColor middle = shown.pixelColor(shown.width() / 2, shown.height() / 2);
+        QVERIFY(middle.blue() > middle.red());
+        view_->clear();
+        QVERIFY(samples::shareChanged(empty, grab()) < 1e-3);
+    }
+
+    void anotherTrackIsAnotherPicture() {
+        view_->showTrack(cuboidTrack_);
+        const QImage first = grab();
+        view_->showTrack(coneTrack_);
+        QVERIFY(samples::shareChanged(first, grab()) > 0.05);
+        view_->showTrack(cuboidTrack_);
+        QVERIFY(samples::shareChanged(first, grab()) < 0.002);
+    }
+
+    void marksAreDrawnInTheAccentColour() {
+        const QColor accent = scene::SceneTheme::light().accent;
+        view_->showTrack(cuboidTrack_, scene::TrackMarks::none());
+        const double without = samples::shareOfHue(grab(), accent);
+        view_->showTrack(cuboidTrack_);
+        QVERIFY(samples::shareOfHue(grab(), accent) > without + 0.002);
+    }
+
+    void themeChangesTheLight() {
+        view_->showTrack(cuboidTrack_);
+        view_->setTheme(scene::SceneTheme::light());
+        QVERIFY(samples::meanLightness(grab()) > 0.7);
+        view_->setTheme(scene::SceneTheme::dark());
+        QVERIFY(samples::meanLightness(grab()) < 0.35);
+    }
+
+    void partIsWhereItsPoseIs() {
+        view_->showTrack(cuboidTrack_);
+        const QColor warm = scene::SceneTheme::light().part;
+        const double without = samples::shareOfHue(grab(), warm);  // the orbit cube's x axis
+        view_->showPart(cuboid_);
+        for (const double x : {20e-3, 200e-3}) {
+            view_->setPartPoses(std::vector{poseAt(x)});
+            const QImage shown = grab();
+            const QPoint place = onScreen(poseAt(x).position) * view_->devicePixelRatioF();
+            const QColor there = shown.pixelColor(place);
+            QVERIFY2(std::abs(there.hsvHue() - warm.hsvHue()) < 20, qPrintable(there.name()));
+        }
+        view_->showPart(nullptr);
+        QVERIFY(std::abs(samples::shareOfHue(grab(), warm) - without) < 1e-4);
+    }
+
+    void ghostsHaveTheirColours() {
+        view_->showTrack(cuboidTrack_);
+        view_->showPart(cuboid_);
+        const QColor green(0x009e73);
+        view_->setPartPoses(std::vector{poseAt(20e-3), poseAt(60e-3), poseAt(90e-3)});
+        const double before = samples::shareOfHue(grab(), green);
+        view_->setPartColours(std::vector{QColor(), green, green});
+        QVERIFY(samples::shareOfHue(grab(), green) > before + 5e-4);
+    }
+
+    void tracesContactsAndHighlightsAreDrawn() {
+        view_->showTrack(cuboidTrack_, scene::TrackMarks::none());
+        view_->showPart(cuboid_);
+        view_->setPartPoses(std::vector{poseAt(50e-3)});
+        const QColor magenta(0xff00ff);
+        QImage before = grab();
+        scene::Trace trace{{}, magenta};
+        for (double x = 0.0; x < 60e-3; x += 1e-3)
+            trace.points.push_back(poseAt(x).position);
+        view_->setTraces({trace});
+        QVERIFY(samples::shareOfHue(grab(), magenta) > 2e-4);
+        view_->setTraces({});
+        QVERIFY(samples::shareChanged(before, grab()) < 1e-4);
+
+        view_->setContacts(std::vector<scene::ContactArrow>{{poseAt(50e-3).position, {0.0, 0.0, 0.1}}});
+        QVERIFY(samples::shareChanged(before, grab()) > 2e-4);
+        view_->setContacts({});
+
+        std::vector<int> triangles;
+        for (int i = 0; i < 40; ++i)
+            triangles.push_back(i);
+        view_->setHighlights({{triangles, magenta}});
+        QVERIFY(samples::shareOfHue(grab(), magenta) > 0.01);
+        // Numbers of triangles that are not there are passed over.
+        view_->setHighlights({{{-1, 1'000'000}, magenta}});
+        QVERIFY(samples::shareChanged(before, grab()) < 1e-4);
+    }
+
+    void heightIsColoured() {
+        view_->showTrack(cuboidTrack_);
+        const QColor highest = scene::heightColour(1.0);
+        const double before = samples::shareOfHue(grab(), highest);
+        view_->setHeightShading(true);
+        QVERIFY(samples::shareOfHue(grab(), highest) > before + 0.003);
+    }
+
+    void edgesAreDrawn() {
+        view_->showTrack(cuboidTrack_);
+        const QImage before = grab();
+        view_->setEdges(true);
+        const double changed = samples::shareChanged(before, grab());
+        QVERIFY2(changed > 0.002 && changed < 0.1, qPrintable(QString::number(changed)));
+    }
+
+    void stablePosesStandSideBySide() {
+        const QImage empty = grab();
+        view_->showStablePoses(cuboid_);
+        const QImage shown = grab();
+        QVERIFY(samples::shareChanged(empty, shown) > 0.15);
+        QVERIFY(samples::shareOfHue(shown, scene::SceneTheme::light().part) > 0.01);
+        QVERIFY(!view_->contents().track);
+    }
+
+    void undockingKeepsThePicture() {
+        QMainWindow window;
+        window.resize(900, 700);
+        auto* dock = new QDockWidget(&window);
+        dock->setWidget(view_.release());
+        auto* view = static_cast<SceneView*>(dock->widget());
+        window.setCentralWidget(new QWidget);
+        window.addDockWidget(Qt::BottomDockWidgetArea, dock);
+        window.show();
+        QVERIFY(QTest::qWaitForWindowExposed(&window));
+        view->showTrack(cuboidTrack_);
+        view->setFixedSize(600, 300);
+        QTest::qWait(50);
+        const QImage docked = view->grabFramebuffer();
+        for (int round = 0; round < 3; ++round) {
+            dock->setFloating(true);
+            QTest::qWait(50);
+            QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) < 0.002);
+            view->showTrack(coneTrack_);
+            QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) > 0.05);
+            view->showTrack(cuboidTrack_);
+            dock->setFloating(false);
+            QTest::qWait(50);
+            QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) < 0.002);
+        }
+        // To another window and back: its context goes and comes.
+        view->setParent(nullptr);
+        view->show();
+        QVERIFY(QTest::qWaitForWindowExposed(view));
+        QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) < 0.002);
+        delete view;
+    }
+
+    void pictureIsTheViewAtAnySize() {
+        view_->showTrack(cuboidTrack_);
+        const double ratio = view_->devicePixelRatioF();
+        const QImage same = view_->picture(QSize(640, 400) * ratio, ratio);
+        QVERIFY2(samples::shareChanged(same, grab()) < 0.01,
+                 qPrintable(QString::number(samples::shareChanged(same, grab()))));
+        const QImage large = view_->picture({2560, 1600}, 4.0);
+        QCOMPARE(large.size(), QSize(2560, 1600));
+        QVERIFY(samples::shareChanged(
+                    large.scaled(same.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation), same, 40) <
+                0.02);
+        QVERIFY(view_->picture({}).isNull());
+    }
+
+    void pictureNeedsNoWindow() {
+        SceneView hidden;
+        hidden.resize(640, 400);
+        hidden.showTrack(cuboidTrack_);
+        QVERIFY(samples::meanLightness(hidden.picture({320, 200})) > 0.5);
+    }
+
+    void mouseTurnsMovesAndZooms() {
+        view_->showTrack(cuboidTrack_);
+        const scene::Camera before = view_->camera();
+        QTest::mousePress(view_.get(), Qt::LeftButton, {}, {300, 200});
+        QTest::mouseMove(view_.get(), {340, 210});
+        QTest::mouseRelease(view_.get(), Qt::LeftButton, {}, {340, 210});
+        const scene::Camera turned = view_->camera();
+        QVERIFY(turned.azimuth != before.azimuth && turned.focus == before.focus);
+        QTest::keyClick(view_.get(), Qt::Key_Right, Qt::ShiftModifier);
+        QVERIFY(view_->camera().focus != turned.focus);
+        QTest::keyClick(view_.get(), Qt::Key_Plus);
+        QVERIFY(view_->camera().distance < turned.distance);
+        // A new track does not take the view away from who chose it.
+        const scene::Camera chosen = view_->camera();
+        view_->showTrack(coneTrack_);
+        QCOMPARE(view_->camera(), chosen);
+        view_->fitView();
+        QVERIFY(!(view_->camera() == chosen));
+    }
+
+    void orbitCubeChoosesTheView() {
+        view_->showTrack(cuboidTrack_);
+        const QPoint above = (scene::orbitCubeArea(view_->size()).center() - QPointF(0.0, 22.0)).toPoint();
+        QTest::mouseClick(view_.get(), Qt::LeftButton, {}, above);
+        QVERIFY((view_->camera().forward() + base::Vec3::UnitZ()).norm() < 1e-9);
+    }
+
+    void clicksPick() {
+        view_->showTrack(cuboidTrack_);
+        view_->showPart(cuboid_);
+        view_->setPartPoses(std::vector{poseAt(20e-3), poseAt(200e-3)});
+        QSignalSpy parts(view_.get(), &SceneView::partPicked);
+        QSignalSpy tracks(view_.get(), &SceneView::trackPicked);
+        QTest::mouseClick(view_.get(), Qt::LeftButton, {}, onScreen(poseAt(200e-3).position));
+        QCOMPARE(parts.size(), 1);
+        QCOMPARE(parts.first().first().toInt(), 1);
+        const base::Vec3 place = scene::surfacePoint(*cuboidTrack_, 0.0, 10e-3);
+        QTest::mouseClick(view_.get(), Qt::LeftButton, {}, onScreen(place));
+        QCOMPARE(tracks.size(), 1);
+        QVERIFY((tracks.first().at(1).value<base::Vec3>() - place).norm() < 2e-3);
+        view_->showStablePoses(cuboid_);
+        QSignalSpy poses(view_.get(), &SceneView::stablePosePicked);
+        for (int x = 0; x < view_->width() && poses.isEmpty(); x += 8)
+            QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {x, view_->height() / 2});
+        QCOMPARE(poses.size(), 1);
+    }
+
+    void cameraFollowsThePart() {
+        view_->showTrack(cuboidTrack_);
+        view_->showPart(cuboid_);
+        view_->setPartPoses(std::vector{poseAt(20e-3)});
+        view_->setFollow(true);
+        const QPoint before = onScreen(poseAt(20e-3).position);
+        view_->setPartPoses(std::vector{poseAt(150e-3)});
+        QVERIFY((onScreen(poseAt(150e-3).position) - before).manhattanLength() <= 2);
+    }
+
+    void everyActionHasANameAndAShortcut() {
+        QStringList shortcuts;
+        for (const QAction* action : view_->viewActions()) {
+            QVERIFY(!action->text().isEmpty());
+            shortcuts << action->shortcut().toString();
+            QVERIFY(!shortcuts.last().isEmpty());
+        }
+        QCOMPARE(shortcuts.removeDuplicates(), 0);
+        QVERIFY(!view_->accessibleName().isEmpty());
+    }
+};
+
+int main(int argc, char** argv) {
+    SceneView::prepareApplication();
+    QApplication application(argc, argv);
+    SceneViewTest test;
+    return QTest::qExec(&test, argc, argv);
+}
+#include "scene_view_test.moc"

@@ -1,0 +1,119 @@
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataSilhouette.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+
+#include "ui/scene/actors.h"
+#include "ui/scene/layers.h"
+#include "ui/scene/meshes.h"
+#include "ui/scene/pose_row.h"
+
+namespace trapwright::scene {
+
+namespace {
+
+constexpr double kEdgeWidth = 1.1;     // logical pixels
+constexpr double kTrackCrease = 12.0;  // [deg]
+constexpr double kPartCrease = 30.0;   // [deg]
+
+/// The edges of one mesh in one place: its creases, and what is its rim as the camera sees it.
+struct Outline {
+    vtkNew<vtkPolyDataSilhouette> silhouette;
+    vtkNew<vtkPolyDataMapper> mapper;
+    vtkNew<vtkActor> actor;
+
+    Outline(vtkRenderer& renderer, double crease) {
+        silhouette->SetCamera(renderer.GetActiveCamera());
+        silhouette->SetEnableFeatureAngle(1);
+        silhouette->SetFeatureAngle(crease);
+        silhouette->BorderEdgesOn();
+        silhouette->SetProp3D(actor);
+        mapper->SetInputConnection(silhouette->GetOutputPort());
+        mapper->ScalarVisibilityOff();
+        actor->SetMapper(mapper);
+        actor->GetProperty()->LightingOff();
+        actor->VisibilityOff();
+        setLinesInFront(*actor);
+        renderer.AddActor(actor);
+    }
+};
+
+}  // namespace
+
+struct EdgeLayer::State {
+    vtkRenderer* renderer = nullptr;
+    std::unique_ptr<Outline> subject;
+    std::vector<std::unique_ptr<Outline>> parts;
+    std::shared_ptr<const geometry::TriangleMesh> subjectMesh;  // what the outlines were made of
+    std::shared_ptr<const part::Part> part;
+    vtkSmartPointer<vtkPolyData> partMesh;
+
+    void placeParts(std::span<const base::Pose> poses) {
+        while (parts.size() < poses.size()) {
+            parts.push_back(std::make_unique<Outline>(*renderer, kPartCrease));
+            parts.back()->silhouette->SetInputData(partMesh);
+        }
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            parts[i]->actor->SetVisibility(i < poses.size());
+            if (i < poses.size()) setPose(*parts[i]->actor, poses[i]);
+        }
+    }
+};
+
+EdgeLayer::EdgeLayer(vtkRenderer& renderer) : state_(std::make_unique<State>()) {
+    state_->renderer = &renderer;
+    state_->subject = std::make_unique<Outline>(renderer, kTrackCrease);
+}
+
+EdgeLayer::~EdgeLayer() = default;
+
+void EdgeLayer::show(const SceneContents& contents, const Camera& camera, double pixelRatio) {
+    State& state = *state_;
+    const auto mesh =
+        contents.track ? std::shared_ptr<const geometry::TriangleMesh>(contents.track, &contents.track->solid)
+                       : contents.solid;
+    state.subject->actor->SetVisibility(contents.edges && mesh != nullptr);
+    if (!contents.edges) {
+        state.placeParts({});
+        return;
+    }
+    if (mesh && mesh != state.subjectMesh) state.subject->silhouette->SetInputData(makePlainMesh(*mesh));
+    state.subjectMesh = mesh;
+    const auto& part = contents.stablePoses ? contents.stablePoses : contents.part;
+    if (part != state.part) {
+        state.part = part;
+        state.partMesh = part ? makePlainMesh(part->mesh) : nullptr;
+        for (const auto& outline : state.parts)
+            outline->silhouette->SetInputData(state.partMesh);
+    }
+    if (!part) {
+        state.placeParts({});
+    } else if (contents.stablePoses) {
+        state.placeParts(makePoseRow(*contents.stablePoses).poses);
+    } else {
+        const std::span<const base::Pose> poses = contents.partPoses;
+        state.placeParts(poses.first(std::min<std::size_t>(poses.size(), 1)));
+    }
+    const QColor& colour = contents.theme.edge;
+    const auto finish = [&](Outline& outline) {
+        if (camera.parallel) {
+            outline.silhouette->SetDirectionToCameraVector();
+        } else {
+            outline.silhouette->SetDirectionToCameraOrigin();
+        }
+        setColour(*outline.actor, colour);
+        outline.actor->GetProperty()->SetLineWidth(static_cast<float>(kEdgeWidth * pixelRatio));
+    };
+    finish(*state.subject);
+    for (const auto& outline : state.parts)
+        finish(*outline);
+}
+
+}  // namespace trapwright::scene

@@ -1,0 +1,170 @@
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWheelEvent>
+#include <array>
+#include <cmath>
+
+#include "ui/scene/orbit_cube.h"
+#include "ui/scene/picking.h"
+#include "ui/scene/pose_row.h"
+#include "ui/scene/scene_view_state.h"
+
+namespace trapwright::scene {
+
+namespace {
+
+constexpr double kClickReach = 4.0;     // a press that moves less is a click [pixels]
+constexpr double kKeyStep = 40.0;       // of an arrow key, as if dragged [pixels]
+constexpr double kZoomPerNotch = 1.15;  // of the wheel
+
+}  // namespace
+
+void SceneView::State::makeActions() {
+    const auto add = [this](const QString& text, const QKeySequence& shortcut, auto&& call) {
+        auto* action = new QAction(text, &view);
+        action->setShortcut(shortcut);
+        action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+        view.addAction(action);
+        actions.append(action);
+        connect(action, &QAction::triggered, &view, call);
+        return action;
+    };
+    // The digits are those of FreeCAD.
+    const std::array<std::tuple<QString, Qt::Key, StandardView>, 7> views = {{
+        {tr("View from the corner"), Qt::Key_0, StandardView::home},
+        {tr("View from the front"), Qt::Key_1, StandardView::front},
+        {tr("View from the top"), Qt::Key_2, StandardView::top},
+        {tr("View from the right"), Qt::Key_3, StandardView::right},
+        {tr("View from the back"), Qt::Key_4, StandardView::back},
+        {tr("View from the bottom"), Qt::Key_5, StandardView::bottom},
+        {tr("View from the left"), Qt::Key_6, StandardView::left},
+    }};
+    for (const auto& entry : views) {
+        const StandardView wanted = std::get<2>(entry);
+        add(std::get<0>(entry), std::get<1>(entry), [this, wanted] { view.setView(wanted); });
+    }
+    add(tr("Fit the view"), Qt::Key_F, [this] { view.fitView(); });
+    const auto addSwitch = [&](const QString& text, Qt::Key key, auto&& call) {
+        QAction* action = add(text, key, call);
+        action->setCheckable(true);
+        return action;
+    };
+    heightShading =
+        addSwitch(tr("Colour by height"), Qt::Key_H, [this](bool on) { view.setHeightShading(on); });
+    edges = addSwitch(tr("Draw edges"), Qt::Key_E, [this](bool on) { view.setEdges(on); });
+    followPart = addSwitch(tr("Follow the part"), Qt::Key_C, [this](bool on) { view.setFollow(on); });
+}
+
+void SceneView::State::pick(const QPointF& place) {
+    const Ray ray = rayThrough(camera, place, screen());
+    double nearest = 1e300;
+    const auto isNearer = [&](const std::optional<Hit>& hit) {
+        if (!hit || hit->distance >= nearest) return false;
+        nearest = hit->distance;
+        return true;
+    };
+    int picked = -1;
+    if (contents.stablePoses) {
+        const std::vector<base::Pose> poses = makePoseRow(*contents.stablePoses).poses;
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            if (isNearer(findHit(contents.stablePoses->mesh, poses[i], ray))) picked = static_cast<int>(i);
+        }
+        if (picked >= 0) emit view.stablePosePicked(picked);
+        return;
+    }
+    for (std::size_t i = 0; contents.part && i < contents.partPoses.size(); ++i) {
+        if (isNearer(findHit(contents.part->mesh, contents.partPoses[i], ray))) picked = static_cast<int>(i);
+    }
+    if (contents.track) {
+        const auto hit = findHit(contents.track->solid, base::Pose(), ray);
+        if (isNearer(hit)) {
+            emit view.trackPicked(hit->triangle, ray.origin + hit->distance * ray.direction);
+            return;
+        }
+    }
+    if (picked >= 0) emit view.partPicked(picked);
+}
+
+void SceneView::mousePressEvent(QMouseEvent* event) {
+    state_->pressedAt = event->position();
+    state_->lastMouse = event->position();
+    state_->dragged = false;
+}
+
+void SceneView::mouseMoveEvent(QMouseEvent* event) {
+    State& state = *state_;
+    const QPointF drag = event->position() - state.lastMouse;
+    if (event->buttons() == Qt::NoButton) {
+        const auto face = orbitCubeFaceAt(state.camera, state.screen(), event->position());
+        if (face != state.hovered) {
+            state.hovered = face;
+            update();
+        }
+        return;
+    }
+    if (!state.dragged && (event->position() - state.pressedAt).manhattanLength() < kClickReach) return;
+    state.dragged = true;
+    state.lastMouse = event->position();
+    const bool moves = event->buttons().testAnyFlags(Qt::MiddleButton | Qt::RightButton) ||
+                       event->modifiers().testFlag(Qt::ShiftModifier);
+    state.moveTo(moves ? panned(state.camera, drag, state.screen()) : orbited(state.camera, drag));
+}
+
+void SceneView::mouseReleaseEvent(QMouseEvent* event) {
+    State& state = *state_;
+    if (state.dragged || event->button() != Qt::LeftButton) return;
+    if (const auto face = orbitCubeFaceAt(state.camera, state.screen(), event->position())) {
+        setView(*face);
+    } else {
+        state.pick(event->position());
+    }
+}
+
+void SceneView::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (!orbitCubeArea(state_->screen()).contains(event->position())) fitView();
+}
+
+void SceneView::wheelEvent(QWheelEvent* event) {
+    const double factor = std::pow(kZoomPerNotch, event->angleDelta().y() / 120.0);
+    state_->moveTo(zoomed(state_->camera, factor, event->position(), state_->screen()));
+    event->accept();
+}
+
+void SceneView::keyPressEvent(QKeyEvent* event) {
+    State& state = *state_;
+    const QPointF middle(0.5 * width(), 0.5 * height());
+    QPointF drag;
+    switch (event->key()) {
+        case Qt::Key_Left:
+            drag = {-kKeyStep, 0.0};
+            break;
+        case Qt::Key_Right:
+            drag = {kKeyStep, 0.0};
+            break;
+        case Qt::Key_Up:
+            drag = {0.0, -kKeyStep};
+            break;
+        case Qt::Key_Down:
+            drag = {0.0, kKeyStep};
+            break;
+        case Qt::Key_Plus:
+        case Qt::Key_Equal:
+            state.moveTo(zoomed(state.camera, kZoomPerNotch, middle, state.screen()));
+            return;
+        case Qt::Key_Minus:
+            state.moveTo(zoomed(state.camera, 1.0 / kZoomPerNotch, middle, state.screen()));
+            return;
+        default:
+            QOpenGLWidget::keyPressEvent(event);
+            return;
+    }
+    const bool moves = event->modifiers().testFlag(Qt::ShiftModifier);
+    state.moveTo(moves ? panned(state.camera, drag, state.screen()) : orbited(state.camera, drag));
+}
+
+void SceneView::leaveEvent(QEvent* /*event*/) {
+    state_->hovered = std::nullopt;
+    update();
+}
+
+}  // namespace trapwright::scene

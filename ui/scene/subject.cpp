@@ -1,0 +1,60 @@
+#include "ui/scene/subject.h"
+
+#include <algorithm>
+
+#include "ui/scene/pose_row.h"
+
+namespace trapwright::scene {
+
+bool isEmpty(const SceneContents& contents) {
+    return !contents.track && !contents.solid && !contents.stablePoses &&
+           (!contents.part || contents.partPoses.empty());
+}
+
+Camera homeCamera(const SceneContents& contents) {
+    Camera camera = turnedTo(Camera(), StandardView::home);
+    // A row is read from the front.
+    if (contents.stablePoses) {
+        camera.azimuth = -80.0 * base::kDegree;
+        camera.elevation = 32.0 * base::kDegree;
+    }
+    return camera;
+}
+
+geometry::Box boxOf(const SceneContents& contents) {
+    if (contents.track) return geometry::calcBoundingBox(contents.track->solid);
+    if (contents.solid) return geometry::calcBoundingBox(*contents.solid);
+    geometry::Box box;
+    if (contents.stablePoses) {
+        const PoseRow row = makePoseRow(*contents.stablePoses);
+        box.include(row.flat.low);
+        box.include(row.flat.high);
+        for (const base::Pose& pose : row.poses)
+            box.include({pose.position.x(), pose.position.y(), 2.0 * pose.position.z()});
+    } else if (contents.part) {
+        for (const base::Pose& pose : contents.partPoses) {
+            const geometry::Box placed = boxOf(*contents.part, pose);
+            box.include(placed.low);
+            box.include(placed.high);
+        }
+    }
+    return box;
+}
+
+HeightRange heightRangeOf(const track::Track& track) {
+    HeightRange range{1e300, -1e300};
+    for (const track::CrossSection& section : track.sections) {
+        for (const base::Vec2& point : section.points) {
+            range.low = std::min(range.low, point.y());
+            range.high = std::max(range.high, point.y());
+        }
+    }
+    // A flat track needs a range, too.
+    if (range.high - range.low < 1e-3) {
+        range.low -= 0.5e-3;
+        range.high += 0.5e-3;
+    }
+    return range;
+}
+
+}  // namespace trapwright::scene

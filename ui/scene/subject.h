@@ -1,0 +1,27 @@
+#pragma once
+
+#include "ui/scene/camera.h"
+#include "ui/scene/contents.h"
+
+namespace trapwright::scene {
+
+/// What a scene's contents are to a camera and to a legend.
+
+/// Nothing to look at.
+bool isEmpty(const SceneContents& contents);
+
+/// The camera from which the subject is seen best at first; to be fitted.
+Camera homeCamera(const SceneContents& contents);
+
+/// The box around what the camera has to show: the subject, or the part alone. Empty (low > high) if there is
+/// nothing. [m]
+geometry::Box boxOf(const SceneContents& contents);
+
+/// The lowest and the highest point of what height shading colours. [m]
+struct HeightRange {
+    double low = 0.0;
+    double high = 1.0;
+};
+HeightRange heightRangeOf(const track::Track& track);
+
+}  // namespace trapwright::scene

@@ -1,0 +1,74 @@
+#include "ui/scene/surface_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapwright::scene {
+
+namespace {
+
+using base::Vec2;
+using base::Vec3;
+
+/// The section at x, interpolated between the two that are nearest.
+std::vector<Vec2> sectionAt(const track::Track& track, double x) {
+    const auto& sections = track.sections;
+    const auto next = std::upper_bound(sections.begin() + 1, sections.end() - 1, x,
+                                       [](double place, const auto& section) { return place < section.x; });
+    const auto& before = *(next - 1);
+    const double length = next->x - before.x;
+    const double share = length > 0.0 ? std::clamp((x - before.x) / length, 0.0, 1.0) : 0.0;
+    std::vector<Vec2> points(before.points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = (1.0 - share) * before.points[i] + share * next->points[i];
+    return points;
+}
+
+}  // namespace
+
+std::vector<Vec3> surfaceInTrackCoordinates(const track::Track& track) {
+    std::vector<Vec3> places(track.solid.vertices.size(), Vec3::Zero());
+    // The triangles follow each other along x, so that a vertex is never far from the one before it.
+    double near = track.begin();
+    for (std::size_t i = 0; i < track.surfaceTriangles; ++i) {
+        for (const int vertex : track.solid.triangles[i]) {
+            const auto at = static_cast<std::size_t>(vertex);
+            places[at] = track.shape.toTrack(track.solid.vertices[at], near);
+            near = places[at].x();
+        }
+    }
+    return places;
+}
+
+Vec3 surfacePoint(const track::Track& track, double x, double y) {
+    const std::vector<Vec2> section = sectionAt(track, x);
+    double height = -1e300;
+    for (std::size_t i = 0; i + 1 < section.size(); ++i) {
+        const Vec2& a = section[i];
+        const Vec2& b = section[i + 1];
+        if (y < std::min(a.x(), b.x()) || y > std::max(a.x(), b.x())) continue;
+        const double share = b.x() != a.x() ? (y - a.x()) / (b.x() - a.x()) : 1.0;
+        height = std::max(height, a.y() + share * (b.y() - a.y()));
+    }
+    return track.shape.toRoom({x, y, height > -1e299 ? height : 0.0});
+}
+
+std::vector<Vec3> lineAcross(const track::Track& track, double x) {
+    std::vector<Vec3> line;
+    for (const Vec2& point : sectionAt(track, x))
+        line.push_back(track.shape.toRoom({x, point.x(), point.y()}));
+    return line;
+}
+
+std::vector<Vec3> lineAlong(const track::Track& track, double from, double to, double y, double z) {
+    constexpr double kStep = 4e-3;  // fine enough for the smallest bowl
+    const int pieces = track.shape.type == track::FeederType::linear
+                           ? 1
+                           : std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / kStep)));
+    std::vector<Vec3> line;
+    for (int i = 0; i <= pieces; ++i)
+        line.push_back(track.shape.toRoom({from + (to - from) * i / pieces, y, z}));
+    return line;
+}
+
+}  // namespace trapwright::scene

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/track/track.h"
+
+namespace trapwright::scene {
+
+/// Places on a track, for what is drawn onto it. All in the room and in metres; x and y in track coordinates.
+
+/// Track coordinates of the vertices that the track's surface uses, by vertex; zero for the others.
+std::vector<base::Vec3> surfaceInTrackCoordinates(const track::Track& track);
+
+/// Highest point of the surface at (x, y); at z = 0 where there is none.
+base::Vec3 surfacePoint(const track::Track& track, double x, double y);
+
+/// The surface's line across the track at x, from the inner to the outer edge.
+std::vector<base::Vec3> lineAcross(const track::Track& track, double x);
+
+/// A line along the foot of the track's side, from one x to another, bent with a bowl. `y` is the distance
+/// from the middle.
+std::vector<base::Vec3> lineAlong(const track::Track& track, double from, double to, double y, double z);
+
+}  // namespace trapwright::scene
