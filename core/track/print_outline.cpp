@@ -176,7 +176,9 @@ class Builder {
             std::size_t l = 0;
             std::size_t r = 0;
             while (l + 1 < left.size() || r + 1 < right.size()) {
-                const bool goLeft = r + 1 == right.size() || (l <= r && l + 1 < left.size());
+                // Diagonals as the track's own solid has them.
+                const bool goLeft =
+                    r + 1 == right.size() || (l + 1 < left.size() && (ahead ? l <= r : l < r));
                 const std::array<int, 3> corners =
                     goLeft ? std::array{left[l + 1], right[r], left[l]} : std::array{left[l], right[r + 1], right[r]};
                 (goLeft ? l : r) += 1;

@@ -1,4 +1,4 @@
-#include "app/trapwright/track_export.h"
+#include "core/work/track_export.h"
 
 #include <fmt/format.h>
 
@@ -11,85 +11,90 @@
 #include "core/geometry/mesh_files.h"
 #include "core/geometry/three_mf.h"
 
-namespace trapwright::app {
+namespace trapwright::work {
 
 namespace {
 
 // Single precision coordinates, as STL has them, on a track of half a metre.
 constexpr double kVolumeTolerance = 1e-4;
 
-struct Format {
-    base::Status (*write)(const std::filesystem::path&, const track::TrackFile&);
-    base::Result<geometry::TriangleMesh> (*read)(const std::filesystem::path&);
+/// What is to be written.
+struct Contents {
+    const track::TrackFile& design;
+    const geometry::TriangleMesh& solid;
 };
 
-Attempt<Format> findFormat(const std::filesystem::path& path) {
+struct Format {
+    base::Status (*write)(const std::filesystem::path&, const Contents&);
+    base::Result<geometry::TriangleMesh> (*read)(const std::filesystem::path&);
+    const geometry::TriangleMesh& (*written)(const Contents&);
+};
+
+const geometry::TriangleMesh& takeSolid(const Contents& contents) {
+    return contents.solid;
+}
+
+Result<Format> findFormat(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".stl") {
-        return Format{[](const std::filesystem::path& file, const track::TrackFile& design) {
-                          return geometry::writeStl(file, design.track.solid);
+        return Format{[](const std::filesystem::path& file, const Contents& contents) {
+                          return geometry::writeStl(file, contents.solid);
                       },
-                      geometry::readStl};
+                      geometry::readStl, takeSolid};
     }
     if (extension == ".3mf") {
-        return Format{[](const std::filesystem::path& file, const track::TrackFile& design) {
-                          return geometry::write3mf(file, design.track.solid, design.about);
+        return Format{[](const std::filesystem::path& file, const Contents& contents) {
+                          return geometry::write3mf(file, contents.solid, contents.design.about);
                       },
-                      geometry::read3mf};
+                      geometry::read3mf, takeSolid};
     }
     if (extension == ".json") {
-        return Format{track::writeTrackFile,
+        return Format{[](const std::filesystem::path& file, const Contents& contents) {
+                          return track::writeTrackFile(file, contents.design);
+                      },
                       [](const std::filesystem::path& file) -> base::Result<geometry::TriangleMesh> {
                           auto design = track::readTrackFile(file);
                           if (!design) return design.error();
                           return std::move(design->track.solid);
+                      },
+                      [](const Contents& contents) -> const geometry::TriangleMesh& {
+                          return contents.design.track.solid;
                       }};
     }
     return Failure{
-        ExitCode::usage,
+        FailureKind::settings,
         fmt::format("{}: tracks are exported as .stl, .3mf or .json; end the name with one of them.",
                     path.string())};
 }
 
 }  // namespace
 
-Attempt<ExportedFile> exportTrack(const track::TrackFile& design, const std::filesystem::path& path) {
+Result<ExportedFile> exportTrack(const track::TrackFile& design, const geometry::TriangleMesh& solid,
+                                 const std::filesystem::path& path) {
+    const Contents contents{design, solid};
     auto format = findFormat(path);
-    if (!format) return format.failure();
-    if (const auto written = format->write(path, design); !written)
-        return Failure{ExitCode::cannotWrite, written.error().message};
+    if (!format) return format.error();
+    if (const auto written = format->write(path, contents); !written)
+        return Failure{FailureKind::saving, written.error().message};
     const auto mesh = format->read(path);
-    if (!mesh) return Failure{ExitCode::cannotWrite, "Reading the file back: " + mesh.error().message};
+    if (!mesh) return Failure{FailureKind::saving, "Reading the file back: " + mesh.error().message};
 
     ExportedFile file{path, geometry::calcBoundingBox(*mesh).size(), mesh->triangles.size(),
                       geometry::checkMesh(*mesh, true)};
-    const double volume = geometry::calcMassProperties(design.track.solid, 1.0).volume;
-    if (file.report.isSolid() && std::abs(file.report.volume - volume) <= kVolumeTolerance * volume)
+    const double volume = geometry::calcMassProperties(format->written(contents), 1.0).volume;
+    if (file.report.isSolid() && file.report.nonManifoldEdges == 0 &&
+        std::abs(file.report.volume - volume) <= kVolumeTolerance * volume)
         return file;
     std::error_code failure;
     std::filesystem::remove(path, failure);
     return Failure{
-        ExitCode::no,
+        FailureKind::notSolid,
         fmt::format("{} is not one closed solid when read back ({} open, {} non-manifold and {} inconsistent "
                     "edges, volume {:.1f} instead of {:.1f} cm^3), so it was removed.",
                     path.string(), file.report.openEdges, file.report.nonManifoldEdges,
                     file.report.inconsistentEdges, file.report.volume * 1e6, volume * 1e6)};
 }
 
-std::string describeExport(const ExportedFile& file) {
-    std::string text =
-        fmt::format("Wrote {}: {:.1f} x {:.1f} x {:.1f} mm, {} triangles, {:.1f} cm^3, closed and manifold\n",
-                    file.path.string(), file.size.x() * 1e3, file.size.y() * 1e3, file.size.z() * 1e3,
-                    file.triangles, file.report.volume * 1e6);
-    if (file.report.overlappingTriangles > 0) {
-        text += fmt::format(
-            "{} of its triangles cross others: the surface overhangs itself there. Look at it before you "
-            "print it.\n",
-            file.report.overlappingTriangles);
-    }
-    return text;
-}
-
-}  // namespace trapwright::app
+}  // namespace trapwright::work

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "app/trapwright/exit_codes.h"
 #include "core/geometry/mesh_check.h"
 #include "core/track/track_file.h"
+#include "core/work/failure.h"
 
-namespace trapwright::app {
+namespace trapwright::work {
 
 /// A file for printing, as it was read back.
 struct ExportedFile {
@@ -17,12 +17,10 @@ struct ExportedFile {
     geometry::MeshReport report;
 };
 
-/// Writes the track's solid as binary STL or 3MF, or the track as JSON (core/track/track_file.h), by the
-/// extension, in millimetres; reads it back and checks that it is closed, manifold and of the same volume.
-/// What fails that check is removed again.
-Attempt<ExportedFile> exportTrack(const track::TrackFile& design, const std::filesystem::path& path);
+/// Writes the solid that is printed (track::buildPrintSolid) as binary STL or 3MF, or the track as JSON
+/// (core/track/track_file.h), by the extension, in millimetres; reads it back and checks that it is closed,
+/// manifold and of the same volume. What fails that check is removed again.
+Result<ExportedFile> exportTrack(const track::TrackFile& design, const geometry::TriangleMesh& solid,
+                                 const std::filesystem::path& path);
 
-/// A sentence about the file for people.
-std::string describeExport(const ExportedFile& file);
-
-}  // namespace trapwright::app
+}  // namespace trapwright::work
