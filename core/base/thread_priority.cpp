@@ -2,13 +2,15 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 namespace trapwright::base {
 
-void lowerPriority() {
+void lowerPriority(int steps) {
     // Linux keeps this by thread, whatever POSIX says; 0 is the calling one. Not SCHED_IDLE, by which a
     // thread may have to wait for seconds on a busy machine before it can even see that it is cancelled.
-    constexpr int kLowest = 19;
-    (void)::setpriority(PRIO_PROCESS, 0, kLowest);
+    const int present = ::getpriority(PRIO_PROCESS, 0);
+    (void)::setpriority(PRIO_PROCESS, 0, std::min(present + steps, kLowestPriority));
 }
 
 }  // namespace trapwright::base

@@ -20,7 +20,7 @@ class BackgroundChecks {
     /// The engine of the inputs learned. Both engines shall use one thread.
     /// `control` pauses the work and counts its trials; stop() cancels it.
     BackgroundChecks(StudyInputs inputs, std::shared_ptr<const trial::Engine> reference,
-                     base::RunControl control);
+                     base::RunControl control = {});
     BackgroundChecks(const BackgroundChecks&) = delete;
     BackgroundChecks& operator=(const BackgroundChecks&) = delete;
     ~BackgroundChecks();

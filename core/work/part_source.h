@@ -18,7 +18,7 @@ struct PartRequest {
     std::string part;                                       // bundled name or file
     std::optional<std::string> units{};                     // of the file
     std::optional<double> density{};                        // [kg/m^3]; goes before the material
-    std::optional<std::string> material;                    // by name (part::listMaterials)
+    std::optional<std::string> material{};                  // by name (part::listMaterials)
     std::optional<double> tolerance{};                      // of the symmetry, as a share of the part's size
     double defaultDensity = study::PartSettings{}.density;  // where none is named, nor the part bundled
     bool closeLargeHoles = false;  // that importing would otherwise refuse (geometry::kLargestHole)

@@ -49,8 +49,8 @@ FoldingGroup::FoldingGroup(const QString& name, const QString& title, bool folde
     layout->setSpacing(0);
     layout->addLayout(top);
     layout->addWidget(contents_);
-    body_->setContentsMargins(18, 4, 0, 8);
-    body_->setSpacing(6);
+    body_->setContentsMargins(18, 2, 0, 6);
+    body_->setSpacing(4);
 
     connect(title_, &QToolButton::toggled, this, [this](bool open) {
         show_(!open);

@@ -22,26 +22,57 @@ const Colours& coloursOf(Scheme scheme) {
     return scheme == Scheme::light ? light : dark;
 }
 
-/// What a palette cannot say: slim scroll bars, a roomier menu bar, quiet dock titles. Colours are written out,
-/// because a style sheet's own palette() does not follow a new palette.
-QString makeStyleSheet(const Colours& c) {
-    return QString(
-               "QScrollBar { background: transparent; border: none; margin: 0px; }"
-               "QScrollBar:vertical { width: 10px; } QScrollBar:horizontal { height: 10px; }"
-               "QScrollBar::handle { background: %1; border-radius: 3px; margin: 2px; }"
-               "QScrollBar::handle:vertical { min-height: 28px; } QScrollBar::handle:horizontal { min-width: 28px; }"
-               "QScrollBar::handle:hover { background: %2; }"
-               "QScrollBar::add-line, QScrollBar::sub-line { width: 0px; height: 0px; }"
-               "QScrollBar::add-page, QScrollBar::sub-page { background: none; }"
-               "QToolTip { color: %3; background: %4; border: 1px solid %1; padding: 4px; }"
-               "QMenuBar { background: %5; border-bottom: 1px solid %1; spacing: 2px; }"
-               "QMenuBar::item { padding: 8px 10px; background: transparent; }"
-               "QMenuBar::item:selected, QMenuBar::item:pressed { background: %6; color: %7; }"
-               "QDockWidget::title { background: %5; padding: 6px 12px; border-bottom: 1px solid %1; }"
-               "QMainWindow::separator { background: %1; width: 1px; height: 1px; }"
-               "QMainWindow::separator:hover { background: %6; }")
-        .arg(c.line.name(), c.faint.name(), c.text.name(), c.tip.name(), c.window.name(), c.accent.name(),
-             c.onAccent.name());
+/// What a palette cannot say: flat controls, slim scroll bars, a roomier menu bar. Colours are written out, because
+/// a style sheet's own palette() does not follow a new palette.
+QString makeStyleSheet(Scheme scheme) {
+    const Colours& c = coloursOf(scheme);
+    QString sheet = R"(
+QLineEdit, QComboBox, QPushButton {
+    border: 1px solid $line; border-radius: 4px; padding: 3px 6px; min-height: 18px; background: $base; color: $text;
+    selection-background-color: $accent; selection-color: $onAccent; }
+QPushButton { background: $button; padding: 4px 12px; }
+QLineEdit:hover, QComboBox:hover, QPushButton:hover { border-color: $faint; }
+QLineEdit:focus, QComboBox:focus, QPushButton:focus { border-color: $accent; }
+QPushButton:default { border-color: $accent; }
+QPushButton:pressed, QPushButton:checked { background: $line; }
+QPushButton:flat { border-color: transparent; background: transparent; }
+QPushButton:flat:hover { background: $base; }
+QLineEdit:disabled, QComboBox:disabled, QPushButton:disabled { color: $off; background: $window; border-color: $line; }
+QAbstractSpinBox QLineEdit, QComboBox QLineEdit { border: none; padding: 0px; min-height: 0px; background: transparent; }
+QComboBox::drop-down { border: none; width: 18px; }
+QComboBox::down-arrow { image: url(:/icons/down-on-$scheme.svg); width: 12px; height: 12px; }
+QComboBox QAbstractItemView { border: 1px solid $line; background: $base; color: $text; outline: none;
+    selection-background-color: $accent; selection-color: $onAccent; }
+QPushButton::menu-indicator { image: url(:/icons/down-on-$scheme.svg); width: 12px; height: 12px;
+    subcontrol-origin: padding; subcontrol-position: center right; right: 6px; }
+QScrollBar { background: transparent; border: none; margin: 0px; }
+QScrollBar:vertical { width: 10px; }
+QScrollBar:horizontal { height: 10px; }
+QScrollBar::handle { background: $line; border-radius: 3px; margin: 2px; }
+QScrollBar::handle:vertical { min-height: 28px; }
+QScrollBar::handle:horizontal { min-width: 28px; }
+QScrollBar::handle:hover { background: $faint; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0px; height: 0px; }
+QScrollBar::add-page, QScrollBar::sub-page { background: none; }
+QToolTip { color: $text; background: $tip; border: 1px solid $line; padding: 4px; }
+QMenuBar { background: $window; border-bottom: 1px solid $line; spacing: 2px; }
+QMenuBar::item { padding: 8px 10px; background: transparent; }
+QMenuBar::item:selected, QMenuBar::item:pressed { background: $accent; color: $onAccent; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
+QProgressBar { border: none; border-radius: 3px; background: $line; }
+QProgressBar::chunk { border-radius: 3px; background: $accent; }
+QMainWindow::separator { background: $line; width: 1px; height: 1px; }
+QMainWindow::separator:hover { background: $accent; }
+)";
+    const QColor off = makePalette(scheme).color(QPalette::Disabled, QPalette::Text);
+    const std::pair<const char*, QString> values[] = {
+        {"$onAccent", c.onAccent.name()}, {"$accent", c.accent.name()}, {"$button", c.button.name()},
+        {"$window", c.window.name()},     {"$faint", c.faint.name()},   {"$line", c.line.name()},
+        {"$base", c.base.name()},         {"$text", c.text.name()},     {"$tip", c.tip.name()},
+        {"$off", off.name()},             {"$scheme", scheme == Scheme::light ? "light" : "dark"}};
+    for (const auto& [name, value] : values)
+        sheet.replace(name, value);
+    return sheet;
 }
 
 }  // namespace
@@ -104,7 +135,7 @@ Scheme Theme::scheme() const {
 
 void Theme::apply() {
     QApplication::setPalette(makePalette(scheme()));
-    qApp->setStyleSheet(makeStyleSheet(coloursOf(scheme())));
+    qApp->setStyleSheet(makeStyleSheet(scheme()));
     emit schemeChanged(scheme());
 }
 

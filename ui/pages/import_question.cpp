@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <filesystem>
 
 #include "ui/look/text.h"
@@ -36,7 +37,15 @@ ImportQuestion::ImportQuestion(QWidget* parent)
 
 void ImportQuestion::askUnit(const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates) {
     begin(tr("In which unit is %1?").arg(fileName(request)), tr("The file does not say. The part would be this large:"));
-    for (const work::UnitCandidate& candidate : candidates) {
+    // What a feeder can feed comes first.
+    std::vector<work::UnitCandidate> ordered = candidates;
+    std::stable_partition(ordered.begin(), ordered.end(), [](const work::UnitCandidate& candidate) {
+        constexpr double kSmallest = 0.5e-3;
+        constexpr double kLargest = 0.2;
+        const double extent = candidate.size.maxCoeff();
+        return extent >= kSmallest && extent <= kLargest;
+    });
+    for (const work::UnitCandidate& candidate : ordered) {
         const QString unit = QString::fromStdString(candidate.name);
         work::PartRequest answer = request;
         answer.units = candidate.name;

@@ -65,7 +65,7 @@ class Page : public QWidget {
     /// To tell in the window's message bar: what was tried (a few words), and what was wrong, where, and what to
     /// do about it.
     void failed(const QString& what, const QString& message);
-    /// Another page shall be shown; its name.
+    /// A page shall be shown; its name. Empty, while no study is open: none needs to be.
     void pageWanted(const QString& name);
     /// A new study of this part shall be opened in place of the one that is open, if any.
     void studyWanted(const trapwright::work::LoadedPart& part);

@@ -77,7 +77,7 @@ PartPage::PartPage(QWidget* parent)
             });
     connect(&import_, &session::PartImport::failed, this,
             [this](const work::PartRequest& request, const QString& message) {
-                setBusy({});
+                leave();
                 showUnits();
                 emit failed(tr("%1 cannot be imported")
                                 .arg(look::toText(std::filesystem::path(request.part).filename())),
@@ -120,7 +120,7 @@ void PartPage::addHead() {
     stop->setObjectName("part.stopImport");
     connect(stop, &QPushButton::clicked, this, [this] {
         import_.cancel();
-        setBusy({});
+        leave();
     });
     auto* busyLayout = new QVBoxLayout(busy_);
     busyLayout->setContentsMargins(0, 0, 0, 0);
@@ -134,7 +134,7 @@ void PartPage::addHead() {
         question_->hide();
         import(request);
     });
-    connect(question_, &ImportQuestion::cancelled, question_, &QWidget::hide);
+    connect(question_, &ImportQuestion::cancelled, this, &PartPage::leave);
 
     misfit_ = new QLabel(this);
     misfit_->setObjectName("part.misfit");
@@ -227,6 +227,8 @@ void PartPage::askForFile() {
 void PartPage::import(const work::PartRequest& request) {
     question_->hide();
     setBusy(tr("Reading %1 ...").arg(look::toText(std::filesystem::path(request.part).filename())));
+    // Where it goes on, and what it asks, is to be seen without a study, too.
+    emit pageWanted(face().name);
     import_.start(request);
 }
 
@@ -239,6 +241,12 @@ void PartPage::take(const work::LoadedPart& part) {
     } else {
         session_->changePart(part, tr("Import of %1").arg(QString::fromStdString(part.part->name)));
     }
+}
+
+void PartPage::leave() {
+    setBusy({});
+    question_->hide();
+    if (!session_) emit pageWanted({});
 }
 
 void PartPage::setBusy(const QString& what) {
@@ -277,41 +285,44 @@ void PartPage::refresh() {
     showScene();
 }
 
+bool PartPage::knowsImport() const {
+    return imported_ && imported_->settings.file == session_->settings().part.file;
+}
+
 void PartPage::showMesh() {
     if (session_->part() == shownMesh_) return;
     shownMesh_ = session_->part();
-    mesh_->show({});
-    notes_->clear();
-    const std::shared_ptr<const part::Part> part = shownMesh_;
-    const geometry::TriangleMesh mesh = session_->storedPart().mesh;
-    std::vector<std::string> notes;
-    if (imported_ && imported_->part == part) notes = imported_->notes;
-    meshCheck_.start([this, part, mesh, notes]() mutable -> session::NewestTask::Deliver {
+    const geometry::TriangleMesh& mesh = session_->storedPart().mesh;
+    meshCheck_.cancel();
+    if (knowsImport()) return tellMesh(imported_->found, mesh.triangles.size(), imported_->notes);
+    // A study that was opened does not keep what was found when its part came in.
+    meshCheck_.start([this, part = shownMesh_, mesh]() -> session::NewestTask::Deliver {
         const geometry::MeshReport report = geometry::checkMesh(mesh);
-        // A study that was opened does not keep what was mended when its part came in.
-        if (notes.empty()) {
-            if (auto repaired = geometry::repairMesh(mesh)) notes = std::move(repaired->notes);
-        }
+        std::vector<std::string> notes;
+        if (auto repaired = geometry::repairMesh(mesh)) notes = std::move(repaired->notes);
         return [this, part, report, notes, triangles = mesh.triangles.size()] {
-            if (!session_ || session_->part() != part) return;
-            Facts facts = meshFacts(report, triangles);
-            facts.emplace_back(tr("Convex pieces"), QString::number(part->pieces.size()));
-            mesh_->show(facts);
-            QStringList sentences;
-            for (const std::string& note : notes)
-                sentences << QString::fromStdString(note);
-            notes_->setText(sentences.join("\n"));
-            notes_->setVisible(!sentences.isEmpty());
+            if (session_ && session_->part() == part) tellMesh(report, triangles, notes);
         };
     });
+}
+
+void PartPage::tellMesh(const geometry::MeshReport& report, std::size_t triangles,
+                        const std::vector<std::string>& notes) {
+    Facts facts = meshFacts(report, triangles);
+    facts.emplace_back(tr("Convex pieces"), QString::number(shownMesh_->pieces.size()));
+    mesh_->show(facts);
+    QStringList sentences;
+    for (const std::string& note : notes)
+        sentences << QString::fromStdString(note);
+    notes_->setText(sentences.join("\n"));
+    notes_->setVisible(!sentences.isEmpty());
 }
 
 void PartPage::showUnits() {
     unit_->clear();
     if (!session_) return;
     const QString present = QString::fromStdString(session_->settings().part.units);
-    const bool known = imported_ && imported_->settings.file == session_->settings().part.file;
-    if (known) {
+    if (knowsImport()) {
         for (const work::UnitCandidate& candidate : imported_->candidates) {
             const QString name = QString::fromStdString(candidate.name);
             unit_->addItem(name, name);

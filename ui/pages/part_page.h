@@ -38,10 +38,15 @@ class PartPage : public Page {
     void askForFile();
     void import(const work::PartRequest& request);
     void take(const work::LoadedPart& part);
+    /// Ends an import that came to nothing.
+    void leave();
     void setBusy(const QString& what);
 
     void refresh();
+    /// Whether the part of the study is the one that was imported last.
+    [[nodiscard]] bool knowsImport() const;
     void showMesh();
+    void tellMesh(const geometry::MeshReport& report, std::size_t triangles, const std::vector<std::string>& notes);
     void showUnits();
     void showMaterial();
     void changeUnits(int index);

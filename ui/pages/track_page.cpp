@@ -13,6 +13,7 @@
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
 #include "ui/pages/drive_card.h"
+#include "ui/pages/part_files.h"
 #include "ui/pages/problem_text.h"
 #include "ui/pages/settings_form.h"
 #include "ui/scene/scene_view.h"
@@ -84,6 +85,7 @@ TrackPage::TrackPage(QWidget* parent)
     });
     connect(&build_, &session::TrackBuild::built, this, [this](const std::shared_ptr<const track::Track>& track) {
         track_ = track;
+        showTitle();
         showTrack();
     });
     refresh();
@@ -126,12 +128,25 @@ QWidget* TrackPage::makeHead() {
     lockedLayout->addWidget(reason, 1);
     lockedLayout->addWidget(fork);
 
+    title_ = new QLabel(head);
+    QFont font = title_->font();
+    font.setPointSizeF(font.pointSizeF() * 1.3);
+    font.setBold(true);
+    title_->setFont(font);
+    size_ = new QLabel(head);
+    size_->setObjectName("track.size");
+    size_->setForegroundRole(QPalette::PlaceholderText);
+    auto* titles = new QVBoxLayout;
+    titles->setSpacing(0);
+    titles->addWidget(title_);
+    titles->addWidget(size_);
     auto* row = new QHBoxLayout;
-    row->addWidget(problems_, 1);
+    row->addLayout(titles, 1);
     row->addWidget(presets, 0, Qt::AlignTop);
     auto* layout = new QVBoxLayout(head);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addLayout(row);
+    layout->addWidget(problems_);
     layout->addWidget(locked_);
     return head;
 }
@@ -186,7 +201,7 @@ void TrackPage::deactivate() {
 void TrackPage::refresh() {
     form_->QWidget::setVisible(session_ != nullptr);
     locked_->setVisible(session_ && session_->locked());
-    problems_->clear();
+    problems_->hide();
     help_->setText(tr("Point at a field, and what it means is told here."));
     if (!session_) return;
 
@@ -198,6 +213,7 @@ void TrackPage::refresh() {
     const bool locked = session_->locked();
     form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });
     contact_->setEnabled(!locked);
+    showTitle();
     showContact();
     showProblems();
     if (study::findProblems(settings).empty()) drive_->show(settings);
@@ -211,7 +227,8 @@ void TrackPage::refresh() {
 void TrackPage::showProblems() {
     const std::vector<std::string>& problems = session_->problems();
     form_->setProblems(problems, session_->recommendations());
-    if (problems.empty()) return problems_->setText({});
+    problems_->setVisible(!problems.empty());
+    if (problems.empty()) return;
     const QColor colour = look::toneColour(look::Tone::bad, palette());
     const QString text = problems.size() == 1 ? tr("One value to mend before learning")
                                               : tr("%1 values to mend before learning").arg(problems.size());
@@ -246,6 +263,15 @@ void TrackPage::usePreset(const QString& name, const QString& title) {
 
 void TrackPage::usePaperMode() {
     if (session_) edit(study::paperMode(session_->settings()), tr("The paper's own choices"));
+}
+
+void TrackPage::showTitle() {
+    const bool bowl = session_ && session_->settings().track.shape.type == track::FeederType::bowl;
+    title_->setText(bowl ? tr("Bowl track") : tr("Linear track"));
+    size_->clear();
+    if (!track_) return;
+    const double height = track_->height + track_->baseThickness;
+    size_->setText(sizeText({track_->end() - track_->begin(), track_->width, height}));
 }
 
 void TrackPage::showTrack() {

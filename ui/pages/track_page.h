@@ -37,6 +37,7 @@ class TrackPage : public Page {
     void usePreset(const QString& name, const QString& title);
     void usePaperMode();
     void showTrack();
+    void showTitle();
 
     QPointer<session::StudySession> session_;
     scene::SceneView* scene_ = nullptr;  // while the page is shown
@@ -47,6 +48,8 @@ class TrackPage : public Page {
     DriveCard* drive_;
     QComboBox* contact_;
     QWidget* locked_;
+    QLabel* title_;
+    QLabel* size_;
     QLabel* problems_;
     QLabel* help_;
 };

@@ -38,6 +38,18 @@ QString ValueEdit::number() const {
     return text().trimmed().replace(',', '.');
 }
 
+bool ValueEdit::event(QEvent* event) {
+    // Undo is of settings, not of letters: it is left to the window.
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto& key = static_cast<QKeyEvent&>(*event);
+        if (key.matches(QKeySequence::Undo) || key.matches(QKeySequence::Redo)) {
+            event->ignore();
+            return true;
+        }
+    }
+    return QLineEdit::event(event);
+}
+
 void ValueEdit::keyPressEvent(QKeyEvent* event) {
     constexpr int kPage = 10;
     switch (event->key()) {

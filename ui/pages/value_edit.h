@@ -26,6 +26,7 @@ class ValueEdit : public QLineEdit {
     void stepped();
 
  protected:
+    bool event(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace trapwright::scene {
 
@@ -135,29 +136,23 @@ Camera fitted(Camera camera, const geometry::Box& box, const QSizeF& screen, dou
     const double tangentY = std::tan(0.5 * camera.viewAngle) * (1.0 - 2.0 * margin);
     const double tangentX = tangentY * aspect(screen);
     camera.focus = 0.5 * (box.low + box.high);
-    // In perspective the near corners lie farther out, so that the middle of the box is not the middle of its
-    // picture: fit, move the picture to the middle, fit again.
-    constexpr int kRounds = 10;
-    for (int round = 0; round < kRounds; ++round) {
-        double distance = kNearest;
+    // A corner at (u, depth) from the focus is on the screen if |u - shift| <= tangent * (distance + depth).
+    // Of all corners together, the least distance and its shift.
+    const auto fitAxis = [&](const Vec3& axis, double tangent) {
+        double most = -1e300;
+        double least = 1e300;
         for (const Vec3& corner : corners) {
             const Vec3 offset = corner - camera.focus;
-            const double reach = std::max(std::abs(offset.dot(camera.right())) / tangentX,
-                                          std::abs(offset.dot(camera.up())) / tangentY);
-            distance = std::max(distance, reach - (camera.parallel ? 0.0 : offset.dot(camera.forward())));
+            const double reach = camera.parallel ? 0.0 : tangent * offset.dot(camera.forward());
+            most = std::max(most, offset.dot(axis) - reach);
+            least = std::min(least, offset.dot(axis) + reach);
         }
-        camera.distance = std::min(distance, kFarthest);
-        QPointF low(1e300, 1e300);
-        QPointF high(-1e300, -1e300);
-        for (const Vec3& corner : corners) {
-            const auto place = camera.project(corner, screen);
-            if (!place) return camera;
-            low = {std::min(low.x(), place->x()), std::min(low.y(), place->y())};
-            high = {std::max(high.x(), place->x()), std::max(high.y(), place->y())};
-        }
-        const QPointF middle(0.5 * screen.width(), 0.5 * screen.height());
-        if (round + 1 < kRounds) camera = panned(camera, middle - 0.5 * (low + high), screen);
-    }
+        return std::pair((most - least) / (2.0 * tangent), 0.5 * (most + least));
+    };
+    const auto [distanceX, shiftX] = fitAxis(camera.right(), tangentX);
+    const auto [distanceY, shiftY] = fitAxis(camera.up(), tangentY);
+    camera.distance = std::clamp(std::max(distanceX, distanceY), kNearest, kFarthest);
+    camera.focus += shiftX * camera.right() + shiftY * camera.up();
     return camera;
 }
 

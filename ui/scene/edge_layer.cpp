@@ -40,7 +40,7 @@ struct Outline {
         actor->SetMapper(mapper);
         actor->GetProperty()->LightingOff();
         actor->VisibilityOff();
-        setLinesInFront(*actor);
+        setInFront(*actor);
         renderer.AddActor(actor);
     }
 };

@@ -124,7 +124,7 @@ MarksLayer::MarksLayer(vtkRenderer& renderer) : state_(std::make_unique<State>()
         setSurfaceShading(*actor, SurfaceKind::plain);
         renderer.AddActor(actor);
     }
-    setLinesInFront(*state_->flat);
+    setInFront(*state_->flat);
     state_->spans->SetMapper(state_->spanMapper);
     state_->spans->GetProperty()->LightingOff();
     state_->spans->VisibilityOff();

@@ -24,10 +24,6 @@ using base::Vec3;
 
 constexpr double kMargin = 16.0;
 
-QString tr(const char* text) {
-    return QCoreApplication::translate("scene", text);
-}
-
 QString inMillimetres(double length, int digits) {
     return QLocale().toString(length / base::kMillimetre, 'f', digits);
 }
@@ -117,12 +113,14 @@ void addTrackLabels(std::vector<OverlayItem>& items, const SceneContents& conten
             items.push_back(makeLabel(name, *at - QPointF(0.0, above), theme.accent, theme));
     };
     if (contents.marks.startPoint)
-        addMark(tr("Start"), surfacePoint(track, track.start, 0.0), 1.6 * metrics.height());
+        addMark(QCoreApplication::translate("scene", "Start"), surfacePoint(track, track.start, 0.0),
+                1.6 * metrics.height());
     if (contents.marks.finishLine) {
         const Vec3 inner = lineAcross(track, track.finish).front();
         const Vec3 outer = lineAcross(track, track.finish).back();
         const bool innerIsFar = inner.dot(camera.forward()) > outer.dot(camera.forward());
-        addMark(tr("Finish"), innerIsFar ? inner : outer, 1.1 * metrics.height());
+        addMark(QCoreApplication::translate("scene", "Finish"), innerIsFar ? inner : outer,
+                1.1 * metrics.height());
     }
 }
 
@@ -178,8 +176,9 @@ void addHeightLegend(std::vector<OverlayItem>& items, const SceneContents& conte
     const double barHeight = std::clamp(0.28 * screen.height(), 90.0, 220.0);
     const double barWidth = 14.0;
     const double title = metrics.height() + 6.0;
-    const double width = barWidth + 12.0 + metrics.horizontalAdvance(QStringLiteral("-88.8"));
-    const double boxWidth = std::max(width, metrics.horizontalAdvance(tr("Height [mm]"))) + 4.0;
+    const QString heading = QCoreApplication::translate("scene", "Height [mm]");
+    const double numbers = barWidth + 12.0 + metrics.horizontalAdvance(QStringLiteral("-88.8"));
+    const double boxWidth = std::max(numbers, metrics.horizontalAdvance(heading)) + 4.0;
     const QRectF area(std::floor(screen.width() - kMargin - boxWidth),
                       std::floor(screen.height() - kMargin - barHeight - title - 6.0), std::ceil(boxWidth),
                       std::ceil(barHeight + title + 8.0));
@@ -187,7 +186,7 @@ void addHeightLegend(std::vector<OverlayItem>& items, const SceneContents& conte
     items.push_back(
         {area, [=](QPainter& painter) {
              painter.setPen(theme.text);
-             painter.drawText(area.topLeft() + QPointF(0.0, metrics.ascent()), tr("Height [mm]"));
+             painter.drawText(area.topLeft() + QPointF(0.0, metrics.ascent()), heading);
              const QRectF bar(area.left(), area.top() + title, barWidth, barHeight);
              QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
              for (std::size_t i = 0; i < kHeightColours.size(); ++i)

@@ -28,7 +28,7 @@ base::Quaternion facingFront(const part::Part& part, const base::Quaternion& rot
 
 geometry::Box boxOf(const part::Part& part, const base::Pose& pose) {
     geometry::Box box;
-    for (const Vec3& vertex : part.mesh.vertices)
+    for (const Vec3& vertex : part.hull.vertices)
         box.include(pose.apply(vertex));
     return box;
 }

@@ -31,28 +31,29 @@ void SceneView::State::makeActions() {
     };
     // The digits are those of FreeCAD.
     const std::array<std::tuple<QString, Qt::Key, StandardView>, 7> views = {{
-        {tr("View from the corner"), Qt::Key_0, StandardView::home},
-        {tr("View from the front"), Qt::Key_1, StandardView::front},
-        {tr("View from the top"), Qt::Key_2, StandardView::top},
-        {tr("View from the right"), Qt::Key_3, StandardView::right},
-        {tr("View from the back"), Qt::Key_4, StandardView::back},
-        {tr("View from the bottom"), Qt::Key_5, StandardView::bottom},
-        {tr("View from the left"), Qt::Key_6, StandardView::left},
+        {SceneView::tr("View from the corner"), Qt::Key_0, StandardView::home},
+        {SceneView::tr("View from the front"), Qt::Key_1, StandardView::front},
+        {SceneView::tr("View from the top"), Qt::Key_2, StandardView::top},
+        {SceneView::tr("View from the right"), Qt::Key_3, StandardView::right},
+        {SceneView::tr("View from the back"), Qt::Key_4, StandardView::back},
+        {SceneView::tr("View from the bottom"), Qt::Key_5, StandardView::bottom},
+        {SceneView::tr("View from the left"), Qt::Key_6, StandardView::left},
     }};
     for (const auto& entry : views) {
         const StandardView wanted = std::get<2>(entry);
         add(std::get<0>(entry), std::get<1>(entry), [this, wanted] { view.setView(wanted); });
     }
-    add(tr("Fit the view"), Qt::Key_F, [this] { view.fitView(); });
+    add(SceneView::tr("Fit the view"), Qt::Key_F, [this] { view.fitView(); });
     const auto addSwitch = [&](const QString& text, Qt::Key key, auto&& call) {
         QAction* action = add(text, key, call);
         action->setCheckable(true);
         return action;
     };
-    heightShading =
-        addSwitch(tr("Colour by height"), Qt::Key_H, [this](bool on) { view.setHeightShading(on); });
-    edges = addSwitch(tr("Draw edges"), Qt::Key_E, [this](bool on) { view.setEdges(on); });
-    followPart = addSwitch(tr("Follow the part"), Qt::Key_C, [this](bool on) { view.setFollow(on); });
+    heightShading = addSwitch(SceneView::tr("Colour by height"), Qt::Key_H,
+                              [this](bool on) { view.setHeightShading(on); });
+    edges = addSwitch(SceneView::tr("Draw edges"), Qt::Key_E, [this](bool on) { view.setEdges(on); });
+    followPart =
+        addSwitch(SceneView::tr("Follow the part"), Qt::Key_C, [this](bool on) { view.setFollow(on); });
 }
 
 void SceneView::State::pick(const QPointF& place) {

@@ -11,10 +11,6 @@ namespace {
 
 using base::Vec3;
 
-QString tr(const char* text) {
-    return QCoreApplication::translate("scene", text);
-}
-
 }  // namespace
 
 std::vector<SectionSpan> sectionSpans(const track::Track& track, const Camera& camera) {
@@ -42,8 +38,9 @@ std::vector<SectionSpan> sectionSpans(const track::Track& track, const Camera& c
         }
         return span;
     };
-    return {makeSpan(tr("Lead-in"), track.begin(), trapBegin), makeSpan(tr("Trap"), trapBegin, trapEnd),
-            makeSpan(tr("Lead-out"), trapEnd, track.end())};
+    return {makeSpan(QCoreApplication::translate("scene", "Lead-in"), track.begin(), trapBegin),
+            makeSpan(QCoreApplication::translate("scene", "Trap"), trapBegin, trapEnd),
+            makeSpan(QCoreApplication::translate("scene", "Lead-out"), trapEnd, track.end())};
 }
 
 }  // namespace trapwright::scene

@@ -152,7 +152,7 @@ void setShades(vtkActor& actor, std::span<const Shade> shades) {
     uniforms->SetUniform4fv("shadeCentre", static_cast<int>(kMostShades), centres);
 }
 
-void setLinesInFront(vtkActor& actor) {
+void setInFront(vtkActor& actor) {
     actor.GetShaderProperty()->AddVertexShaderReplacement(
         "//VTK::PositionVC::Impl", true, "//VTK::PositionVC::Impl\ngl_Position.z -= 6e-4 * gl_Position.w;\n",
         false);

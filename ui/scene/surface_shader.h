@@ -35,8 +35,8 @@ void setLights(vtkActor& actor, const Camera& camera);
 void setHeightRange(vtkActor& actor, bool shaded, double low, double high);
 void setShades(vtkActor& actor, std::span<const Shade> shades);
 
-/// Draws an actor's lines a little nearer than they are, so that surfaces they lie on do not hide them.
-void setLinesInFront(vtkActor& actor);
+/// Draws an actor a little nearer than it is, so that a surface that it lies on does not hide it.
+void setInFront(vtkActor& actor);
 /// Draws an actor before everything else, as if nothing could hide it.
 void setBeforeAll(vtkActor& actor);
 

@@ -13,6 +13,10 @@ namespace trapwright::session {
 namespace {
 
 constexpr int kTick = 100;  // between two progressed() [ms]
+// Below the window's thread, so that it answers at once while all processors learn. What somebody waits for
+// goes before what goes on for hours, and that before checks of winners.
+constexpr int kSimulatingSteps = 5;
+constexpr int kWorkSteps = 10;
 
 base::Result<std::unique_ptr<StudySession>> makeSession(base::Result<OpenedStudy> study,
                                                         const Environment& environment) {
@@ -34,8 +38,8 @@ StudySession::State::State(OpenedStudy study, const Environment& environmentGive
       validations(std::move(study.validations)),
       reader(std::move(study.reader)),
       writer(std::move(study.file)),
-      work(std::make_unique<WorkThread>(base::lowerPriority)),
-      simulating(std::make_unique<WorkThread>()) {
+      work(std::make_unique<WorkThread>([] { base::lowerPriority(kWorkSteps); })),
+      simulating(std::make_unique<WorkThread>([] { base::lowerPriority(kSimulatingSteps); })) {
     findProblems();
 }
 

@@ -25,6 +25,7 @@ namespace trapwright::window {
 namespace {
 
 constexpr QSize kFirstSize(1280, 800);
+const QString kFirstPage = QStringLiteral("part");
 
 bool isStudy(const std::filesystem::path& file) {
     return file.extension() == ".trap";
@@ -34,6 +35,7 @@ bool isStudy(const std::filesystem::path& file) {
 
 MainWindow::MainWindow(session::Environment environment)
     : desk_(std::move(environment), nullptr),
+      run_(this),
       undo_(new QUndoGroup(this)),
       pages_(makePages(run_)),
       frame_(new SceneFrame(this)),
@@ -72,7 +74,7 @@ MainWindow::MainWindow(session::Environment environment)
     resize(kFirstSize);
     restoreGeometry(QSettings().value("window/geometry").toByteArray());
     setSession(nullptr);
-    showRecent();
+    updateTitle();
     // After the window is seen: it reads the disk.
     QTimer::singleShot(0, this, &MainWindow::offerRecovery);
 }
@@ -91,8 +93,13 @@ void MainWindow::openFile(const std::filesystem::path& file) {
 }
 
 void MainWindow::showPage(const QString& name) {
-    for (std::size_t i = 0; i < pages_.size(); ++i)
-        if (pages_[i]->face().name == name && desk_.session() != nullptr) setPage(i);
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        if (pages_[i]->face().name != name) continue;
+        if (desk_.session() != nullptr) return setPage(i);
+        // Beside the welcome: an import has something to ask.
+        if (name == kFirstPage) return docks_->show(i);
+    }
+    if (name.isEmpty() && desk_.session() == nullptr) docks_->hideAll();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -33,7 +33,7 @@ class MainWindow : public QMainWindow {
 
     /// Opens a study, or imports a part, by the file's name. Asks first if something would be lost.
     void openFile(const std::filesystem::path& file);
-    /// Shows a page by its name, as "track". Nothing happens without a study: there is nothing to show.
+    /// Shows a page by its name, as "track". Without a study only the Part page is shown, where one begins.
     void showPage(const QString& name);
 
     [[nodiscard]] StudyDesk& desk() { return desk_; }

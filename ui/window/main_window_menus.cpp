@@ -58,7 +58,8 @@ void MainWindow::addFileMenu() {
         addItem(examples, "example." + name, {}, text, {}, this, [this, name] { openExample(name, false); });
     }
     menu.addSeparator();
-    studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."), QKeySequence::SaveAs, this,
+    studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."),
+                             QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S), this,
                              [this] { askForSaveAs([] {}); });
     studyActions_ << addItem(menu, "file.close", "close", tr("&Close study"), QKeySequence(Qt::CTRL | Qt::Key_W), this,
                              [this] { whenClosable([this] { desk_.close(true); }); });
@@ -72,6 +73,8 @@ void MainWindow::addEditMenu() {
     QAction* redo = undo_->createRedoAction(this, tr("&Redo"));
     undo->setObjectName("edit.undo");
     redo->setObjectName("edit.redo");
+    undo->setProperty(kLastingText, tr("Undo"));
+    redo->setProperty(kLastingText, tr("Redo"));
     undo->setIcon(look::icon("undo"));
     redo->setIcon(look::icon("redo"));
     undo->setShortcut(QKeySequence::Undo);

@@ -64,8 +64,7 @@ void MainWindow::importPart(const std::filesystem::path& file, bool asNewStudy) 
     const auto import = [this, file] {
         frame_->messages().clear();
         pages::Page* page = findPage("part");
-        if (!page->takeFile(file)) fail(tr("The file cannot be used"), look::toText(file));
-        showPage("part");
+        page->takeFile(file);
     };
     if (!asNewStudy || desk_.session() == nullptr) return import();
     whenClosable([this, import] {

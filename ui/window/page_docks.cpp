@@ -8,6 +8,7 @@
 #include <QStackedWidget>
 
 #include "ui/pages/page.h"
+#include "ui/window/dock_title.h"
 
 namespace trapwright::window {
 
@@ -41,6 +42,7 @@ PageDocks::PageDocks(QMainWindow& window, const std::vector<pages::Page*>& pages
     window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     inspector_->setObjectName("dock.inspector");
+    inspector_->setTitleBarWidget(new DockTitle(*inspector_));
     inspector_->setWidget(stack_);
     inspector_->toggleViewAction()->setText(tr("Inspector"));
     window.addDockWidget(Qt::RightDockWidgetArea, inspector_);
@@ -50,6 +52,7 @@ PageDocks::PageDocks(QMainWindow& window, const std::vector<pages::Page*>& pages
         for (const pages::Panel& panel : page->panels()) {
             auto* dock = new QDockWidget(panel.title, &window);
             dock->setObjectName("dock." + page->face().name + "." + panel.name);
+            dock->setTitleBarWidget(new DockTitle(*dock));
             dock->setWidget(panel.widget);
             window.addDockWidget(panel.area, dock);
             docks.push_back({dock, panel.area});

@@ -42,7 +42,10 @@ class Collector {
         QStringList keys;
         for (const QKeySequence& key : action.shortcuts())
             keys.push_back(key.toString(QKeySequence::NativeText));
-        found.push_back({place, plain(action.text()), keys.join(QObject::tr(" or "))});
+        // Undo's text tells what would be undone at the moment.
+        const QVariant lasting = action.property(kLastingText);
+        found.push_back({place, plain(lasting.isValid() ? lasting.toString() : action.text()),
+                         keys.join(QObject::tr(" or "))});
     }
 
  private:

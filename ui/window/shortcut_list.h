@@ -14,6 +14,9 @@ struct Shortcut {
     QString keys;   // "Ctrl+O"
 };
 
+/// Property of an action whose text changes: what it is called in the list.
+inline constexpr const char* kLastingText = "lastingText";
+
 /// All shortcuts of a window, from its QActions: those in menus in their order, then those of its pages.
 std::vector<Shortcut> findShortcuts(const QWidget& window);
 

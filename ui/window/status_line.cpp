@@ -47,8 +47,9 @@ StateFace faceOf(RunState state, bool problems) {
 StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent), sign_(new QLabel(this)), bar_(new QProgressBar(this)) {
     setObjectName("statusLine");
     setSizeGripEnabled(false);
-    setStyleSheet("QStatusBar { border-top: 1px solid palette(mid); } QStatusBar::item { border: none; }");
-    sign_->setContentsMargins(8, 0, 0, 0);
+    setStyleSheet("QStatusBar { border-top: 1px solid palette(mid); } QStatusBar::item { border: none; }"
+                  "#statusSign { padding-left: 8px; } #status\\.engines { padding-right: 8px; }");
+    sign_->setObjectName("statusSign");
     addWidget(sign_);
     state_ = addField("state", tr("What the study is doing"));
     bar_->setObjectName("status.progress");
@@ -63,7 +64,6 @@ StatusLine::StatusLine(QWidget* parent) : QStatusBar(parent), sign_(new QLabel(t
     engines_ = new QLabel(this);
     engines_->setObjectName("status.engines");
     engines_->setAccessibleName(tr("Engines"));
-    engines_->setContentsMargins(0, 0, 8, 0);
     addPermanentWidget(engines_);
     update();
 }

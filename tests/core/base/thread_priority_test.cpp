@@ -25,6 +25,20 @@ class ThreadPriorityTest : public QObject {
         QCOMPARE(started, 19);
         QCOMPARE(::getpriority(PRIO_PROCESS, 0), before);
     }
+
+    void stepsAreFromWhereTheThreadIs() {
+        const int before = ::getpriority(PRIO_PROCESS, 0);
+        int once = -1;
+        int twice = -1;
+        std::thread([&] {
+            base::lowerPriority(3);
+            once = ::getpriority(PRIO_PROCESS, 0);
+            base::lowerPriority(4);
+            twice = ::getpriority(PRIO_PROCESS, 0);
+        }).join();
+        QCOMPARE(once, std::min(before + 3, 19));
+        QCOMPARE(twice, std::min(before + 7, 19));
+    }
 };
 
 QTEST_APPLESS_MAIN(ThreadPriorityTest)

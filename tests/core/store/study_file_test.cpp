@@ -212,6 +212,53 @@ class StudyFileTest : public QObject {
         QVERIFY(sample::messageOf(reader->changeSettings(sample::settings())).contains(refused));
     }
 
+    void partIsReplacedUntilThereAreGenerations() {
+        store::StoredPart other = sample::part();
+        other.mesh.triangles.pop_back();
+        other.options.name = "open";
+        study::Settings settings = sample::settings();
+        settings.part.file = "/parts/open.stl";
+        {
+            auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+            VERIFY_OK(study);
+            VERIFY_OK(study->changePart(other, settings));
+        }
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QVERIFY(study->loadSettings().value() == settings);
+        QVERIFY(study->loadPart().value().mesh.triangles == other.mesh.triangles);
+        QCOMPARE(study->loadPart().value().options.name, std::string("open"));
+        VERIFY_OK(study->saveGeneration(sample::generation(0)));
+        QVERIFY(sample::messageOf(study->changePart(sample::part(), settings)).contains("new study"));
+        QCOMPARE(study->loadPart().value().options.name, std::string("open"));
+        auto reader = StudyFile::openReadOnly(path_);
+        VERIFY_OK(reader);
+        QVERIFY(sample::messageOf(reader->changePart(other, settings)).contains("reading only"));
+    }
+
+    void copyHoldsAll() {
+        sample::write(path_, 3);
+        const std::filesystem::path other = path_.parent_path() / "copy.trap";
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        // Also what still is in the log.
+        VERIFY_OK(study->saveGeneration(sample::generation(3)));
+        VERIFY_OK(study->saveSelection(sampleSelection(0.5)));
+        VERIFY_OK(study->copyTo(other));
+        QVERIFY(sample::messageOf(study->copyTo(other)).contains("exists already"));
+        QVERIFY(
+            sample::messageOf(study->copyTo(path_.parent_path() / "none" / "a.trap")).contains("no folder"));
+        auto copy = StudyFile::open(other, sample::kProgram);
+        VERIFY_OK(copy);
+        QVERIFY(copy->loadSettings().value() == sample::settings());
+        QCOMPARE(copy->loadOrigin().value().created, study->loadOrigin().value().created);
+        for (int i = 0; i < 4; ++i)
+            QVERIFY(sample::equal(copy->loadGeneration(i).value(), sample::generation(i)));
+        QCOMPARE(copy->loadSelections().value().size(), std::size_t{1});
+        VERIFY_OK(copy->saveGeneration(sample::generation(4)));
+        QCOMPARE(study->generationCount().value(), 4);
+    }
+
     void closingLeavesOneFile() {
         sample::write(path_, 3);
         QCOMPARE(filesIn(path_.parent_path()), std::set<std::string>{path_.filename().string()});

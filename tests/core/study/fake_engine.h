@@ -48,7 +48,7 @@ class FakeEngine : public trial::Engine {
                 jobs.emplace_back(b, i);
         }
         base::parallelFor(jobs.size(), threads_, [&](std::size_t job, unsigned) {
-            if (control.cancelled()) return;
+            if (!control.mayGoOn()) return;
             const auto [b, i] = jobs[job];
             outcomes[b][i] = law_(batches[b], batches[b].trials[i]);
             control.advance(1);

@@ -149,6 +149,24 @@ class RunnerTest : public QObject {
         QVERIFY(sameBits(whole, saved));
     }
 
+    void endIsMovedWhileItRuns() {
+        for (const int generations : {2, 7}) {
+            study::LearningControl control;
+            int saved = 0;
+            study::LearningEvents events;
+            events.planned = [](const study::GenerationPlan&) {};
+            events.save = [&](const study::GenerationRecord& record) {
+                if (record.index == 1) control.setGenerations(generations);
+                ++saved;
+                return base::success();
+            };
+            const auto end = study::evolve(fake::waveInputs(), std::nullopt, events, control);
+            VERIFY_OK(end);
+            QCOMPARE(*end, study::LearningEnd::completed);
+            QCOMPARE(saved, generations);
+        }
+    }
+
     void plansTellWhatIsToCome() {
         LearningControl control;
         std::vector<study::GenerationPlan> plans;

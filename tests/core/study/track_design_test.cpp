@@ -84,6 +84,23 @@ class TrackDesignTest : public QObject {
         QVERIFY(qAbs(geometry::calcBoundingBox(track->solid).low.z() + 5e-3) < 1e-12);
     }
 
+    void layoutTrackIsFlat() {
+        study::TrackSettings settings;
+        settings.crossSections = 3;
+        settings.segmentHeight = 20e-3;
+        const auto layout = study::buildLayout(settings);
+        VERIFY_OK(layout);
+        for (const track::CrossSection& section : layout->sections)
+            for (const base::Vec2& point : section.points)
+                QCOMPARE(point.y(), 10e-3);
+        // Three segments of the mean length between lead-in and lead-out.
+        const auto x = [&](int section) { return layout->sections[static_cast<std::size_t>(section)].x; };
+        QVERIFY(qAbs(x(layout->lastTrapSection) - x(layout->firstTrapSection) -
+                     1.5 * (settings.minSegmentLength + settings.maxSegmentLength)) < 1e-12);
+        settings.pointsPerSection = 1;
+        QVERIFY(!study::buildLayout(settings).ok());
+    }
+
     void genesOfAnotherLengthAreRefused() {
         const auto track = study::decodeTrack(
             smallSettings(), chromosomeOf(std::vector<double>(26, 0.0), std::vector<double>(3, 0.0)));

@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QOpenGLContext>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -180,6 +181,7 @@ class SceneViewTest : public QObject {
         view->setFixedSize(600, 300);
         QTest::qWait(50);
         const QImage docked = view->grabFramebuffer();
+        QSignalSpy lost(view->context(), &QOpenGLContext::aboutToBeDestroyed);
         for (int round = 0; round < 3; ++round) {
             dock->setFloating(true);
             QTest::qWait(50);
@@ -193,6 +195,7 @@ class SceneViewTest : public QObject {
         }
         // To another window and back: its context goes and comes.
         view->setParent(nullptr);
+        QVERIFY(!lost.isEmpty());
         view->show();
         QVERIFY(QTest::qWaitForWindowExposed(view));
         QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) < 0.002);

@@ -80,5 +80,20 @@ int main(int argc, char** argv) {
         window.showPage(page->face().name);
         camera.take(window, page->face().name);
     }
+    if (!window.desk().session()->locked()) {
+        window.showPage("track");
+        study::Settings settings = window.desk().session()->settings();
+        settings.track.crossSections = 0;
+        settings.track.shape.type = track::FeederType::bowl;
+        settings.track.leadInLength = 70e-3;
+        window.desk().session()->changeSettings(settings, "Mistakes");
+        camera.take(window, "mistakes");
+        settings.track.crossSections = 5;
+        window.desk().session()->changeSettings(settings, "Bowl");
+        window.findChild<QAction*>(arguments[4] == "dark" ? "theme.light" : "theme.dark")->trigger();
+        camera.take(window, "bowl");
+    }
+    window.findChild<QAction*>("help.shortcuts")->trigger();
+    camera.take(*QApplication::activeModalWidget(), "shortcuts");
     return camera.failed() ? 1 : 0;
 }

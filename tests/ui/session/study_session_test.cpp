@@ -1,0 +1,240 @@
+#include <QtTest>
+
+#include "tests/ui/session/session_fixture.h"
+#include "ui/session/study_curves.h"
+#include "ui/session/study_opening.h"
+
+using namespace trapwright;
+using namespace trapwright::session;
+
+/// A study that is open: what it holds, and how settings and part change.
+class StudySessionTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void init() { fixture_ = std::make_unique<SessionFixture>(); }
+
+    void newStudyHoldsWhatItWasMadeOf() {
+        const auto session = fixture_->create("a.trap", smallSettings());
+        QVERIFY(session);
+        QCOMPARE(session->state(), RunState::idle);
+        QVERIFY(session->settings().part == cuboid().settings);
+        QCOMPARE(session->part()->symmetry.name, std::string("D2"));
+        QVERIFY(session->problems().empty() && !session->locked());
+        QVERIFY(session->summaries().empty() && session->winners().empty());
+        // For D2 a perfect feeder scores less than for a part without symmetry, whose best is pi / 2 + 2 /
+        // pi.
+        QVERIFY(session->bestOrientationScore() > 0.5 && session->bestOrientationScore() < 2.3);
+    }
+
+    void refusesPathsThatCannotBe() {
+        const auto first = fixture_->create("a.trap", smallSettings());
+        QVERIFY(first);
+        const auto again = StudySession::create(fixture_->path("a.trap"), smallSettings(), cuboid(),
+                                                fixture_->environment());
+        QVERIFY(!again.ok() && fake::messageOf(again).contains("exists"));
+        // One window at a time.
+        const auto opened = StudySession::open(fixture_->path("a.trap"), fixture_->environment());
+        QVERIFY(!opened.ok() && fake::messageOf(opened).contains("a.trap"));
+        QVERIFY(!StudySession::open(fixture_->path("none.trap"), fixture_->environment()).ok());
+        store::StoredPart flat = cuboid().stored;
+        flat.mesh.triangles.resize(2);
+        QVERIFY(
+            !StudySession::create(fixture_->path("b.trap"), smallSettings(), flat, fixture_->environment())
+                 .ok());
+        QVERIFY(!std::filesystem::exists(fixture_->path("b.trap")));
+    }
+
+    void changesAreUndoneAndSaved() {
+        auto session = fixture_->create("a.trap", smallSettings());
+        QVERIFY(session);
+        QSignalSpy changed(session.get(), &StudySession::settingsChanged);
+        const study::Settings before = session->settings();
+        study::Settings wide = before;
+        wide.track.segmentWidth = 50e-3;
+        session->changeSettings(wide, "Segment width");
+        study::Settings steep = wide;
+        steep.simulation.drive.angle = 20.0 * base::kDegree;
+        session->changeSettings(steep, "Vibration angle");
+        session->changeSettings(steep, "Vibration angle");
+        QCOMPARE(changed.count(), 2);
+        QCOMPARE(session->undoStack()->count(), 2);
+        QCOMPARE(session->undoStack()->undoText(), QString("Vibration angle"));
+        QVERIFY(session->settings() == steep);
+        session->undoStack()->undo();
+        QVERIFY(session->settings() == wide);
+        session->undoStack()->undo();
+        QVERIFY(session->settings() == before);
+        session->undoStack()->redo();
+        QVERIFY(session->settings() == wide);
+        session.reset();
+        session = fixture_->open("a.trap");
+        QVERIFY(session && session->settings() == wide);
+    }
+
+    void draggedValueIsOneChange() {
+        const auto session = fixture_->create("a.trap", smallSettings());
+        QVERIFY(session);
+        const study::Settings before = session->settings();
+        for (int step = 1; step <= 5; ++step) {
+            study::Settings settings = session->settings();
+            settings.track.segmentHeight += 1e-3;
+            session->changeSettings(settings, "Segment height");
+        }
+        QCOMPARE(session->undoStack()->count(), 1);
+        session->undoStack()->undo();
+        QVERIFY(session->settings() == before);
+    }
+
+    void badValuesAreProblems() {
+        const auto session = fixture_->create("a.trap", smallSettings());
+        QVERIFY(session);
+        QSignalSpy failed(session.get(), &StudySession::failed);
+        study::Settings bad = session->settings();
+        bad.track.segmentWidth = 5e-3;  // narrower than the part
+        session->changeSettings(bad, "Segment width");
+        QVERIFY(!session->problems().empty());
+        session->startLearning();
+        QCOMPARE(session->state(), RunState::idle);
+        QCOMPARE(failed.count(), 1);
+        QVERIFY(failed[0][1].toString().contains(QString::fromStdString(session->problems().front())));
+        session->undoStack()->undo();
+        QVERIFY(session->problems().empty());
+    }
+
+    void partIsReplacedAndUndone() {
+        auto session = fixture_->create("a.trap", smallSettings());
+        QVERIFY(session);
+        QSignalSpy changed(session.get(), &StudySession::partChanged);
+        const ImportedPart cone = work::importPart({"cone"}).value();
+        session->changePart(cone, "Import cone");
+        QCOMPARE(changed.count(), 1);
+        QVERIFY(session->part()->symmetry.continuous);
+        QVERIFY(session->settings().part == cone.settings);
+        session->undoStack()->undo();
+        QCOMPARE(session->part()->symmetry.name, std::string("D2"));
+        QVERIFY(session->settings().part == cuboid().settings);
+        session->undoStack()->redo();
+
+        // A denser one, which is built in the background.
+        store::StoredPart dense = cone.stored;
+        study::PartSettings settings = cone.settings;
+        dense.options.density = settings.density = 8000.0;
+        session->changePart(dense, settings, "Density");
+        QTRY_COMPARE(changed.count(), 4);
+        QCOMPARE(session->part()->density, 8000.0);
+        dense.options.density = -1.0;
+        QSignalSpy failed(session.get(), &StudySession::failed);
+        session->changePart(dense, settings, "Density");
+        QTRY_COMPARE(failed.count(), 1);
+        QVERIFY(failed[0][1].toString().contains("density"));
+        QCOMPARE(session->part()->density, 8000.0);
+        session.reset();
+        session = fixture_->open("a.trap");
+        QVERIFY(session && session->part()->symmetry.continuous);
+        QCOMPARE(session->part()->density, 8000.0);
+        QCOMPARE(session->settings().part.density, 8000.0);
+    }
+
+    void scoresLockWhatTheyWereMadeWith() {
+        const auto session = fixture_->create("a.trap", smallSettings(2));
+        QVERIFY(session);
+        study::Settings wide = session->settings();
+        wide.track.segmentWidth = 50e-3;
+        session->changeSettings(wide, "Segment width");
+        QVERIFY(learnToTheEnd(*session));
+        QVERIFY(session->locked() && !session->undoStack()->canUndo());
+        QSignalSpy failed(session.get(), &StudySession::failed);
+        study::Settings narrow = session->settings();
+        narrow.track.segmentWidth = 40e-3;
+        session->changeSettings(narrow, "Segment width");
+        session->changePart(work::importPart({"cone"}).value(), "Import cone");
+        QCOMPARE(failed.count(), 2);
+        QVERIFY(session->settings() == wide);
+        study::Settings longer = session->settings();
+        longer.evolution.generations = 3;
+        longer.validation.trialsPerPose = 12;
+        session->changeSettings(longer, "Generations");
+        QVERIFY(session->settings() == longer);
+        QVERIFY(learnToTheEnd(*session));
+        QCOMPARE(session->summaries().size(), std::size_t{3});
+        QCOMPARE(failed.count(), 2);
+    }
+
+    void savingAsGoesOnWithTheCopy() {
+        auto session = fixture_->create("a.trap", smallSettings(2));
+        QVERIFY(session);
+        QVERIFY(learnToTheEnd(*session));
+        const study::GenerationRecord last = session->loadGeneration(1).value();
+        QSignalSpy moved(session.get(), &StudySession::pathChanged);
+        QVERIFY(!session->saveAs(fixture_->path("a.trap")).ok());
+        QVERIFY(!session->saveAs(fixture_->path("none/b.trap")).ok());
+        QCOMPARE(session->loadGeneration(1).value().individuals, last.individuals);
+        VERIFY_OK(session->saveAs(fixture_->path("b.trap")));
+        QCOMPARE(moved.count(), 1);
+        QCOMPARE(session->path(), fixture_->path("b.trap"));
+        QCOMPARE(session->loadGeneration(1).value().individuals, last.individuals);
+        study::Settings longer = session->settings();
+        longer.evolution.generations = 3;
+        session->changeSettings(longer, "Generations");
+        QVERIFY(learnToTheEnd(*session));
+        // The old one stays as it was and is free.
+        const auto old = fixture_->open("a.trap");
+        QVERIFY(old);
+        QCOMPARE(old->summaries().size(), std::size_t{2});
+        session.reset();
+        QVERIFY(!std::filesystem::exists(fixture_->path("b.trap-wal")));
+        session = fixture_->open("b.trap");
+        QVERIFY(session);
+        QCOMPARE(session->summaries().size(), std::size_t{3});
+    }
+
+    void forkHasNoGenerations() {
+        const auto session = fixture_->create("a.trap", smallSettings(1));
+        QVERIFY(session);
+        QVERIFY(learnToTheEnd(*session));
+        const auto forked = session->fork(fixture_->path("b.trap"));
+        VERIFY_OK(forked);
+        QVERIFY((*forked)->summaries().empty() && !(*forked)->locked());
+        QVERIFY((*forked)->settings() == session->settings());
+        QVERIFY((*forked)->part()->mesh.vertices == session->part()->mesh.vertices);
+    }
+
+    void opensInTheBackground() {
+        auto session = fixture_->create("a.trap", smallSettings(1));
+        QVERIFY(session && learnToTheEnd(*session));
+        session.reset();
+        StudyOpening opening;
+        QString message;
+        const auto take = [&](base::Result<std::unique_ptr<StudySession>> opened) {
+            message = fake::messageOf(opened);
+            if (opened) session = std::move(opened).value();
+        };
+        opening.start(fixture_->path("none.trap"), fixture_->environment(), take);
+        QTRY_VERIFY(!opening.busy());
+        QVERIFY(message.contains("none.trap"));
+        opening.start(fixture_->path("a.trap"), fixture_->environment(), take);
+        QVERIFY(opening.busy() && !session);
+        QTRY_VERIFY(session);
+        QCOMPARE(session->summaries().size(), std::size_t{1});
+        QVERIFY(learnToTheEnd(*session) || session->summaries().size() == 1);
+    }
+
+    void curvesOfAnotherStudy() {
+        const auto session = fixture_->create("a.trap", smallSettings(2));
+        QVERIFY(session && learnToTheEnd(*session));
+        const auto curves = loadCurves(session->path());
+        VERIFY_OK(curves);
+        QCOMPARE(curves->name, std::string("a"));
+        QCOMPARE(curves->summaries.size(), std::size_t{2});
+        QCOMPARE(curves->summaries[1].statistics, session->summaries()[1].statistics);
+        QCOMPARE(curves->bestOrientationScore, session->bestOrientationScore());
+        QVERIFY(!loadCurves(fixture_->path("none.trap")).ok());
+    }
+
+ private:
+    std::unique_ptr<SessionFixture> fixture_;
+};
+
+QTEST_GUILESS_MAIN(StudySessionTest)
+#include "study_session_test.moc"

@@ -1,0 +1,167 @@
+#include <QtTest>
+
+#include "core/study/validation.h"
+#include "sim/native/native_engine.h"
+#include "tests/ui/session/session_fixture.h"
+
+using namespace trapwright;
+using namespace trapwright::session;
+
+namespace {
+
+Environment nativeEnvironment(const SessionFixture& fixture) {
+    Environment environment = fixture.environment();
+    environment.makeEngine =
+        [](const std::string&,
+           const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
+        return std::shared_ptr<const trial::Engine>(std::make_shared<native::NativeEngine>(options));
+    };
+    return environment;
+}
+
+}  // namespace
+
+/// Trials of a study made again, simulated in earnest.
+class StudyTrialsTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void initTestCase() {
+        fixture_ = std::make_unique<SessionFixture>();
+        auto made = StudySession::create(fixture_->path("a.trap"), smallSettings(2), cuboid(),
+                                         nativeEnvironment(*fixture_));
+        VERIFY_OK(made);
+        session_ = std::move(made).value();
+        QVERIFY(learnToTheEnd(*session_));
+        session_->startValidation(session_->winners().back());
+        QVERIFY(waitForState(*session_, RunState::idle));
+        QCOMPARE(session_->validations().size(), std::size_t{1});
+    }
+
+    void cleanupTestCase() { session_.reset(); }
+
+    void learningTrialsEndAsTheyDid() {
+        const study::Winner& winner = session_->winners().back();
+        const std::vector<SimulatedTrials> told = simulate({work::TrialKind::learning, winner});
+        QCOMPARE(told.size(), std::size_t{1});
+        QCOMPARE(static_cast<int>(told[0].outcomes.size()), winner.record.trials);
+        int finished = 0;
+        for (const trial::Outcome& outcome : told[0].outcomes)
+            finished += outcome.ending == trial::Ending::finished ? 1 : 0;
+        QCOMPARE(finished, winner.record.finished);
+        // The first ones, and more than there were.
+        for (const int count : {2, 7}) {
+            const std::vector<SimulatedTrials> others =
+                simulate({work::TrialKind::learning, winner, 0, count});
+            QCOMPARE(static_cast<int>(others[0].outcomes.size()), count);
+            QVERIFY(others[0].outcomes[1] == told[0].outcomes[1]);
+        }
+    }
+
+    void validationTrialsAreThoseOfTheTable() {
+        const study::ValidationRecord& table = session_->validations().front();
+        for (const study::ValidationRow& row : table.rows) {
+            work::TrialsRequest request{work::TrialKind::validation, session_->winners().back(), row.pose};
+            const std::vector<SimulatedTrials> told = simulate(request);
+            QCOMPARE(told[0].outcomes.size(), std::size_t{10});
+            const auto& verdicts = told[0].judged.verdicts;
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), work::TrialVerdict::stuck), row.stuck);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), work::TrialVerdict::fellOff), row.fellOff);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), work::TrialVerdict::wrongOrientation),
+                     row.wrongOrientation);
+            // Fewer are the first of them, whichever the pose is.
+            request.count = 3;
+            const std::vector<SimulatedTrials> fewer = simulate(request);
+            QCOMPARE(fewer[0].outcomes.size(), std::size_t{3});
+            for (std::size_t i = 0; i < 3; ++i)
+                QVERIFY(fewer[0].outcomes[i] == told[0].outcomes[i]);
+        }
+    }
+
+    void replayEndsLikeTheTrial() {
+        const work::TrialsRequest request{work::TrialKind::learning, session_->winners().back()};
+        const std::vector<SimulatedTrials> told = simulate(request);
+        std::shared_ptr<const trial::Trajectory> trajectory;
+        const auto connection = connect(session_.get(), &StudySession::replayed, this,
+                                        [&](const work::TrialsRequest&, int trial,
+                                            const std::shared_ptr<const trial::Trajectory>& replayed) {
+                                            QCOMPARE(trial, 3);
+                                            trajectory = replayed;
+                                        });
+        session_->replay(request, 3, 0.01);
+        QCOMPARE(session_->state(), RunState::simulating);
+        QTRY_VERIFY(trajectory);
+        disconnect(connection);
+        QVERIFY(trajectory->outcome == told[0].outcomes[3]);
+        QVERIFY(trajectory->samples.size() >= static_cast<std::size_t>(trajectory->outcome.time / 0.01));
+        QVERIFY(waitForState(*session_, RunState::idle));
+    }
+
+    void whatThereIsNotIsAMessage() {
+        QSignalSpy failed(session_.get(), &StudySession::failed);
+        session_->simulateTrials({work::TrialKind::selection, session_->winners().back()});
+        QTRY_COMPARE(failed.count(), 1);
+        session_->replay({work::TrialKind::learning, session_->winners().back()}, 4, 0.01);
+        QTRY_COMPARE(failed.count(), 2);
+        study::Winner broken = session_->winners().back();
+        broken.record.chromosome.lengths.pop_back();
+        session_->simulateTrials({work::TrialKind::learning, broken});
+        QTRY_COMPARE(failed.count(), 3);
+        QVERIFY(failed[2][1].toString().contains("bits"));
+    }
+
+    void cancelledSimulationsAreNotHeardOf() {
+        QSignalSpy told(session_.get(), &StudySession::trialsSimulated);
+        QSignalSpy failed(session_.get(), &StudySession::failed);
+        for (int i = 0; i < 5; ++i)
+            session_->simulateTrials({work::TrialKind::learning, session_->winners().back(), 0, 500});
+        session_->cancelSimulations();
+        QVERIFY(waitForState(*session_, RunState::idle));
+        QCOMPARE(told.count() + failed.count(), 0);
+        QCOMPARE(simulate({work::TrialKind::learning, session_->winners().back()}).size(), std::size_t{1});
+    }
+
+    void estimateIsOfTheOrderOfTheRun() {
+        study::Settings settings = smallSettings(4);
+        settings.evolution.populationSize = 16;
+        settings.evolution.trialsPerEvaluation = 10;
+        auto made =
+            StudySession::create(fixture_->path("b.trap"), settings, cuboid(), nativeEnvironment(*fixture_));
+        VERIFY_OK(made);
+        StudySession& session = **made;
+        QSignalSpy estimated(&session, &StudySession::estimated);
+        QCOMPARE(session.estimatedSeconds(), 0.0);
+        session.requestEstimate();
+        QTRY_COMPARE_WITH_TIMEOUT(estimated.count(), 1, 10000);
+        const double expected = session.estimatedSeconds();
+        QElapsedTimer clock;
+        clock.start();
+        QVERIFY(learnToTheEnd(session));
+        const double took = 1e-3 * static_cast<double>(clock.elapsed());
+        qInfo("estimated %.2f s, took %.2f s", expected, took);
+        QVERIFY(expected > 0.0);
+        // Other work on the machine must not fail this.
+        QVERIFY(took < 20.0 * expected && expected < 20.0 * took);
+        settings = session.settings();
+        settings.evolution.generations = 8;
+        session.changeSettings(settings, "Generations");
+        QCOMPARE(session.estimatedSeconds(), 0.0);
+    }
+
+ private:
+    std::vector<SimulatedTrials> simulate(const work::TrialsRequest& request) {
+        std::vector<SimulatedTrials> told;
+        const auto connection = connect(session_.get(), &StudySession::trialsSimulated, this,
+                                        [&](const SimulatedTrials& trials) { told.push_back(trials); });
+        session_->simulateTrials(request);
+        [&] { QTRY_VERIFY_WITH_TIMEOUT(!told.empty(), 20000); }();
+        disconnect(connection);
+        return told;
+    }
+
+    std::unique_ptr<SessionFixture> fixture_;
+    std::unique_ptr<StudySession> session_;
+};
+
+QTEST_GUILESS_MAIN(StudyTrialsTest)
+#include "study_trials_test.moc"

@@ -1,0 +1,174 @@
+// The window while its study learns, with the program's own engines.
+
+#include <QAction>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "app/trapwright/engines.h"
+#include "core/study/presets.h"
+#include "ui/look/message_bar.h"
+#include "ui/scene/scene_view.h"
+#include "ui/session/part_import.h"
+#include "ui/session/recovery_note.h"
+#include "ui/window/main_window.h"
+
+using namespace trapwright;
+using session::RunState;
+
+namespace {
+
+constexpr int kPatience = 60000;  // [ms]
+
+base::Result<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name,
+                                                              const trial::EngineOptions& options) {
+    auto engine = app::makeEngine(name, options);
+    if (!engine) return base::Error{engine.failure().message};
+    return *engine;
+}
+
+}  // namespace
+
+class RunningTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void initTestCase() {
+        QVERIFY(folder_.isValid());
+        QSettings::setDefaultFormat(QSettings::IniFormat);
+        QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
+        qputenv("XDG_DATA_HOME", folder_.filePath("data").toLocal8Bit());
+        QCoreApplication::setOrganizationName("Trapwright");
+        QCoreApplication::setApplicationName("running_test");
+        state_ = folder_.filePath("running").toStdString();
+        makeStudy();
+    }
+
+    void startPauseResumeAndStop() {
+        window::MainWindow window{{makeEngine, "trapwright test", state_}};
+        open(window);
+        auto* session = window.desk().session();
+        auto* state = window.findChild<QLabel*>("status.state");
+        action(window, "run.start")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::learning, kPatience);
+        QCOMPARE(state->text(), QString("Learning"));
+        QVERIFY(!action(window, "run.start")->isEnabled());
+        QTRY_VERIFY_WITH_TIMEOUT(!window.findChild<QLabel*>("status.speed")->text().isEmpty(), kPatience);
+
+        action(window, "run.pause")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::paused, kPatience);
+        QCOMPARE(state->text(), QString("Paused"));
+        QVERIFY(action(window, "run.start")->isEnabled() && !action(window, "run.pause")->isEnabled());
+        action(window, "run.start")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::learning, kPatience);
+
+        QTRY_VERIFY_WITH_TIMEOUT(!session->summaries().empty(), kPatience);
+        action(window, "run.stopAfterGeneration")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
+        QVERIFY(window.findChild<QLabel*>("status.generation")->text().endsWith("of 100000"));
+        // The settings belong to the scores from now on.
+        window.showPage("track");
+        QVERIFY(window.findChild<QWidget*>("track.locked")->isVisible());
+        QVERIFY(!window.findChild<QWidget*>("field.track.segmentWidth_mm")->isEnabled());
+        QVERIFY(window.findChild<QWidget*>("field.evolution.generations")->isEnabled());
+    }
+
+    void closingWhileItRunsAsks() {
+        window::MainWindow window{{makeEngine, "trapwright test", state_}};
+        open(window);
+        auto* session = window.desk().session();
+        const std::size_t before = session->summaries().size();
+        action(window, "run.start")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::learning, kPatience);
+
+        answer(window, "answer.goOn");
+        QTRY_VERIFY(window.findChild<QMessageBox*>("dialog.running") == nullptr);
+        QVERIFY(window.isVisible());
+        QCOMPARE(session->state(), RunState::learning);
+
+        answer(window, "answer.stopAfter");
+        QTRY_VERIFY_WITH_TIMEOUT(!window.isVisible(), kPatience);
+        QVERIFY(session->summaries().size() > before);
+    }
+
+    void stoppingNowClosesAtOnce() {
+        window::MainWindow window{{makeEngine, "trapwright test", state_}};
+        open(window);
+        action(window, "run.start")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
+        answer(window, "answer.stopNow");
+        QTRY_VERIFY_WITH_TIMEOUT(!window.isVisible(), 5000);
+    }
+
+    // The note of a program that is gone: its lock is free, its file is there.
+    void afterABadEndItOffersToGoOn() {
+        {
+            window::MainWindow window{{makeEngine, "trapwright test", state_}};
+            open(window);
+            action(window, "run.start")->trigger();
+            QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
+            QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(state_) && !std::filesystem::is_empty(state_), kPatience);
+            std::filesystem::copy(state_, copy_, std::filesystem::copy_options::recursive);
+        }
+        std::filesystem::remove_all(state_);
+        std::filesystem::copy(copy_, state_, std::filesystem::copy_options::recursive);
+
+        window::MainWindow window{{makeEngine, "trapwright test", state_}};
+        window.show();
+        auto* message = window.findChild<look::MessageBar*>("messageBar");
+        QTRY_VERIFY_WITH_TIMEOUT(message->text().contains("study was learning"), kPatience);
+        QPushButton* goOn = message->findChild<QPushButton*>();
+        QCOMPARE(goOn->text(), QString("Go on learning"));
+        QTest::mouseClick(goOn, Qt::LeftButton);
+        QTRY_VERIFY_WITH_TIMEOUT(window.desk().session() != nullptr, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
+    }
+
+ private:
+    void makeStudy() {
+        session::PartImport import;
+        std::optional<work::LoadedPart> part;
+        connect(&import, &session::PartImport::finished, [&](const work::LoadedPart& one) { part = one; });
+        work::PartRequest request;
+        request.part = "cuboid";
+        import.start(request);
+        QVERIFY(QTest::qWaitFor([&] { return part.has_value(); }, kPatience));
+        study::Settings settings = study::presetSettings("cuboid").value();
+        settings.part = part->settings;
+        settings.simulation.engine = "native";
+        settings.evolution.populationSize = 6;
+        settings.evolution.trialsPerEvaluation = 10;
+        settings.evolution.generations = 100000;
+        study_ = folder_.filePath("study.trap").toStdString();
+        QVERIFY(store::StudyFile::create(study_, settings, part->stored, "trapwright test").ok());
+    }
+    void open(window::MainWindow& window) {
+        window.show();
+        window.openFile(study_);
+        QVERIFY(QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, kPatience));
+    }
+    static QAction* action(window::MainWindow& window, const char* name) { return window.findChild<QAction*>(name); }
+    static void answer(window::MainWindow& window, const char* name) {
+        window.close();
+        auto* question = window.findChild<QMessageBox*>("dialog.running");
+        QVERIFY(question != nullptr && question->isVisible());
+        QTest::mouseClick(question->findChild<QPushButton*>(name), Qt::LeftButton);
+    }
+
+    QTemporaryDir folder_;
+    std::filesystem::path state_;
+    std::filesystem::path copy_ = std::filesystem::path(folder_.filePath("copy").toStdString());
+    std::filesystem::path study_;
+};
+
+int main(int argc, char** argv) {
+    scene::SceneView::prepareApplication();
+    QApplication application(argc, argv);
+    RunningTest test;
+    return QTest::qExec(&test, argc, argv);
+}
+
+#include "running_test.moc"

@@ -1,0 +1,41 @@
+#include "ui/window/dock_title.h"
+
+#include <QDockWidget>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include "ui/look/icon.h"
+
+namespace trapwright::window {
+
+DockTitle::DockTitle(QDockWidget& dock) : QWidget(&dock) {
+    setObjectName("dockTitle");
+    setAttribute(Qt::WA_StyledBackground);
+    setStyleSheet("#dockTitle { border-bottom: 1px solid palette(mid); }");
+    auto* title = new QLabel(dock.windowTitle(), this);
+    title->setForegroundRole(QPalette::PlaceholderText);
+    auto* layout = new QHBoxLayout(this);
+    layout->setContentsMargins(12, 3, 4, 3);
+    layout->setSpacing(0);
+    layout->addWidget(title, 1);
+    const QToolButton* floating = addButton("float", tr("Float or dock it"));
+    const QToolButton* closing = addButton("close", tr("Close it; View > Docks shows it again"));
+    connect(&dock, &QDockWidget::windowTitleChanged, title, &QLabel::setText);
+    connect(floating, &QToolButton::clicked, &dock, [&dock] { dock.setFloating(!dock.isFloating()); });
+    connect(closing, &QToolButton::clicked, &dock, &QDockWidget::close);
+}
+
+QToolButton* DockTitle::addButton(const QString& icon, const QString& text) {
+    auto* button = new QToolButton(this);
+    button->setIcon(look::icon(icon));
+    button->setIconSize({14, 14});
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::TabFocus);
+    button->setToolTip(text);
+    button->setAccessibleName(text);
+    layout()->addWidget(button);
+    return button;
+}
+
+}  // namespace trapwright::window
