@@ -88,7 +88,8 @@ void addExportCommand(CLI::App& program, Invocation& invocation) {
     CLI::App& command = addCommand(
         program, invocation, "export",
         "Writes a track for printing as binary STL or 3MF, or as JSON for `trapwright track`, in mm, and "
-        "checks what was written.\nWalls and flange are printed around the surface, which stays as it was learned; "
+        "checks what was written.\nWalls and flange are printed around the surface, which stays as it was "
+        "learned; "
         "what a printer may fail at is told.",
         "trapwright export cuboid.trap track.stl track.3mf",
         [options](const Console& console) { return run(*options, console); });

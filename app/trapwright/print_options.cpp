@@ -19,7 +19,8 @@ void set(double& target, const std::optional<double>& given, double unit) {
     if (given) target = *given * unit;
 }
 
-nlohmann::ordered_json listFlaws(const std::vector<geometry::PrintFlaw>& flaws, const char* worst, double unit) {
+nlohmann::ordered_json listFlaws(const std::vector<geometry::PrintFlaw>& flaws, const char* worst,
+                                 double unit) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const geometry::PrintFlaw& flaw : flaws) {
         list.push_back({{"triangles", flaw.triangles.size()},
@@ -40,9 +41,10 @@ void addPrintOptions(CLI::App& command, PrintRequest& request) {
     add("--wall-height", request.wallHeight, "Of both side walls, above the highest hill (0: no walls)");
     add("--wall-thickness", request.wallThickness, "Of the side walls, at least (2)");
     command
-        .add_flag("--flange", request.flange,
-                  "A plate at the foot with bolt holes: at both sides of a linear feeder; in a bowl at the outer "
-                  "side, cut round so that it fits into the bowl")
+        .add_flag(
+            "--flange", request.flange,
+            "A plate at the foot with bolt holes: at both sides of a linear feeder; in a bowl at the outer "
+            "side, cut round so that it fits into the bowl")
         ->group(kGroup);
     add("--flange-thickness", request.flangeThickness, "At most the base thickness (3)");
     add("--bolt-diameter", request.boltDiameter, "Of the holes (4.5, for M4; 0: no holes)");

@@ -13,7 +13,7 @@ namespace trapwright::geometry {
 
 namespace {
 
-constexpr double kOnBed = 1e-6;          // of the size; the coordinates of an STL file are good to 1e-7
+constexpr double kOnBed = 1e-6;           // of the size; the coordinates of an STL file are good to 1e-7
 constexpr double kAngleTolerance = 1e-6;  // [rad]
 
 /// Patches of the marked triangles that hang together through edges, largest area first. `isWorse` orders the
@@ -42,7 +42,8 @@ std::vector<PrintFlaw> collectFlaws(const TriangleMesh& mesh, const std::vector<
     for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
         if (marked[i] == 0) continue;
         const auto& [a, b, c] = mesh.triangles[i];
-        const double area = 0.5 * (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
+        const double area =
+            0.5 * (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
         PrintFlaw& patch = patches[findRoot(i)];
         if (patch.triangles.empty() || isWorse(values[i], patch.worst)) patch.worst = values[i];
         patch.triangles.push_back(i);

@@ -8,18 +8,18 @@ namespace trapwright::geometry {
 
 /// What a printer can do.
 struct PrintLimits {
-    double thinnestWall = 1.2e-3;                        // [m]; three lines of a nozzle of 0.4 mm
-    double steepestOverhang = 45.0 * base::kDegree;      // from upright; 90 degrees is a ceiling [rad]
-    base::Vec3 direction = {0.0, 0.0, 1.0};              // in which layer is put on layer; a unit vector
+    double thinnestWall = 1.2e-3;                    // [m]; three lines of a nozzle of 0.4 mm
+    double steepestOverhang = 45.0 * base::kDegree;  // from upright; 90 degrees is a ceiling [rad]
+    base::Vec3 direction = {0.0, 0.0, 1.0};          // in which layer is put on layer; a unit vector
 
     friend bool operator==(const PrintLimits&, const PrintLimits&) = default;
 };
 
 /// Neighbouring triangles that a printer may fail at.
 struct PrintFlaw {
-    std::vector<int> triangles;             // of the mesh
-    double worst = 0.0;                     // least thickness [m], or greatest angle from upright [rad]
-    double area = 0.0;                      // [m^2]
+    std::vector<int> triangles;              // of the mesh
+    double worst = 0.0;                      // least thickness [m], or greatest angle from upright [rad]
+    double area = 0.0;                       // [m^2]
     base::Vec3 centre = base::Vec3::Zero();  // [m]
 };
 

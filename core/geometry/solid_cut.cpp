@@ -96,8 +96,8 @@ TriangleMesh makeCylinder(const base::Vec2& centre, double radius, double low, d
     for (const double z : {low, high}) {
         for (int i = 0; i < sides; ++i) {
             const double angle = 2.0 * base::kPi * i / sides;
-            mesh.vertices.emplace_back(centre.x() + radius * std::cos(angle), centre.y() + radius * std::sin(angle),
-                                       z);
+            mesh.vertices.emplace_back(centre.x() + radius * std::cos(angle),
+                                       centre.y() + radius * std::sin(angle), z);
         }
     }
     for (int i = 0; i < sides; ++i) {

@@ -7,8 +7,8 @@ namespace trapwright::geometry {
 
 /// What of a solid is outside another one, or inside it, as a closed manifold (CGAL's corefinement with exact
 /// predicates). Both must be closed and oriented outward, and must not cross themselves where their surfaces
-/// meet. Triangles that the other's surface does not touch keep their corners bit for bit. An error if there is
-/// no such manifold: surfaces that touch in a point or an edge, or cross themselves there.
+/// meet. Triangles that the other's surface does not touch keep their corners bit for bit. An error if there
+/// is no such manifold: surfaces that touch in a point or an edge, or cross themselves there.
 base::Result<TriangleMesh> subtractSolid(const TriangleMesh& solid, const TriangleMesh& tool);
 base::Result<TriangleMesh> intersectSolids(const TriangleMesh& solid, const TriangleMesh& tool);
 

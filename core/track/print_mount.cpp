@@ -69,11 +69,11 @@ std::optional<PrintProblem> findBoltProblem(const Track& track, const PrintOptio
             fmt::format("greater than the holes' diameter of {:g} mm", inMillimetres(options.boltDiameter)));
     }
     if (2.0 * options.boltEdgeDistance > boltLine(track, options)) {
-        return PrintProblem{"boltEdgeDistance",
-                            fmt::format("The bolts' distance from the edge is {:g} mm, but the track is only "
-                                        "{:g} mm long; it must be at most half of that.",
-                                        inMillimetres(options.boltEdgeDistance),
-                                        inMillimetres(boltLine(track, options)))};
+        return PrintProblem{
+            "boltEdgeDistance",
+            fmt::format("The bolts' distance from the edge is {:g} mm, but the track is only "
+                        "{:g} mm long; it must be at most half of that.",
+                        inMillimetres(options.boltEdgeDistance), inMillimetres(boltLine(track, options)))};
     }
     return std::nullopt;
 }
@@ -96,7 +96,8 @@ double insertRadiusOf(const Track& track, const PrintOptions& options) {
 std::optional<PrintProblem> findPrintProblem(const Track& track, const PrintOptions& options) {
     const double base = options.baseThickness.value_or(track.baseThickness);
     if (auto problem = findRangeProblem(options, base)) return problem;
-    if (isBowl(track) && options.wallHeight > 0.0 && !(outerSideOf(track, options) < track.shape.bowlRadius)) {
+    if (isBowl(track) && options.wallHeight > 0.0 &&
+        !(outerSideOf(track, options) < track.shape.bowlRadius)) {
         return tooSmall("wallThickness", "wall thickness", options.wallThickness,
                         "less, or the inner wall reaches the bowl's axis");
     }

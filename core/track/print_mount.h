@@ -16,8 +16,8 @@ double flangeWidthOf(const PrintOptions& options);
 /// What of the options cannot be made, if any; the first of it.
 std::optional<PrintProblem> findPrintProblem(const Track& track, const PrintOptions& options);
 
-/// The centres of the bolt holes in the room: as many as fit with these distances, in the middle of the flange's
-/// length. The options must be without problems. [m]
+/// The centres of the bolt holes in the room: as many as fit with these distances, in the middle of the
+/// flange's length. The options must be without problems. [m]
 std::vector<base::Vec2> placeBolts(const Track& track, const PrintOptions& options);
 
 }  // namespace trapwright::track

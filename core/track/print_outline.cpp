@@ -10,8 +10,8 @@ namespace trapwright::track {
 
 namespace {
 
-/// A place in y of the cross-section: what the columns left and right of it have there above the base, from below,
-/// as numbers of points of the row's upper side.
+/// A place in y of the cross-section: what the columns left and right of it have there above the base, from
+/// below, as numbers of points of the row's upper side.
 struct Post {
     std::vector<int> left;
     std::vector<int> right;
@@ -179,8 +179,8 @@ class Builder {
                 // Diagonals as the track's own solid has them.
                 const bool goLeft =
                     r + 1 == right.size() || (l + 1 < left.size() && (ahead ? l <= r : l < r));
-                const std::array<int, 3> corners =
-                    goLeft ? std::array{left[l + 1], right[r], left[l]} : std::array{left[l], right[r + 1], right[r]};
+                const std::array<int, 3> corners = goLeft ? std::array{left[l + 1], right[r], left[l]}
+                                                          : std::array{left[l], right[r + 1], right[r]};
                 (goLeft ? l : r) += 1;
                 if (ahead) {
                     addTriangle(corners[0], corners[2], corners[1]);

@@ -7,7 +7,8 @@
 
 namespace trapwright::track {
 
-/// What stands beside the surface in every cross-section of a printed track. y and z in track coordinates. [m]
+/// What stands beside the surface in every cross-section of a printed track. y and z in track coordinates.
+/// [m]
 struct PrintOutline {
     double base = 0.0;                    // z of the underside
     std::optional<double> wallTop;        // z; none: no walls
@@ -19,8 +20,9 @@ struct PrintOutline {
 };
 
 /// The surface over the track's sections, what stands beside it, sides, ends and a flat base as one closed,
-/// oriented manifold. Its first triangles are those of the track's surface. Walls stand upright on the surface's
-/// borders and reach outward to the sides; flanges begin at the walls, or without walls at the borders.
+/// oriented manifold. Its first triangles are those of the track's surface. Walls stand upright on the
+/// surface's borders and reach outward to the sides; flanges begin at the walls, or without walls at the
+/// borders.
 geometry::TriangleMesh buildOutlined(const Track& track, const PrintOutline& outline);
 
 }  // namespace trapwright::track

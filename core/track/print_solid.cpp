@@ -14,7 +14,7 @@ namespace trapwright::track {
 namespace {
 
 constexpr int kBoltSides = 48;
-constexpr int kInsertSides = 360;             // 175 mm: within 7 micrometres of the circle
+constexpr int kInsertSides = 360;              // 175 mm: within 7 micrometres of the circle
 constexpr double kBeyond = base::kMillimetre;  // how far tools reach past what they cut
 
 double highestOf(const Track& track) {
@@ -40,8 +40,8 @@ PrintOutline makeOutline(const Track& track, const PrintOptions& options) {
         outline.innerFlange = -*outline.outerFlange;
     } else {
         // Chords between the rows must stay outside the circle that is cut.
-        outline.outerFlange =
-            (insertRadiusOf(track, options) + kBeyond) / std::cos(0.5 * kLargestBowlStep) - track.shape.bowlRadius;
+        outline.outerFlange = (insertRadiusOf(track, options) + kBeyond) / std::cos(0.5 * kLargestBowlStep) -
+                              track.shape.bowlRadius;
     }
     return outline;
 }
@@ -66,7 +66,8 @@ base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& 
     if (track.shape.type == FeederType::bowl) {
         const double high = std::max(outline.wallTop.value_or(0.0), highestOf(track)) + kBeyond;
         auto cut = geometry::intersectSolids(
-            solid, geometry::makeCylinder({0.0, 0.0}, insertRadiusOf(track, options), low, high, kInsertSides));
+            solid,
+            geometry::makeCylinder({0.0, 0.0}, insertRadiusOf(track, options), low, high, kInsertSides));
         if (!cut) return PrintProblem{"insertRadius", cut.error().message};
         solid = std::move(*cut);
     }

@@ -5,7 +5,8 @@
 
 namespace trapwright::track {
 
-std::vector<CrossSection> subdivideSections(const FeederShape& shape, std::span<const CrossSection> sections) {
+std::vector<CrossSection> subdivideSections(const FeederShape& shape,
+                                            std::span<const CrossSection> sections) {
     std::vector<CrossSection> rows;
     for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
         const CrossSection& from = sections[i];
@@ -31,10 +32,10 @@ std::vector<CrossSection> subdivideSections(const FeederShape& shape, std::span<
 }
 
 std::vector<double> placeBase(const CrossSection& row) {
-    const bool function =
-        std::adjacent_find(row.points.begin(), row.points.end(), [](const base::Vec2& a, const base::Vec2& b) {
-            return a.x() >= b.x();
-        }) == row.points.end();
+    const bool function = std::adjacent_find(row.points.begin(), row.points.end(),
+                                             [](const base::Vec2& a, const base::Vec2& b) {
+                                                 return a.x() >= b.x();
+                                             }) == row.points.end();
     std::vector<double> places;
     places.reserve(row.points.size());
     for (std::size_t j = 0; j < row.points.size(); ++j) {

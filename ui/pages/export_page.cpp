@@ -30,7 +30,8 @@ constexpr int kIndividual = Qt::UserRole + 1;
 }  // namespace
 
 ExportPage::ExportPage(QWidget* parent)
-    : Page({"export", tr("Export"), "export", tr("The track as a solid to print, with walls and a mount")}, parent),
+    : Page({"export", tr("Export"), "export", tr("The track as a solid to print, with walls and a mount")},
+           parent),
       contents_(new QWidget(this)),
       empty_(new QLabel(this)),
       tracks_(new QComboBox(contents_)),
@@ -82,14 +83,16 @@ ExportPage::ExportPage(QWidget* parent)
         if (scene_ != nullptr && shown_) scene_->setHighlights(findings_->highlights());
     });
     connect(&print_, &session::PrintBuild::built, this, &ExportPage::take);
-    connect(&print_, &session::PrintBuild::failed, this, [this](const QString& option, const QString& message) {
-        form_->setProblem(option, message);
-        setState(option.isEmpty() ? message : tr("Mend the marked value, then the solid is built."));
-    });
+    connect(&print_, &session::PrintBuild::failed, this,
+            [this](const QString& option, const QString& message) {
+                form_->setProblem(option, message);
+                setState(option.isEmpty() ? message : tr("Mend the marked value, then the solid is built."));
+            });
     connect(&print_, &session::PrintBuild::written, this, [this](const work::ExportedFile& file) {
         enableExport();
         setState(tr("Wrote %1: %2, %3 cm³. Read back: closed and manifold.")
-                     .arg(look::pathText(file.path), sizeText(file.size), look::numberText(file.report.volume * 1e6)));
+                     .arg(look::pathText(file.path), sizeText(file.size),
+                          look::numberText(file.report.volume * 1e6)));
     });
     connect(&print_, &session::PrintBuild::notWritten, this, [this](const QString& message) {
         enableExport();
@@ -216,7 +219,8 @@ void ExportPage::fillTracks() {
             winner.generation, winner.individual);
     }
     for (int i = 0; chosen_ && i < tracks_->count(); ++i) {
-        if (tracks_->itemData(i, kGeneration) == generation && tracks_->itemData(i, kIndividual) == individual)
+        if (tracks_->itemData(i, kGeneration) == generation &&
+            tracks_->itemData(i, kIndividual) == individual)
             return tracks_->setCurrentIndex(i);
     }
 }
@@ -234,7 +238,8 @@ void ExportPage::build() {
     const int generation = tracks_->currentData(kGeneration).toInt();
     const int individual = tracks_->currentData(kIndividual).toInt();
     const auto winner = session_->loadWinner(generation, individual);
-    if (!winner) return emit failed(tr("The track cannot be read"), QString::fromStdString(winner.error().message));
+    if (!winner)
+        return emit failed(tr("The track cannot be read"), QString::fromStdString(winner.error().message));
     setState(tr("Building the solid ..."));
     const std::string about = tr("%1, generation %2, individual %3")
                                   .arg(look::toText(session_->path().stem()))
@@ -268,8 +273,9 @@ void ExportPage::enableExport() {
 void ExportPage::askForPath(const QString& format) {
     const QString upper = format.toUpper();
     const QString name = look::toText(session_->path().stem()) + "." + format;
-    const look::FileQuestion question{
-        "print", tr("Export %1").arg(upper), tr("Export"), tr("%1 files (*.%2)").arg(upper, format), format, name};
+    const look::FileQuestion question{"print",      tr("Export %1").arg(upper),
+                                      tr("Export"), tr("%1 files (*.%2)").arg(upper, format),
+                                      format,       name};
     look::askForNewFile(this, question, [this, printed = printed_](const std::filesystem::path& file) {
         setState(tr("Writing %1 ...").arg(look::toText(file.filename())));
         print_.write(printed, file);

@@ -17,8 +17,8 @@ namespace trapwright::pages {
 class PrintFindings;
 class PrintForm;
 
-/// Step 5: the track as a solid to print: which individual, what stands around its surface, what a printer makes
-/// of it, and the file.
+/// Step 5: the track as a solid to print: which individual, what stands around its surface, what a printer
+/// makes of it, and the file.
 class ExportPage : public Page {
     Q_OBJECT
  public:

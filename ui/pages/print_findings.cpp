@@ -45,15 +45,15 @@ PrintFindings::PrintFindings(QWidget* parent)
     list_->setTextElideMode(Qt::ElideRight);
     connect(list_, &QListWidget::itemSelectionChanged, this, &PrintFindings::highlightsChanged);
     // A second click on the picked one shows all again.
-    connect(list_, &QListWidget::itemPressed, this, [this, before = static_cast<QListWidgetItem*>(nullptr)](
-                                                        QListWidgetItem* item) mutable {
-        if (item == before) {
-            list_->clearSelection();
-            before = nullptr;
-        } else {
-            before = item;
-        }
-    });
+    connect(list_, &QListWidget::itemPressed, this,
+            [this, before = static_cast<QListWidgetItem*>(nullptr)](QListWidgetItem* item) mutable {
+                if (item == before) {
+                    list_->clearSelection();
+                    before = nullptr;
+                } else {
+                    before = item;
+                }
+            });
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(8);
@@ -89,12 +89,13 @@ void PrintFindings::changeEvent(QEvent* event) {
 void PrintFindings::addFlaw(const geometry::PrintFlaw& flaw, const QColor& colour, const QString& text) {
     flaws_.push_back({flaw.triangles, colour});
     if (list_->count() >= kMostFlaws) {
-        flaws_[kMostFlaws - 1].triangles.insert(flaws_[kMostFlaws - 1].triangles.end(), flaw.triangles.begin(),
-                                                flaw.triangles.end());
+        flaws_[kMostFlaws - 1].triangles.insert(flaws_[kMostFlaws - 1].triangles.end(),
+                                                flaw.triangles.begin(), flaw.triangles.end());
         flaws_.pop_back();
         return;
     }
-    auto* item = new QListWidgetItem(look::signPixmap("warning", colour, kSignSize, devicePixelRatioF()), text, list_);
+    auto* item =
+        new QListWidgetItem(look::signPixmap("warning", colour, kSignSize, devicePixelRatioF()), text, list_);
     item->setToolTip(text + ", " + placeText(flaw.centre));
 }
 
@@ -105,7 +106,8 @@ void PrintFindings::fill() {
         list_->clear();
         for (const geometry::PrintFlaw& flaw : report_.thinWalls) {
             addFlaw(flaw, kThinWall,
-                    tr("Thin wall, %1 mm over %2 mm²").arg(numberText(flaw.worst * 1e3), numberText(flaw.area * 1e6)));
+                    tr("Thin wall, %1 mm over %2 mm²")
+                        .arg(numberText(flaw.worst * 1e3), numberText(flaw.area * 1e6)));
         }
         for (const geometry::PrintFlaw& flaw : report_.overhangs) {
             addFlaw(flaw, kOverhang,
@@ -125,8 +127,9 @@ void PrintFindings::fill() {
         tone = look::Tone::bad;
         verdict_->setText(tr("The solid is not closed and cannot be printed."));
     } else if (report_.overlappingTriangles > 0) {
-        verdict_->setText(tr("Closed, but the surface crosses itself in %1 triangles. Look at it before you print it.")
-                              .arg(report_.overlappingTriangles));
+        verdict_->setText(
+            tr("Closed, but the surface crosses itself in %1 triangles. Look at it before you print it.")
+                .arg(report_.overlappingTriangles));
     } else if (!flaws_.empty()) {
         verdict_->setText(tr("Closed. The places below may print badly."));
     } else {

@@ -13,8 +13,8 @@ namespace trapwright::pages {
 
 class FactList;
 
-/// What a printer makes of a solid: size, volume, and a list of thin walls and overhangs. One that is picked is
-/// the only one marked in the scene; with none picked all are.
+/// What a printer makes of a solid: size, volume, and a list of thin walls and overhangs. One that is picked
+/// is the only one marked in the scene; with none picked all are.
 class PrintFindings : public QWidget {
     Q_OBJECT
  public:

@@ -17,13 +17,16 @@ PrintForm::PrintForm(QWidget* parent) : QWidget(parent) {
     layout->setSpacing(8);
 
     look::FoldingGroup& shape = *addGroup("print.shape", tr("Base and walls"));
-    addRow(shape,
-           {"baseThickness", tr("Base thickness"), tr("mm"),
-            tr("How thick the track is below its lowest possible valley; at first as in the track's settings."), 0.5, 100},
-           base_, kMillimetre);
+    addRow(
+        shape,
+        {"baseThickness", tr("Base thickness"), tr("mm"),
+         tr("How thick the track is below its lowest possible valley; at first as in the track's settings."),
+         0.5, 100},
+        base_, kMillimetre);
     addRow(shape,
            {"wallHeight", tr("Wall height"), tr("mm"),
-            tr("How far both side walls rise above the surface's highest point; 0 for none. They stand outside the "
+            tr("How far both side walls rise above the surface's highest point; 0 for none. They stand "
+               "outside the "
                "surface, which stays as it was learned."),
             0, 100},
            choice_.options.wallHeight, kMillimetre);
@@ -57,7 +60,8 @@ PrintForm::PrintForm(QWidget* parent) : QWidget(parent) {
               tr("From the centres of the holes to the flange's edge. The flange is twice as wide."), 1, 100},
              choice_.options.boltEdgeDistance);
     addMount({"insertRadius", tr("Bowl radius inside"), tr("mm"),
-              tr("Where the bowl's wall is: there the insert is cut round. 0 for the least that leaves room for the "
+              tr("Where the bowl's wall is: there the insert is cut round. 0 for the least that leaves room "
+                 "for the "
                  "track and the bolts."),
               0, 1000},
              choice_.options.insertRadius);
@@ -66,11 +70,13 @@ PrintForm::PrintForm(QWidget* parent) : QWidget(parent) {
     look::FoldingGroup& limits = *addGroup("print.limits", tr("Printer"));
     addRow(limits,
            {"thinnestWall", tr("Thinnest wall"), tr("mm"),
-            tr("Walls thinner than this are marked; about three times the nozzle's width prints well."), 0.1, 20},
+            tr("Walls thinner than this are marked; about three times the nozzle's width prints well."), 0.1,
+            20},
            choice_.limits.thinnestWall, kMillimetre);
     addRow(limits,
            {"steepestOverhang", tr("Steepest overhang"), tr("°"),
-            tr("Undersides that lean further than this from upright are marked: they need supports. 90° is a ceiling."),
+            tr("Undersides that lean further than this from upright are marked: they need supports. 90° is a "
+               "ceiling."),
             0, 90},
            choice_.limits.steepestOverhang, kDegree);
     setDesign(kMillimetre, false);

@@ -21,7 +21,8 @@ struct PrintField {
     double high = 0.0;
 };
 
-/// One number of the print: label, editor with its unit, a button that resets it, and below them what is wrong.
+/// One number of the print: label, editor with its unit, a button that resets it, and below them what is
+/// wrong.
 class PrintRow : public QWidget {
     Q_OBJECT
  public:
@@ -29,8 +30,8 @@ class PrintRow : public QWidget {
 
     [[nodiscard]] const PrintField& field() const { return field_; }
 
-    /// The value in force and what reset goes back to, in the field's unit. What is being typed stays if it means
-    /// the same.
+    /// The value in force and what reset goes back to, in the field's unit. What is being typed stays if it
+    /// means the same.
     void show(double value, double fallback);
     /// What is wrong with the value; empty for nothing.
     void setProblem(const QString& reason);

@@ -33,7 +33,8 @@ void PrintBuild::write(const std::shared_ptr<const PrintedTrack>& track, const s
     write_.start([this, track, path]() -> NewestTask::Deliver {
         const auto file = work::exportTrack(track->design, *track->solid, path);
         if (!file)
-            return [this, message = file.error().message] { emit notWritten(QString::fromStdString(message)); };
+            return
+                [this, message = file.error().message] { emit notWritten(QString::fromStdString(message)); };
         return [this, file = *file] { emit written(file); };
     });
 }

@@ -55,7 +55,8 @@ Track bend(Track track, const FeederShape& shape) {
     parameters.height = track.height;
     parameters.leadInLength = track.sections[1].x - track.begin();
     parameters.baseThickness = track.baseThickness;
-    std::vector<track::CrossSection> trap(track.sections.begin() + 2, track.sections.begin() + track.lastTrapSection + 1);
+    std::vector<track::CrossSection> trap(track.sections.begin() + 2,
+                                          track.sections.begin() + track.lastTrapSection + 1);
     for (track::CrossSection& section : trap)
         section.x -= track.sections[1].x;
     parameters.leadOutSegments = static_cast<int>(track.sections.size()) - 1 - track.lastTrapSection;
@@ -101,7 +102,8 @@ double volumeOf(const Track& track, const PrintOptions& options) {
 
 void compareVolume(double got, double expected, double tolerance = 1e-9) {
     if (!(std::abs(got / expected - 1.0) <= tolerance))
-        QFAIL(qPrintable(QString("%1 instead of %2 mm^3").arg(got * 1e9, 0, 'g', 10).arg(expected * 1e9, 0, 'g', 10)));
+        QFAIL(qPrintable(
+            QString("%1 instead of %2 mm^3").arg(got * 1e9, 0, 'g', 10).arg(expected * 1e9, 0, 'g', 10)));
 }
 
 }  // namespace
@@ -193,8 +195,9 @@ class PrintSolidTest : public QObject {
     void examplesAreClosedAndManifold_data() {
         QTest::addColumn<Track>("track");
         QTest::addColumn<PrintOptions>("options");
-        const std::pair<const char*, Track> tracks[] = {
-            {"cuboid", readExample("cuboid_track")}, {"cone", readExample("cone_track")}, {"flat", makeFlat()}};
+        const std::pair<const char*, Track> tracks[] = {{"cuboid", readExample("cuboid_track")},
+                                                        {"cone", readExample("cone_track")},
+                                                        {"flat", makeFlat()}};
         const std::pair<const char*, FeederShape> shapes[] = {
             {"linear", {}},
             {"clockwise", testing::makeBowl(Conveying::clockwise)},
@@ -271,13 +274,16 @@ class PrintSolidTest : public QObject {
         };
         add("baseThickness", [](PrintOptions& o) { o.baseThickness = 0.0; });
         add("wallHeight", [](PrintOptions& o) { o.wallHeight = -1 * mm; });
-        add("wallHeight", [](PrintOptions& o) { o.wallHeight = NAN; }, "not a number");
+        add(
+            "wallHeight", [](PrintOptions& o) { o.wallHeight = NAN; }, "not a number");
         add("wallThickness", [](PrintOptions& o) { o.wallThickness = 0.0; });
-        add("wallThickness", [](PrintOptions& o) { o.wallThickness = 5.0; }, "wall too thick");
+        add(
+            "wallThickness", [](PrintOptions& o) { o.wallThickness = 5.0; }, "wall too thick");
         add("flangeThickness", [](PrintOptions& o) { o.flangeThickness = 3.1 * mm; });
         add("boltDiameter", [](PrintOptions& o) { o.boltDiameter = -1 * mm; });
         add("boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 2 * mm; });
-        add("boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 90 * mm; }, "no length for bolts");
+        add(
+            "boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 90 * mm; }, "no length for bolts");
         add("boltSpacing", [](PrintOptions& o) { o.boltSpacing = 4 * mm; });
         add("insertRadius", [](PrintOptions& o) { o.insertRadius = -1 * mm; });
     }
