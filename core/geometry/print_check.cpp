@@ -16,10 +16,15 @@ namespace {
 constexpr double kOnBed = 1e-6;           // of the size; the coordinates of an STL file are good to 1e-7
 constexpr double kAngleTolerance = 1e-6;  // [rad]
 
-/// Patches of the marked triangles that hang together through edges, largest area first. `isWorse` orders the
-/// triangles' values.
-std::vector<PrintFlaw> collectFlaws(const TriangleMesh& mesh, const std::vector<char>& marked,
-                                    const std::vector<double>& values,
+/// What was found at a triangle.
+struct Finding {
+    double value = 0.0;  // as PrintFlaw::worst
+    double share = 0.0;  // of the triangle that is concerned; 0: nothing was found
+};
+
+/// Patches of the triangles with findings that hang together through edges, largest area first. `isWorse`
+/// orders the values.
+std::vector<PrintFlaw> collectFlaws(const TriangleMesh& mesh, const std::vector<Finding>& findings,
                                     const std::function<bool(double, double)>& isWorse) {
     std::vector<int> root(mesh.triangles.size());
     std::iota(root.begin(), root.end(), 0);
@@ -30,7 +35,7 @@ std::vector<PrintFlaw> collectFlaws(const TriangleMesh& mesh, const std::vector<
     };
     std::map<std::pair<int, int>, int> seen;  // an edge's first marked triangle
     for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
-        if (marked[i] == 0) continue;
+        if (findings[i].share == 0.0) continue;
         for (int k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
             const auto [place, isNew] = seen.try_emplace({low, high}, i);
@@ -40,12 +45,14 @@ std::vector<PrintFlaw> collectFlaws(const TriangleMesh& mesh, const std::vector<
 
     std::map<int, PrintFlaw> patches;
     for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) {
-        if (marked[i] == 0) continue;
+        if (findings[i].share == 0.0) continue;
         const auto& [a, b, c] = mesh.triangles[i];
         const double area =
-            0.5 * (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
+            0.5 * findings[i].share *
+            (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
         PrintFlaw& patch = patches[findRoot(i)];
-        if (patch.triangles.empty() || isWorse(values[i], patch.worst)) patch.worst = values[i];
+        if (patch.triangles.empty() || isWorse(findings[i].value, patch.worst))
+            patch.worst = findings[i].value;
         patch.triangles.push_back(i);
         patch.area += area;
         patch.centre += area / 3.0 * (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]);
@@ -61,11 +68,10 @@ std::vector<PrintFlaw> collectFlaws(const TriangleMesh& mesh, const std::vector<
 }
 
 std::vector<PrintFlaw> findThinWalls(const TriangleMesh& mesh, double thinnest) {
-    const std::vector<double> thickness = measureWalls(mesh, thinnest);
-    std::vector<char> thin(thickness.size(), 0);
-    std::transform(thickness.begin(), thickness.end(), thin.begin(),
-                   [&](double value) { return static_cast<char>(value < thinnest); });
-    return collectFlaws(mesh, thin, thickness, std::less<>());
+    std::vector<Finding> findings;
+    for (const Wall& wall : measureWalls(mesh, thinnest))
+        findings.push_back({wall.thickness, wall.share});
+    return collectFlaws(mesh, findings, std::less<>());
 }
 
 std::vector<PrintFlaw> findOverhangs(const TriangleMesh& mesh, const PrintLimits& limits) {
@@ -75,17 +81,16 @@ std::vector<PrintFlaw> findOverhangs(const TriangleMesh& mesh, const PrintLimits
             bed = std::min(bed, mesh.vertices[vertex].dot(limits.direction));
     }
     bed += kOnBed * calcBoundingBox(mesh).size().norm();
-    std::vector<double> angles(mesh.triangles.size(), 0.0);
-    std::vector<char> hangs(mesh.triangles.size(), 0);
+    std::vector<Finding> findings(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Triangle& t = mesh.triangles[i];
         if (std::all_of(t.begin(), t.end(),
                         [&](int vertex) { return mesh.vertices[vertex].dot(limits.direction) <= bed; }))
             continue;
-        angles[i] = std::asin(std::clamp(-triangleNormal(mesh, i).dot(limits.direction), -1.0, 1.0));
-        hangs[i] = static_cast<char>(angles[i] > limits.steepestOverhang + kAngleTolerance);
+        const double angle = std::asin(std::clamp(-triangleNormal(mesh, i).dot(limits.direction), -1.0, 1.0));
+        if (angle > limits.steepestOverhang + kAngleTolerance) findings[i] = {angle, 1.0};
     }
-    return collectFlaws(mesh, hangs, angles, std::greater<>());
+    return collectFlaws(mesh, findings, std::greater<>());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct PrintLimits {
 struct PrintFlaw {
     std::vector<int> triangles;              // of the mesh
     double worst = 0.0;                      // least thickness [m], or greatest angle from upright [rad]
-    double area = 0.0;                       // [m^2]
+    double area = 0.0;                       // of what is concerned of the triangles [m^2]
     base::Vec3 centre = base::Vec3::Zero();  // [m]
 };
 

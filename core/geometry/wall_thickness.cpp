@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trapwright::geometry {
 
@@ -43,7 +42,7 @@ std::vector<base::Vec3> spreadPoints(const base::Vec3& a, const base::Vec3& b, c
 
 }  // namespace
 
-std::vector<double> measureWalls(const TriangleMesh& mesh, double farthest) {
+std::vector<Wall> measureWalls(const TriangleMesh& mesh, double farthest) {
     Triangles triangles;
     std::vector<std::size_t> numbers;  // in the mesh
     std::vector<base::Vec3> normals;
@@ -58,26 +57,33 @@ std::vector<double> measureWalls(const TriangleMesh& mesh, double farthest) {
     }
     const Tree tree(triangles.cbegin(), triangles.cend());
 
-    std::vector<double> thickness(mesh.triangles.size(), std::numeric_limits<double>::infinity());
+    std::vector<Wall> walls(mesh.triangles.size());
     std::vector<Tree::Primitive_id> hits;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const Triangle& t = mesh.triangles[numbers[k]];
-        for (const base::Vec3& point :
-             spreadPoints(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) {
+        const std::vector<base::Vec3> points =
+            spreadPoints(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+        Wall& wall = walls[numbers[k]];
+        int behind = 0;
+        for (const base::Vec3& point : points) {
             const Kernel::Segment_3 way(toPoint(point), toPoint(point - farthest * normals[k]));
             hits.clear();
             tree.all_intersected_primitives(way, std::back_inserter(hits));
+            double nearest = std::numeric_limits<double>::infinity();
             for (const auto hit : hits) {
                 const auto other = static_cast<std::size_t>(hit - triangles.cbegin());
                 const double slope = normals[other].dot(normals[k]);
                 if (other == k || slope > kOpposite) continue;
                 const base::Vec3& there = mesh.vertices[mesh.triangles[numbers[other]][0]];
                 const double distance = normals[other].dot(there - point) / -slope;
-                if (distance >= 0.0) thickness[numbers[k]] = std::min(thickness[numbers[k]], distance);
+                if (distance >= 0.0) nearest = std::min(nearest, distance);
             }
+            if (nearest < farthest) ++behind;
+            wall.thickness = std::min(wall.thickness, nearest);
         }
+        wall.share = static_cast<double>(behind) / static_cast<double>(points.size());
     }
-    return thickness;
+    return walls;
 }
 
 }  // namespace trapwright::geometry

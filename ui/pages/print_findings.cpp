@@ -45,15 +45,10 @@ PrintFindings::PrintFindings(QWidget* parent)
     list_->setTextElideMode(Qt::ElideRight);
     connect(list_, &QListWidget::itemSelectionChanged, this, &PrintFindings::highlightsChanged);
     // A second click on the picked one shows all again.
-    connect(list_, &QListWidget::itemPressed, this,
-            [this, before = static_cast<QListWidgetItem*>(nullptr)](QListWidgetItem* item) mutable {
-                if (item == before) {
-                    list_->clearSelection();
-                    before = nullptr;
-                } else {
-                    before = item;
-                }
-            });
+    connect(list_, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) {
+        picked_ = list_->row(item) == picked_ ? -1 : list_->row(item);
+        if (picked_ < 0) list_->clearSelection();
+    });
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(8);
@@ -101,6 +96,7 @@ void PrintFindings::addFlaw(const geometry::PrintFlaw& flaw, const QColor& colou
 
 void PrintFindings::fill() {
     flaws_.clear();
+    picked_ = -1;
     {
         const QSignalBlocker quiet(list_);
         list_->clear();

@@ -37,6 +37,7 @@ class PrintFindings : public QWidget {
 
     geometry::PrintReport report_;
     std::vector<scene::Highlight> flaws_;  // by row of the list
+    int picked_ = -1;                      // row of the last click; -1: none
     FactList* facts_;
     QLabel* verdict_;
     QListWidget* list_;

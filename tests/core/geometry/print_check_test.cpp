@@ -50,11 +50,12 @@ class PrintCheckTest : public QObject {
 
     void thinPlate() {
         const TriangleMesh plate = shapes::makeBox({0, 0, 0}, {30 * mm, 0.8 * mm, 20 * mm});
-        const std::vector<double> thickness = measureWalls(plate, 50 * mm);
+        const std::vector<Wall> walls = measureWalls(plate, 50 * mm);
         for (std::size_t i = 0; i < plate.triangles.size(); ++i) {
             const base::Vec3 normal = triangleNormal(plate, i);
             const double expected = normal.cwiseAbs().dot(base::Vec3(30, 0.8, 20)) * mm;
-            QVERIFY(std::abs(thickness[i] - expected) < 1e-12);
+            QVERIFY(std::abs(walls[i].thickness - expected) < 1e-12);
+            QCOMPARE(walls[i].share, 1.0);
         }
         // Its two large sides, each 600 mm^2, and nothing else.
         const PrintReport report = checkForPrinting(plate, {1.0 * mm});
@@ -85,7 +86,12 @@ class PrintCheckTest : public QObject {
             return shapes::makePrism({{0, 0}, {20 * mm, -half}, {20 * mm, half}}, 10 * mm);
         };
         QVERIFY(checkForPrinting(wedge(50 * base::kDegree), {1.0 * mm}).thinWalls.empty());
-        QVERIFY(!checkForPrinting(wedge(40 * base::kDegree), {1.0 * mm}).thinWalls.empty());
+        // Where the way through is below 1 mm: the first 1.19 of 21.3 mm of its two sides.
+        const std::vector<PrintFlaw> blade =
+            checkForPrinting(wedge(40 * base::kDegree), {1.0 * mm}).thinWalls;
+        QCOMPARE(blade.size(), 1U);
+        const double side = 20 * mm / std::cos(20 * base::kDegree) * 10 * mm;
+        QVERIFY(blade.front().area > 0.0 && blade.front().area < 0.2 * 2.0 * side);
     }
 
     void overhang() {
