@@ -171,6 +171,7 @@ void ExportPage::activate(scene::SceneView& scene) {
 }
 
 void ExportPage::deactivate() {
+    if (scene_ != nullptr) scene_->setHighlights({});
     scene_ = nullptr;
 }
 
