@@ -78,7 +78,7 @@ std::vector<scene::Highlight> PrintFindings::highlights() const {
 
 void PrintFindings::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange) fill();
+    if (event->type() == QEvent::PaletteChange) colour();
 }
 
 void PrintFindings::addFlaw(const geometry::PrintFlaw& flaw, const QColor& colour, const QString& text) {
@@ -118,9 +118,9 @@ void PrintFindings::fill() {
     list_->setVisible(lines > 0);
     if (lines > 0) list_->setFixedHeight(lines * list_->sizeHintForRow(0) + 2 * list_->frameWidth());
 
-    look::Tone tone = look::Tone::warning;
+    tone_ = look::Tone::warning;
     if (!report_.closed) {
-        tone = look::Tone::bad;
+        tone_ = look::Tone::bad;
         verdict_->setText(tr("The solid is not closed and cannot be printed."));
     } else if (report_.overlappingTriangles > 0) {
         verdict_->setText(
@@ -129,13 +129,17 @@ void PrintFindings::fill() {
     } else if (!flaws_.empty()) {
         verdict_->setText(tr("Closed. The places below may print badly."));
     } else {
-        tone = look::Tone::good;
+        tone_ = look::Tone::good;
         verdict_->setText(tr("Closed, no thin walls, no overhangs."));
     }
-    QPalette colours;
-    colours.setColor(QPalette::WindowText, look::toneColour(tone, QPalette()));
-    verdict_->setPalette(colours);
+    colour();
     emit highlightsChanged();
+}
+
+void PrintFindings::colour() {
+    QPalette colours;
+    colours.setColor(QPalette::WindowText, look::toneColour(tone_, QPalette()));
+    verdict_->setPalette(colours);
 }
 
 }  // namespace trapwright::pages

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/geometry/print_check.h"
+#include "ui/look/theme.h"
 #include "ui/scene/contents.h"
 
 class QLabel;
@@ -34,8 +35,10 @@ class PrintFindings : public QWidget {
  private:
     void addFlaw(const geometry::PrintFlaw& flaw, const QColor& colour, const QString& text);
     void fill();
+    void colour();
 
     geometry::PrintReport report_;
+    look::Tone tone_ = look::Tone::good;   // of the verdict
     std::vector<scene::Highlight> flaws_;  // by row of the list
     int picked_ = -1;                      // row of the last click; -1: none
     FactList* facts_;
