@@ -69,9 +69,8 @@ struct User {
         action("export." + format)->trigger();
         auto* dialog = find<QFileDialog>("dialog.file");
         if (dialog == nullptr) return false;
-        dialog->setDirectory(QFileInfo(path).path());
-        dialog->findChild<QLineEdit*>()->setText(path);
-        QMetaObject::invokeMethod(dialog, "accept");
+        emit dialog->fileSelected(path);
+        dialog->close();
         return QTest::qWaitFor([&] { return find<QFileDialog>("dialog.file") == nullptr; }, kPatience);
     }
     /// What core makes of the individual that the last selection puts first.
