@@ -109,6 +109,12 @@ class ExportPageTest : public QObject {
         QVERIFY(studies_.create("new.trap", session::smallSettings()));
     }
 
+    void init() {
+        QSettings().clear();
+        // Qt's own file dialog looks into the files of the folder in which it opens.
+        QSettings().setValue("folders/print", folder_.path());
+    }
+
     void selectedTrackIsExportedAndReadsBack_data() {
         QTest::addColumn<QString>("format");
         QTest::newRow("STL") << "stl";
