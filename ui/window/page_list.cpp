@@ -1,6 +1,7 @@
 #include "ui/window/page_list.h"
 
 #include "ui/pages/evolve_page.h"
+#include "ui/pages/export_page.h"
 #include "ui/pages/part_page.h"
 #include "ui/pages/review_page.h"
 #include "ui/pages/track_page.h"
@@ -8,7 +9,8 @@
 namespace trapwright::window {
 
 std::vector<pages::Page*> makePages(pages::RunActions& run) {
-    return {new pages::PartPage, new pages::TrackPage, new pages::EvolvePage(run), new pages::ReviewPage};
+    return {new pages::PartPage, new pages::TrackPage, new pages::EvolvePage(run), new pages::ReviewPage,
+            new pages::ExportPage};
 }
 
 }  // namespace trapwright::window
