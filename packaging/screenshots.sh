@@ -50,7 +50,7 @@ learned=$work/cuboid.trap
 if [[ -n $study ]]; then
     cp -- "$study" "$learned"
 else
-    "$build/app/trapwright/trapwright" evolve "$learned" --preset cuboid --generations 24 --population 30 --trials 30
+    "$build/app/trapwright/trapwright" evolve "$learned" --preset cuboid --generations 24 --population 20 --trials 20
 fi
 "$build/app/trapwright/trapwright" new "$work/fresh.trap" --preset cuboid
 

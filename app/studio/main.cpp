@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
@@ -27,11 +28,33 @@ std::filesystem::path toPath(const QString& text) {
     return QFile::encodeName(text).toStdString();
 }
 
+/// Without a display what only prints still works, and the rest says what to do.
+bool findDisplay(int count, char** arguments) {
+    if (qEnvironmentVariableIsSet("DISPLAY") || qEnvironmentVariableIsSet("WAYLAND_DISPLAY") ||
+        qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) {
+        return true;
+    }
+    for (int i = 1; i < count; ++i) {
+        const std::string_view argument = arguments[i];
+        if (argument != "--shortcuts" && argument != "--help" && argument != "-h" &&
+            argument != "--version" && argument != "-v") {
+            continue;
+        }
+        qputenv("QT_QPA_PLATFORM", "offscreen");
+        return true;
+    }
+    std::fputs(
+        "trapwright-studio: there is no display. Work without one with the command line: trapwright --help\n",
+        stderr);
+    return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     // A file that reaches its size limit is an error to report like a full disk, not the end of the process.
     (void)std::signal(SIGXFSZ, SIG_IGN);
+    if (!findDisplay(argc, argv)) return 1;
     scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     QCoreApplication::setOrganizationName("Trapwright");

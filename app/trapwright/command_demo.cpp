@@ -9,10 +9,11 @@
 #include "app/trapwright/command.h"
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/learning_run.h"
+#include "app/trapwright/print_options.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/study_options.h"
-#include "app/trapwright/track_export.h"
+#include "app/trapwright/work_failure.h"
 #include "core/study/tables.h"
 #include "core/study/track_design.h"
 
@@ -105,8 +106,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                                   std::move(track).value(), validation->expectedOrientation};
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (const char* name : {"cuboid.stl", "cuboid.3mf"}) {
-        auto exported = exportTrack(design, folder / name);
-        if (!exported) return exported.failure();
+        const auto exported = work::exportTrack(design, design.track.solid, folder / name);
+        if (!exported) return toFailure(exported.error());
         console.print(describeExport(*exported));
         files.push_back(exported->path.string());
     }

@@ -8,9 +8,11 @@
 
 #include "app/trapwright/command.h"
 #include "app/trapwright/json_records.h"
+#include "app/trapwright/print_options.h"
 #include "app/trapwright/study_access.h"
-#include "app/trapwright/track_export.h"
+#include "app/trapwright/work_failure.h"
 #include "core/study/track_design.h"
+#include "core/work/track_export.h"
 
 namespace trapwright::app {
 
@@ -20,6 +22,7 @@ struct Options {
     std::string study;
     std::vector<std::string> files;
     IndividualChoice choice;
+    PrintRequest print;
 };
 
 /// Beside the study, with its name.
@@ -49,6 +52,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!individual) return individual.failure();
     const auto track = study::decodeTrack(settings->track, individual->record.chromosome);
     if (!track) return Failure{ExitCode::badInput, track.error().message};
+    const auto solid = track::buildPrintSolid(*track, toPrintOptions(options.print));
+    if (!solid) return Failure{ExitCode::usage, solid.error().message};
 
     const std::string name =
         fmt::format("{}, generation {}, individual {}", std::filesystem::path(options.study).stem().string(),
@@ -56,8 +61,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     const track::TrackFile design{name, *track, findExpectedOrientation(*file, *individual)};
     for (const std::string& path : options.files.empty() ? defaultFiles(options.study) : options.files) {
-        auto exported = exportTrack(design, path);
-        if (!exported) return exported.failure();
+        const auto exported = work::exportTrack(design, *solid, path);
+        if (!exported) return toFailure(exported.error());
         console.print(describeExport(*exported));
         files.push_back({{"file", path},
                          {"size_mm", toJson(exported->size, 1e3)},
@@ -66,10 +71,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                          {"closed_and_manifold", exported->report.isSolid()},
                          {"overlapping_triangles", exported->report.overlappingTriangles}});
     }
+    const geometry::PrintReport report = geometry::checkForPrinting(*solid, toPrintLimits(options.print));
+    console.print(describeFlaws(report));
     console.emit({{"study", options.study},
                   {"generation", individual->generation},
                   {"individual", individual->individual},
-                  {"files", files}});
+                  {"files", files},
+                  {"print", flawsToJson(report)}});
     return ExitCode::ok;
 }
 
@@ -80,13 +88,16 @@ void addExportCommand(CLI::App& program, Invocation& invocation) {
     CLI::App& command = addCommand(
         program, invocation, "export",
         "Writes a track for printing as binary STL or 3MF, or as JSON for `trapwright track`, in mm, and "
-        "checks what was written.",
+        "checks what was written.\nWalls and flange are printed around the surface, which stays as it was "
+        "learned; "
+        "what a printer may fail at is told.",
         "trapwright export cuboid.trap track.stl track.3mf",
         [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();
     command.add_option("FILE", options->files,
                        "Files to write, .stl, .3mf or .json (default: STL and 3MF, beside the study)");
     addIndividualOptions(command, options->choice);
+    addPrintOptions(command, options->print);
 }
 
 }  // namespace trapwright::app

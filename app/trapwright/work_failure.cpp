@@ -10,6 +10,8 @@ Failure toFailure(const work::Failure& failure) {
             return {ExitCode::badInput, failure.message};
         case work::FailureKind::saving:
             return {ExitCode::cannotWrite, failure.message};
+        case work::FailureKind::notSolid:
+            return {ExitCode::no, failure.message};
         case work::FailureKind::cancelled:
             return {ExitCode::interrupted, "Interrupted; nothing of it was kept."};
         case work::FailureKind::simulation:

@@ -58,7 +58,8 @@ std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& q
 constexpr const char* kSummaryQuery =
     "SELECT number, winner, seconds, best_collision, best_distance, best_orientation, top_collision, "
     "top_distance, "
-    "top_orientation, top_crossover, top_mutation, top_smoothing FROM generation ";
+    "top_orientation, top_crossover, top_mutation, top_smoothing, "
+    "(SELECT sum(trials) FROM individual WHERE individual.generation = generation.number) FROM generation ";
 
 study::GenerationSummary readSummary(const SQLite::Statement& query) {
     study::GenerationSummary summary;
@@ -69,6 +70,7 @@ study::GenerationSummary readSummary(const SQLite::Statement& query) {
     summary.statistics.topMean = readFitness(query, 6);
     summary.statistics.topStrategy = {query.getColumn(9).getDouble(), query.getColumn(10).getDouble(),
                                       query.getColumn(11).getDouble()};
+    summary.trials = query.getColumn(12).getInt64();
     return summary;
 }
 

@@ -46,8 +46,16 @@ struct GenerationSummary {
     int index = 0;   // from 0
     int winner = 0;  // index into the generation's individuals
     GenerationStatistics statistics;
-    double seconds = 0.0;  // wall time
+    double seconds = 0.0;     // wall time
+    std::int64_t trials = 0;  // simulated, of all individuals
+
+    /// 0 if the generation took no time.
+    [[nodiscard]] double trialsPerSecond() const {
+        return seconds > 0.0 ? static_cast<double>(trials) / seconds : 0.0;
+    }
 };
+
+GenerationSummary summarize(const GenerationRecord& record);
 
 /// The best individual of a generation.
 struct Winner {

@@ -1,59 +1,16 @@
 #include "core/track/track_solid.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <utility>
+
+#include "core/track/solid_rows.h"
 
 namespace trapwright::track {
-
-namespace {
-
-// The sections that the mesh is made of: the given ones, and on a bowl as many between as the bend needs.
-std::vector<CrossSection> subdivide(const FeederShape& shape, std::span<const CrossSection> sections) {
-    std::vector<CrossSection> rows;
-    for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
-        const CrossSection& from = sections[i];
-        const CrossSection& to = sections[i + 1];
-        int pieces = 1;
-        if (shape.type == FeederType::bowl) {
-            // Rounding must not add a piece to a segment of exactly so many steps.
-            const double steps = (to.x - from.x) / (shape.bowlRadius * kLargestBowlStep);
-            pieces = std::max(1, static_cast<int>(std::ceil(steps - 1e-9)));
-        }
-        rows.push_back(from);
-        for (int k = 1; k < pieces; ++k) {
-            const double t = static_cast<double>(k) / pieces;
-            CrossSection between{from.x + t * (to.x - from.x), from.points};
-            for (std::size_t j = 0; j < between.points.size(); ++j) {
-                between.points[j] += t * (to.points[j] - from.points[j]);
-            }
-            rows.push_back(std::move(between));
-        }
-    }
-    rows.push_back(sections.back());
-    return rows;
-}
-
-// The y of each base point. Below its surface point where the row is a function of y, so that ends and sides
-// are upright and cross nothing; where it overhangs, evenly from border to border.
-double baseY(const CrossSection& row, bool function, std::size_t point) {
-    if (function) return row.points[point].x();
-    const double t = static_cast<double>(point) / static_cast<double>(row.points.size() - 1);
-    return (1.0 - t) * row.points.front().x() + t * row.points.back().x();
-}
-
-bool isFunctionOfY(const CrossSection& row) {
-    return std::adjacent_find(row.points.begin(), row.points.end(),
-                              [](const base::Vec2& a, const base::Vec2& b) { return a.x() >= b.x(); }) ==
-           row.points.end();
-}
-
-}  // namespace
 
 TrackSolid buildTrackSolid(const FeederShape& shape, std::span<const CrossSection> sections,
                            double baseThickness) {
     assert(sections.size() >= 2 && sections.front().points.size() >= 2);
-    const std::vector<CrossSection> rows = subdivide(shape, sections);
+    const std::vector<CrossSection> rows = subdivideSections(shape, sections);
     const int rowCount = static_cast<int>(rows.size());
     const int pointCount = static_cast<int>(rows.front().points.size());
 
@@ -66,10 +23,8 @@ TrackSolid buildTrackSolid(const FeederShape& shape, std::span<const CrossSectio
             vertices.push_back(shape.toRoom({row.x, point.x(), point.y()}));
     }
     for (const CrossSection& row : rows) {
-        const bool function = isFunctionOfY(row);
-        for (std::size_t j = 0; j < row.points.size(); ++j) {
-            vertices.push_back(shape.toRoom({row.x, baseY(row, function, j), -baseThickness}));
-        }
+        for (const double y : placeBase(row))
+            vertices.push_back(shape.toRoom({row.x, y, -baseThickness}));
     }
 
     const auto top = [&](int i, int j) { return i * pointCount + j; };

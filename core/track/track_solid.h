@@ -7,9 +7,6 @@
 
 namespace trapwright::track {
 
-/// On a bowl no piece of a segment spans more than this angle about the bowl's axis. [rad]
-inline constexpr double kLargestBowlStep = 5.0 * base::kDegree;
-
 /// A track's solid and how many of its first triangles are its surface.
 struct TrackSolid {
     geometry::TriangleMesh mesh;  // in the room [m]
@@ -19,10 +16,10 @@ struct TrackSolid {
 /// Closes the surface over the cross-sections (paper, section 3.1, Figure 2) to a solid with vertical sides,
 /// upright ends and a flat base at z = -baseThickness. With a, b the points j, j + 1 of a section and c, d
 /// those of the next, each quad is split into (a, c, b) and (b, c, d), normals up. A bowl's segments are
-/// first cut into equal pieces of at most kLargestBowlStep by sections interpolated linearly in track
-/// coordinates; each section is then mapped to the room. The mesh is always a closed, oriented manifold; it
-/// is free of self-intersections if the sections are functions of y (strip encoding). All sections need the
-/// same number of points, at least 2, and increasing x.
+/// first cut into equal pieces of at most kLargestBowlStep (solid_rows.h) by sections interpolated linearly
+/// in track coordinates; each section is then mapped to the room. The mesh is always a closed, oriented
+/// manifold; it is free of self-intersections if the sections are functions of y (strip encoding). All
+/// sections need the same number of points, at least 2, and increasing x.
 TrackSolid buildTrackSolid(const FeederShape& shape, std::span<const CrossSection> sections,
                            double baseThickness);
 

@@ -12,6 +12,7 @@ enum class FailureKind {
     reading,     // a file that is missing, damaged or holds nothing to work with
     simulation,  // the engine failed
     saving,
+    notSolid,  // a track cannot be printed: what was written is not closed, or its solid cannot be made
     cancelled  // nothing of it was kept
 };
 

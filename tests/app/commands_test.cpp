@@ -127,6 +127,18 @@ class CommandsTest : public QObject {
         // The program's own part import finds a solid of that size in it.
         const QJsonObject track = ask({"part", "track.stl", "--units", "mm", "--json"}).json();
         QVERIFY(std::abs(track["volume_mm3"].toDouble() / files[0]["volume_mm3"].toDouble() - 1.0) < 1e-6);
+        // The flange is wider than the track by 8 + 8 mm at both sides, the walls are 2 mm thick.
+        const Ran mounted = ask({"export", "study.trap", "mounted.stl", "--wall-height", "6", "--flange",
+                                 "--bolt-diameter", "3.4", "--base-thickness", "4", "--json"});
+        QVERIFY2(mounted.code == 0, mounted.all());
+        const QJsonValue solid = mounted.json()["files"].toArray()[0];
+        QVERIFY(solid["closed_and_manifold"].toBool());
+        QVERIFY(std::abs(solid["size_mm"].toArray()[1].toDouble() - 96.0) < 1e-3);
+        QVERIFY(solid["volume_mm3"].toDouble() > files[0]["volume_mm3"].toDouble());
+        QVERIFY(mounted.json()["print"].toObject().contains("overhangs"));
+        const Ran thick = ask({"export", "study.trap", "thick.stl", "--flange", "--flange-thickness", "9"});
+        QCOMPARE(thick.code, 2);
+        QVERIFY2(thick.errors.contains("at most the base thickness"), thick.all());
         // What is written for `track` can be simulated.
         const Ran simulated = ask({"track", "track.json", "--trials", "2", "--json"});
         QVERIFY2(simulated.code == 0, simulated.all());

@@ -4,6 +4,7 @@
 #include <QStyleOptionFocusRect>
 #include <QStylePainter>
 #include <algorithm>
+#include <cmath>
 
 #include "ui/charts/curve_style.h"
 
@@ -47,7 +48,7 @@ QSize LegendItem::sizeHint() const {
 }
 
 void LegendItem::paintBox(QPainter& painter) const {
-    const QRectF box(kMargin + 0.5, (height() - kSquareSample) / 2 + 0.5, kSquareSample - 1,
+    const QRectF box(kMargin + 0.5, std::floor((height() - kSquareSample) / 2.0) + 0.5, kSquareSample - 1,
                      kSquareSample - 1);
     painter.setPen(QPen(theme_.faintText, 1.0));
     painter.setBrush(Qt::NoBrush);

@@ -55,6 +55,7 @@ std::vector<double> percentages(const std::vector<Piece>& pieces, int Piece::*co
     for (const Piece& piece : pieces)
         all += piece.*count;
     std::vector<double> shares;
+    shares.reserve(pieces.size());
     for (const Piece& piece : pieces)
         shares.push_back(all > 0 ? kPercent * piece.*count / all : 0.0);
     return shares;
@@ -79,7 +80,8 @@ OrientationChart::OrientationChart(QWidget* parent) : ChartPanel("orientation", 
     setEmptyText(tr("How parts lie before and after the track appears when its trials are simulated."));
     connect(angles_, &Plot::fitWanted, angles_, &Plot::fit);
     connect(angles_, &Plot::cursorMoved, angles_, &Plot::setCursor);
-    applyTheme(theme());
+    bars_->setTheme(theme());
+    angles_->setTheme(theme());
 }
 
 void OrientationChart::setShares(study::OrientationShares shares, double tolerance) {

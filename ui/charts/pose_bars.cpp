@@ -55,15 +55,16 @@ void PoseBars::setBars(std::vector<PoseBar> bars, const QStringList& names,
     colours_ = colours;
     series_->clear();
     // Qt Charts counts bars from the bottom.
+    const std::vector<PoseBar> upwards(bars_.rbegin(), bars_.rend());
     QStringList categories;
-    for (auto bar = bars_.rbegin(); bar != bars_.rend(); ++bar)
-        categories.append(bar->name);
+    for (const PoseBar& bar : upwards)
+        categories.append(bar.name);
     barAxis_->clear();
     barAxis_->append(categories);
     for (qsizetype i = 0; i < names_.size(); ++i) {
         auto* set = new QBarSet(names_[i]);
-        for (auto bar = bars_.rbegin(); bar != bars_.rend(); ++bar)
-            set->append(bar->shares[static_cast<std::size_t>(i)]);
+        for (const PoseBar& bar : upwards)
+            set->append(bar.shares[static_cast<std::size_t>(i)]);
         series_->append(set);
     }
     QStringList spoken;

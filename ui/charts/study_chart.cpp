@@ -1,5 +1,7 @@
 #include "ui/charts/study_chart.h"
 
+#include <limits>
+
 #include "ui/charts/study_sheets.h"
 
 namespace trapwright::charts {
@@ -16,8 +18,10 @@ void StudyChart::setStudies(std::vector<StudyCurves> studies) {
 
 void StudyChart::appendGeneration(const study::GenerationSummary& summary, double trialsPerSecond) {
     if (studies_.empty()) studies_.emplace_back();
-    studies_.front().summaries.push_back(summary);
-    studies_.front().trialsPerSecond.push_back(trialsPerSecond);
+    StudyCurves& study = studies_.front();
+    study.trialsPerSecond.resize(study.summaries.size(), std::numeric_limits<double>::quiet_NaN());
+    study.trialsPerSecond.push_back(trialsPerSecond);
+    study.summaries.push_back(summary);
     update();
 }
 

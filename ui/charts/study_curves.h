@@ -12,7 +12,7 @@ struct StudyCurves {
     QString name;                                     // of the study, for the legend of a comparison
     std::vector<study::GenerationSummary> summaries;  // in their order
     std::vector<study::CheckRecord> checks;           // in any order; none if one engine does everything
-    std::vector<double> trialsPerSecond;              // slot i for summaries[i]; may be shorter
+    std::vector<double> trialsPerSecond;              // slot i for summaries[i]; NaN or missing: not known
     double bestAttainableOrientation = 0.0;           // trial::calcBestOrientationScore of the part
 };
 

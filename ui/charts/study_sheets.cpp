@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace trapwright::charts {
@@ -233,8 +234,10 @@ ChartSheet speedSheet(const std::vector<StudyCurves>& studies) {
                     style,
                     {}};
         const std::size_t known = std::min(study.trialsPerSecond.size(), study.summaries.size());
-        for (std::size_t g = 0; g < known; ++g)
-            curve.points.emplace_back(study.summaries[g].index, study.trialsPerSecond[g]);
+        for (std::size_t g = 0; g < known; ++g) {
+            if (!std::isnan(study.trialsPerSecond[g]))
+                curve.points.emplace_back(study.summaries[g].index, study.trialsPerSecond[g]);
+        }
         plot.curves.push_back(std::move(curve));
     }
     sheet.plots.push_back(std::move(plot));

@@ -80,7 +80,7 @@ void RunActions::update() {
         obstacle = tr("All generations are there; raise their number to learn on");
     }
     start_->setText(paused            ? tr("Re&sume learning")
-                    : generations > 0 ? tr("&Start learning on")
+                    : generations > 0 ? tr("Go on &learning")
                                       : tr("&Start learning"));
     start_->setToolTip(obstacle.isEmpty() ? tr("Learn from the last saved generation on") : obstacle);
     start_->setEnabled(paused || (idle && obstacle.isEmpty()));

@@ -9,14 +9,13 @@
 #include <QVBoxLayout>
 
 #include "core/study/presets.h"
-#include "core/trial/start.h"
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
 #include "ui/pages/drive_card.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/problem_text.h"
 #include "ui/pages/settings_form.h"
-#include "ui/scene/scene_view.h"
+#include "ui/pages/track_in_scene.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -279,16 +278,7 @@ void TrackPage::showTitle() {
 
 void TrackPage::showTrack() {
     if (scene_ == nullptr) return;
-    scene_->showTrack(track_);
-    if (!track_ || !session_) return;
-    const std::shared_ptr<const part::Part> part = session_->part();
-    scene_->showPart(part);
-    if (part->stablePoses.empty()) return;
-    // At the start point as it lies most often, which shows how large it is beside the track.
-    base::Random random({});
-    const trial::StartPolicy lying{part->stablePoses.front().rotation, 0.0, 0.0};
-    const base::Pose pose = trial::drawStart(*track_, *part, lying, random).pose;
-    scene_->setPartPoses({&pose, 1});
+    showTrackWithPart(*scene_, track_, session_ ? session_->part() : nullptr);
 }
 
 }  // namespace trapwright::pages

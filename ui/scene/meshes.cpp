@@ -26,11 +26,11 @@ void addPoint(vtkPoints* points, const Vec3& point) {
     points->InsertNextPoint(point.x() * kDrawn, point.y() * kDrawn, point.z() * kDrawn);
 }
 
-vtkSmartPointer<vtkUnsignedCharArray> makeColours(std::size_t expected) {
+vtkSmartPointer<vtkUnsignedCharArray> makeColours(vtkIdType expected) {
     auto colours = vtkSmartPointer<vtkUnsignedCharArray>::New();
     colours->SetName("colour");
     colours->SetNumberOfComponents(3);
-    colours->Allocate(static_cast<vtkIdType>(3 * expected));
+    colours->Allocate(3 * expected);
     return colours;
 }
 
@@ -76,15 +76,15 @@ void addArrow(geometry::TriangleMesh& mesh, const Arrow& arrow) {
 
 vtkSmartPointer<vtkPolyData> makeFlatMesh(const geometry::TriangleMesh& mesh,
                                           const std::function<QColor(std::size_t triangle)>& colour) {
-    const std::size_t count = mesh.triangles.size();
+    const auto count = static_cast<vtkIdType>(mesh.triangles.size());
     vtkNew<vtkPoints> points;
-    points->Allocate(static_cast<vtkIdType>(3 * count));
+    points->Allocate(3 * count);
     vtkNew<vtkFloatArray> normals;
     normals->SetNumberOfComponents(3);
-    normals->Allocate(static_cast<vtkIdType>(9 * count));
+    normals->Allocate(9 * count);
     const auto colours = makeColours(3 * count);
     vtkNew<vtkCellArray> cells;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Vec3 normal = geometry::triangleNormal(mesh, i);
         const QColor paint = colour(i);
         cells->InsertNextCell(3);

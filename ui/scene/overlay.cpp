@@ -184,28 +184,31 @@ void addHeightLegend(std::vector<OverlayItem>& items, const SceneContents& conte
                       std::floor(screen.height() - kMargin - barHeight - title - 6.0), std::ceil(boxWidth),
                       std::ceil(barHeight + title + 8.0));
     const SceneTheme theme = contents.theme;
-    items.push_back(
-        {area, [=](QPainter& painter) {
-             painter.setPen(theme.text);
-             painter.drawText(area.topLeft() + QPointF(0.0, metrics.ascent()), heading);
-             const QRectF bar(area.left(), area.top() + title, barWidth, barHeight);
-             QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
-             for (std::size_t i = 0; i < kHeightColours.size(); ++i)
-                 gradient.setColorAt(static_cast<double>(i) / (kHeightColours.size() - 1),
-                                     QColor(kHeightColours[i]));
-             painter.setBrush(gradient);
-             painter.setPen(Qt::NoPen);
-             painter.drawRect(bar);
-             const double span = range.high - range.low;
-             const double step = roundLength(span / 2.5);
-             for (double z = std::ceil(range.low / step - 1e-9) * step; z <= range.high + 1e-9; z += step) {
-                 const double y = std::round(bar.bottom() - (z - range.low) / span * barHeight) + 0.5;
-                 painter.setPen(QPen(theme.text, 1.0));
-                 painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 5.0, y));
-                 const QString text = inMillimetres(z, step < 0.9e-3 ? 1 : 0);
-                 painter.drawText(QPointF(bar.right() + 9.0, y + 0.36 * metrics.ascent()), text);
-             }
-         }});
+    items.push_back({area, [=](QPainter& painter) {
+                         painter.setPen(theme.text);
+                         painter.drawText(area.topLeft() + QPointF(0.0, metrics.ascent()), heading);
+                         const QRectF bar(area.left(), area.top() + title, barWidth, barHeight);
+                         QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
+                         for (std::size_t i = 0; i < kHeightColours.size(); ++i)
+                             gradient.setColorAt(static_cast<double>(i) / (kHeightColours.size() - 1),
+                                                 QColor(kHeightColours[i]));
+                         painter.setBrush(gradient);
+                         painter.setPen(Qt::NoPen);
+                         painter.drawRect(bar);
+                         const double span = range.high - range.low;
+                         const double step = roundLength(span / 2.5);
+                         const auto first = static_cast<int>(std::ceil(range.low / step - 1e-6));
+                         const auto last = static_cast<int>(std::floor(range.high / step + 1e-6));
+                         for (int i = first; i <= last; ++i) {
+                             const double z = i * step;
+                             const double y =
+                                 std::round(bar.bottom() - (z - range.low) / span * barHeight) + 0.5;
+                             painter.setPen(QPen(theme.text, 1.0));
+                             painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 5.0, y));
+                             const QString text = inMillimetres(z, step < 0.9e-3 ? 1 : 0);
+                             painter.drawText(QPointF(bar.right() + 9.0, y + 0.36 * metrics.ascent()), text);
+                         }
+                     }});
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ PoseRow makePoseRow(const part::Part& part) {
         width += boxes.back().size().x() + gap;
         depth = std::max(depth, boxes.back().size().y());
     }
-    const double labelDepth = 0.9 * part.boundingRadius;
+    const double labelDepth = 1.3 * part.boundingRadius;
     double left = -0.5 * std::max(width, 0.0);
     row.flat.include({left - margin, -0.5 * depth - margin - labelDepth, 0.0});
     row.flat.include({-left + margin, 0.5 * depth + margin, 0.0});
@@ -54,7 +54,7 @@ PoseRow makePoseRow(const part::Part& part) {
         const Vec3 size = boxes[i].size();
         const Vec3 centre = 0.5 * (boxes[i].low + boxes[i].high);
         row.poses[i].position = {left + 0.5 * size.x() - centre.x(), -centre.y(), -boxes[i].low.z()};
-        row.labels.emplace_back(left + 0.5 * size.x(), -0.5 * depth - 0.5 * (margin + labelDepth), 0.0);
+        row.labels.emplace_back(left + 0.5 * size.x(), -0.5 * depth - 0.6 * (margin + labelDepth), 0.0);
         left += size.x() + gap;
     }
     return row;

@@ -139,9 +139,11 @@ void setShades(vtkActor& actor, std::span<const Shade> shades) {
     const std::size_t count = std::min(shades.size(), kMostShades);
     for (std::size_t i = 0; i < count; ++i) {
         for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 3; ++column)
-                toUnit[i][static_cast<std::size_t>(4 * column + row)] =
+            for (int column = 0; column < 3; ++column) {
+                const int place = 4 * column + row;
+                toUnit[i][static_cast<std::size_t>(place)] =
                     static_cast<float>(shades[i].toUnit(row, column));
+            }
             centres[i][row] = static_cast<float>(shades[i].centre[row]);
         }
         centres[i][3] = shades[i].isBox ? 1.0F : 0.0F;

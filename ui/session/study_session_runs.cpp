@@ -118,8 +118,7 @@ std::optional<work::Failure> StudySession::learn(Run& run, const study::Settings
         tell(this, [this, plan] { state_->run->plan = plan; });
     };
     events.saved = [this](const study::GenerationRecord& record) {
-        const study::GenerationSummary summary{record.index, record.winner, record.statistics,
-                                               record.seconds};
+        const study::GenerationSummary summary = study::summarize(record);
         const study::Winner winner{record.index, record.winner,
                                    record.individuals[static_cast<std::size_t>(record.winner)]};
         tell(this, [this, summary, winner] {

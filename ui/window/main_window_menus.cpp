@@ -164,7 +164,11 @@ void MainWindow::addCorner() {
         if (button == nullptr) continue;
         button->setFocusPolicy(Qt::TabFocus);
         button->setAccessibleName(action->text().remove('&'));
-        if (action == run_.start()) button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+        if (action != run_.start()) continue;
+        // A menu bar does not make room for a text that grows: "Start" becomes "Go on" and "Resume".
+        button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+        constexpr int kRoom = 36;
+        button->setMinimumWidth(button->fontMetrics().horizontalAdvance(tr("Resume learning")) + kRoom);
     }
     menuBar()->setCornerWidget(bar);
 }

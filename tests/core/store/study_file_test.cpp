@@ -111,6 +111,7 @@ class StudyFileTest : public QObject {
             QCOMPARE(summary.winner, expected.winner);
             QVERIFY(summary.statistics == expected.statistics);
             QCOMPARE(summary.seconds, expected.seconds);
+            QCOMPARE(summary.trials, study::summarize(expected).trials);
         }
     }
 

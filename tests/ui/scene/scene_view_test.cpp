@@ -2,11 +2,9 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QDockWidget>
-#include <QMainWindow>
-#include <QOpenGLContext>
 #include <QSignalSpy>
 #include <QTest>
+#include <numeric>
 
 #include "tests/ui/scene/scene_samples.h"
 #include "ui/scene/height_colours.h"
@@ -121,8 +119,8 @@ class SceneViewTest : public QObject {
         const QColor magenta(0xff00ff);
         QImage before = grab();
         scene::Trace trace{{}, magenta};
-        for (double x = 0.0; x < 60e-3; x += 1e-3)
-            trace.points.push_back(poseAt(x).position);
+        for (int i = 0; i < 60; ++i)
+            trace.points.push_back(poseAt(i * 1e-3).position);
         view_->setTraces({trace});
         QVERIFY(samples::shareOfHue(grab(), magenta) > 2e-4);
         view_->setTraces({});
@@ -132,9 +130,8 @@ class SceneViewTest : public QObject {
         QVERIFY(samples::shareChanged(before, grab()) > 2e-4);
         view_->setContacts({});
 
-        std::vector<int> triangles;
-        for (int i = 0; i < 40; ++i)
-            triangles.push_back(i);
+        std::vector<int> triangles(40);
+        std::iota(triangles.begin(), triangles.end(), 0);
         view_->setHighlights({{triangles, magenta}});
         QVERIFY(samples::shareOfHue(grab(), magenta) > 0.01);
         // Numbers of triangles that are not there are passed over.
@@ -165,41 +162,6 @@ class SceneViewTest : public QObject {
         QVERIFY(samples::shareChanged(empty, shown) > 0.15);
         QVERIFY(samples::shareOfHue(shown, scene::SceneTheme::light().part) > 0.01);
         QVERIFY(!view_->contents().track);
-    }
-
-    void undockingKeepsThePicture() {
-        QMainWindow window;
-        window.resize(900, 700);
-        auto* dock = new QDockWidget(&window);
-        dock->setWidget(view_.release());
-        auto* view = static_cast<SceneView*>(dock->widget());
-        window.setCentralWidget(new QWidget);
-        window.addDockWidget(Qt::BottomDockWidgetArea, dock);
-        window.show();
-        QVERIFY(QTest::qWaitForWindowExposed(&window));
-        view->showTrack(cuboidTrack_);
-        view->setFixedSize(600, 300);
-        QTest::qWait(50);
-        const QImage docked = view->grabFramebuffer();
-        QSignalSpy lost(view->context(), &QOpenGLContext::aboutToBeDestroyed);
-        for (int round = 0; round < 3; ++round) {
-            dock->setFloating(true);
-            QTest::qWait(50);
-            QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) < 0.002);
-            view->showTrack(coneTrack_);
-            QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) > 0.05);
-            view->showTrack(cuboidTrack_);
-            dock->setFloating(false);
-            QTest::qWait(50);
-            QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) < 0.002);
-        }
-        // To another window and back: its context goes and comes.
-        view->setParent(nullptr);
-        QVERIFY(!lost.isEmpty());
-        view->show();
-        QVERIFY(QTest::qWaitForWindowExposed(view));
-        QVERIFY(samples::shareChanged(docked, view->grabFramebuffer()) < 0.002);
-        delete view;
     }
 
     void pictureIsTheViewAtAnySize() {

@@ -190,6 +190,16 @@ class MainWindowTest : public QObject {
         QVERIFY(window::shortcutTable(shortcuts).contains("| File | Open study | Ctrl+O |"));
     }
 
+    // Where it has not: paste what trapwright-studio --shortcuts prints.
+    void theReadmeHasTheTable() {
+        QFile readme(TRAPWRIGHT_SOURCE_DIR "/README.md");
+        QVERIFY(readme.open(QIODevice::ReadOnly));
+        const QString text = QString::fromUtf8(readme.readAll());
+        const User user;
+        for (const QString& line : window::shortcutTable(window::findShortcuts(user.window)).split('\n'))
+            QVERIFY2(text.contains(line), qPrintable(line));
+    }
+
     void helpShowsTheShortcuts() {
         User user;
         QTest::keyClick(&user.window, Qt::Key_F1);

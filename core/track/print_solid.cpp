@@ -1,0 +1,85 @@
+#include "core/track/print_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/geometry/solid_cut.h"
+#include "core/track/print_mount.h"
+#include "core/track/print_outline.h"
+#include "core/track/solid_rows.h"
+
+namespace trapwright::track {
+
+namespace {
+
+constexpr int kBoltSides = 48;
+constexpr int kInsertSides = 360;              // 175 mm: within 7 micrometres of the circle
+constexpr double kBeyond = base::kMillimetre;  // how far tools reach past what they cut
+
+double highestOf(const Track& track) {
+    double highest = 0.0;
+    for (const CrossSection& section : track.sections) {
+        for (const base::Vec2& point : section.points)
+            highest = std::max(highest, point.y());
+    }
+    return highest;
+}
+
+PrintOutline makeOutline(const Track& track, const PrintOptions& options) {
+    PrintOutline outline;
+    outline.base = -options.baseThickness.value_or(track.baseThickness);
+    outline.outerSide = outerSideOf(track, options);
+    outline.innerSide = -outline.outerSide;
+    if (options.wallHeight > 0.0) outline.wallTop = highestOf(track) + options.wallHeight;
+    if (!options.flange) return outline;
+    // Of equal thicknesses the sum must be 0, whatever rounding says.
+    outline.flangeTop = std::min(0.0, outline.base + options.flangeThickness);
+    if (track.shape.type == FeederType::linear) {
+        outline.outerFlange = outline.outerSide + flangeWidthOf(options);
+        outline.innerFlange = -*outline.outerFlange;
+    } else {
+        // Chords between the rows must stay outside the circle that is cut.
+        outline.outerFlange = (insertRadiusOf(track, options) + kBeyond) / std::cos(0.5 * kLargestBowlStep) -
+                              track.shape.bowlRadius;
+    }
+    return outline;
+}
+
+void append(geometry::TriangleMesh& mesh, const geometry::TriangleMesh& other) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const geometry::Triangle& t : other.triangles)
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+}  // namespace
+
+base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& track,
+                                                                   const PrintOptions& options) {
+    if (auto problem = findPrintProblem(track, options)) return *problem;
+    const PrintOutline outline = makeOutline(track, options);
+    geometry::TriangleMesh solid = buildOutlined(track, outline);
+    if (!options.flange) return solid;
+
+    const double low = outline.base - kBeyond;
+    if (track.shape.type == FeederType::bowl) {
+        const double high = std::max(outline.wallTop.value_or(0.0), highestOf(track)) + kBeyond;
+        auto cut = geometry::intersectSolids(
+            solid,
+            geometry::makeCylinder({0.0, 0.0}, insertRadiusOf(track, options), low, high, kInsertSides));
+        if (!cut) return PrintProblem{"insertRadius", cut.error().message};
+        solid = std::move(*cut);
+    }
+    // A bolt needs the whole diameter between the sides of its hole.
+    const double corner = 0.5 * options.boltDiameter / std::cos(base::kPi / kBoltSides);
+    geometry::TriangleMesh bolts;
+    for (const base::Vec2& centre : placeBolts(track, options))
+        append(bolts, geometry::makeCylinder(centre, corner, low, outline.flangeTop + kBeyond, kBoltSides));
+    if (bolts.triangles.empty()) return solid;
+    auto drilled = geometry::subtractSolid(solid, bolts);
+    if (!drilled) return PrintProblem{"boltDiameter", drilled.error().message};
+    return std::move(*drilled);
+}
+
+}  // namespace trapwright::track

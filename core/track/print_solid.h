@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/geometry/triangle_mesh.h"
+#include "core/track/track.h"
+
+namespace trapwright::track {
+
+/// What is printed around a track's surface. Lengths in metres.
+struct PrintOptions {
+    std::optional<double> baseThickness;  // below z = 0; none: as the track was designed
+    double wallHeight = 0.0;      // of both side walls, above the surface's highest point; 0: no walls
+    double wallThickness = 2e-3;  // at least, beyond the track's width
+    /// To screw the track to a linear feeder: a plate at the foot of both sides. In a bowl: one at the outer
+    /// side, cut round at insertRadius.
+    bool flange = false;
+    double flangeThickness = 3e-3;  // at most the base's
+    double boltDiameter = 4.5e-3;   // of the holes, for M4; 0: no holes
+    double boltSpacing = 50e-3;     // between their centres, along a linear feeder or the circle of the holes
+    double boltEdgeDistance = 8e-3;  // from their centres to the flange's edge; the flange is twice as wide
+    double insertRadius = 0.0;       // of the bowl that the insert fits into; 0: the least that leaves room
+
+    friend bool operator==(const PrintOptions&, const PrintOptions&) = default;
+};
+
+/// Why there is no such solid.
+struct PrintProblem {
+    std::string option;   // the field above that is out of range, as "wallThickness"; empty: none of them
+    std::string message;  // as in base::Error
+};
+
+/// The radius at which a bowl's insert is cut. [m]
+double insertRadiusOf(const Track& track, const PrintOptions& options);
+
+/// The track's solid with what these options add, in the room [m]: closed, oriented, manifold. The triangles
+/// of the surface are those of the track, bit for bit. It crosses itself only where the track's surface
+/// overhangs.
+base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& track,
+                                                                   const PrintOptions& options);
+
+}  // namespace trapwright::track

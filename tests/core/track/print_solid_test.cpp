@@ -1,0 +1,314 @@
+#include "core/track/print_solid.h"
+
+#include <QTemporaryDir>
+#include <QTest>
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "core/geometry/mesh_check.h"
+#include "core/geometry/mesh_files.h"
+#include "core/geometry/three_mf.h"
+#include "core/track/track_file.h"
+#include "track_scenes.h"
+
+using namespace trapwright;
+using track::Conveying;
+using track::FeederShape;
+using track::PrintOptions;
+using track::Track;
+
+Q_DECLARE_METATYPE(Track)
+Q_DECLARE_METATYPE(PrintOptions)
+
+namespace {
+
+constexpr double mm = base::kMillimetre;
+constexpr double kBase = 3 * mm;
+constexpr double kWidth = 60 * mm;
+constexpr double kSurface = 15 * mm;  // the lead-in's height
+
+/// Flat from end to end: 80 mm lead-in, 20 mm trap, two segments of 36 mm: 172 mm.
+Track makeFlat(const FeederShape& shape = {}) {
+    track::CrossSection section{20 * mm, {}};
+    for (const double y : {-0.5, -0.2, 0.1, 0.5})
+        section.points.emplace_back(y * kWidth, kSurface);
+    track::TrackParameters parameters;
+    parameters.shape = shape;
+    return track::buildTrack(parameters, {{section}}).value();
+}
+
+constexpr double kLength = 172 * mm;
+
+Track readExample(const std::string& name) {
+    const auto file =
+        track::readTrackFile(std::string(TRAPWRIGHT_SOURCE_DIR) + "/resources/tracks/" + name + ".json");
+    if (!file) qFatal("%s", file.error().message.c_str());
+    return file->track;
+}
+
+/// The same sections on another feeder.
+Track bend(Track track, const FeederShape& shape) {
+    track::TrackParameters parameters;
+    parameters.shape = shape;
+    parameters.width = track.width;
+    parameters.height = track.height;
+    parameters.leadInLength = track.sections[1].x - track.begin();
+    parameters.baseThickness = track.baseThickness;
+    std::vector<track::CrossSection> trap(track.sections.begin() + 2,
+                                          track.sections.begin() + track.lastTrapSection + 1);
+    for (track::CrossSection& section : trap)
+        section.x -= track.sections[1].x;
+    parameters.leadOutSegments = static_cast<int>(track.sections.size()) - 1 - track.lastTrapSection;
+    return track::buildTrack(parameters, trap).value();
+}
+
+PrintOptions makeOptions(double wall, bool flange, double bolts) {
+    PrintOptions options;
+    options.wallHeight = wall;
+    options.flange = flange;
+    options.boltDiameter = bolts;
+    return options;
+}
+
+using Corners = std::array<std::array<double, 3>, 3>;
+
+/// A triangle's corners, whatever their numbers and whichever is first.
+Corners cornersOf(const geometry::TriangleMesh& mesh, std::size_t triangle) {
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const base::Vec3& v = mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle][k])];
+        corners[k] = {v.x(), v.y(), v.z()};
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return corners;
+}
+
+std::size_t countMissingSurface(const Track& track, const geometry::TriangleMesh& solid) {
+    std::set<Corners> present;
+    for (std::size_t i = 0; i < solid.triangles.size(); ++i)
+        present.insert(cornersOf(solid, i));
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < track.surfaceTriangles; ++i)
+        missing += 1 - present.count(cornersOf(track.solid, i));
+    return missing;
+}
+
+double volumeOf(const Track& track, const PrintOptions& options) {
+    const auto solid = track::buildPrintSolid(track, options);
+    if (!solid) qFatal("%s", solid.error().message.c_str());
+    return geometry::checkMesh(*solid).volume;
+}
+
+void compareVolume(double got, double expected, double tolerance = 1e-9) {
+    if (!(std::abs(got / expected - 1.0) <= tolerance))
+        QFAIL(qPrintable(
+            QString("%1 instead of %2 mm^3").arg(got * 1e9, 0, 'g', 10).arg(expected * 1e9, 0, 'g', 10)));
+}
+
+}  // namespace
+
+class PrintSolidTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void withoutOptionsItIsTheTrack() {
+        const Track track = readExample("cuboid_track");
+        const auto solid = track::buildPrintSolid(track, {});
+        QVERIFY(solid.ok());
+        QCOMPARE(solid->triangles.size(), track.solid.triangles.size());
+        std::set<Corners> one;
+        std::set<Corners> other;
+        for (std::size_t i = 0; i < track.solid.triangles.size(); ++i) {
+            one.insert(cornersOf(track.solid, i));
+            other.insert(cornersOf(*solid, i));
+        }
+        QVERIFY(one == other);
+    }
+
+    void volumesOfALinearTrack() {
+        const Track track = makeFlat();
+        const double plain = kLength * kWidth * (kSurface + kBase);
+        compareVolume(volumeOf(track, {}), plain);
+        PrintOptions options;
+        options.baseThickness = 7 * mm;
+        compareVolume(volumeOf(track, options), kLength * kWidth * (kSurface + 7 * mm));
+
+        options = makeOptions(10 * mm, false, 0.0);
+        options.wallThickness = 2.5 * mm;
+        const double walls = 2.0 * kLength * 2.5 * mm * (kSurface + 10 * mm + kBase);
+        compareVolume(volumeOf(track, options), plain + walls);
+
+        options.flange = true;
+        options.flangeThickness = 2 * mm;
+        options.boltEdgeDistance = 6 * mm;
+        const double flanges = 2.0 * kLength * 12 * mm * 2 * mm;
+        compareVolume(volumeOf(track, options), plain + walls + flanges);
+
+        // (172 - 12) / 40: five holes a side; each a 48-gon around a circle of 5 mm.
+        options.boltDiameter = 5 * mm;
+        options.boltSpacing = 40 * mm;
+        const double hole = 48.0 * std::pow(2.5 * mm, 2) * std::tan(base::kPi / 48) * 2 * mm;
+        compareVolume(volumeOf(track, options), plain + walls + flanges - 10.0 * hole);
+
+        // Without walls the flange begins at the track's own sides.
+        options.wallHeight = 0.0;
+        compareVolume(volumeOf(track, options), plain + flanges - 10.0 * hole);
+    }
+
+    void sizeOfALinearTrack() {
+        PrintOptions options = makeOptions(10 * mm, true, 4 * mm);
+        const auto solid = track::buildPrintSolid(makeFlat(), options);
+        QVERIFY(solid.ok());
+        const geometry::Box box = geometry::calcBoundingBox(*solid);
+        const double side = 0.5 * kWidth + options.wallThickness + 2.0 * options.boltEdgeDistance;
+        QVERIFY((box.low - base::Vec3(0.0, -side, -kBase)).norm() < 1e-12);
+        QVERIFY((box.high - base::Vec3(kLength, side, kSurface + 10 * mm)).norm() < 1e-12);
+    }
+
+    void insertOfABowl() {
+        for (const Conveying conveying : {Conveying::clockwise, Conveying::anticlockwise}) {
+            const FeederShape shape = testing::makeBowl(conveying);
+            const Track track = makeFlat(shape);
+            PrintOptions options = makeOptions(0.0, true, 0.0);
+            options.insertRadius = 230 * mm;
+            const auto solid = track::buildPrintSolid(track, options);
+            QVERIFY(solid.ok());
+            // The foot is a sector of a ring from the track's outer side to the bowl; chords take a little.
+            const double angle = kLength / shape.bowlRadius;
+            const double outside = shape.bowlRadius + 0.5 * kWidth;
+            const double foot = 0.5 * angle * (std::pow(230 * mm, 2) - outside * outside) * 3 * mm;
+            const double plain = volumeOf(track, {});
+            compareVolume(geometry::checkMesh(*solid).volume - plain, foot, 0.02);
+            double farthest = 0.0;
+            for (const base::Vec3& v : solid->vertices)
+                farthest = std::max(farthest, std::hypot(v.x(), v.y()));
+            QVERIFY(std::abs(farthest - 230 * mm) < 1e-9);
+
+            // Radius 230 - 8: (172 / 175 * 222 - 16) / 50: five holes.
+            options.boltDiameter = 5 * mm;
+            const double hole = 48.0 * std::pow(2.5 * mm, 2) * std::tan(base::kPi / 48) * 3 * mm;
+            compareVolume(geometry::checkMesh(*solid).volume - volumeOf(track, options), 5.0 * hole, 1e-6);
+        }
+    }
+
+    void examplesAreClosedAndManifold_data() {
+        QTest::addColumn<Track>("track");
+        QTest::addColumn<PrintOptions>("options");
+        const std::pair<const char*, Track> tracks[] = {{"cuboid", readExample("cuboid_track")},
+                                                        {"cone", readExample("cone_track")},
+                                                        {"flat", makeFlat()}};
+        const std::pair<const char*, FeederShape> shapes[] = {
+            {"linear", {}},
+            {"clockwise", testing::makeBowl(Conveying::clockwise)},
+            {"anticlockwise", testing::makeBowl(Conveying::anticlockwise)}};
+        const std::pair<const char*, PrintOptions> options[] = {
+            {"plain", {}},
+            {"walls", makeOptions(5 * mm, false, 0.0)},
+            {"flange", makeOptions(0.0, true, 0.0)},
+            {"bolts", makeOptions(0.0, true, 4.5 * mm)},
+            {"walls, bolts", makeOptions(5 * mm, true, 4.5 * mm)}};
+        for (const auto& [name, track] : tracks)
+            for (const auto& [kind, shape] : shapes)
+                for (const auto& [title, option] : options)
+                    QTest::addRow("%s, %s, %s", name, kind, title) << bend(track, shape) << option;
+    }
+
+    void examplesAreClosedAndManifold() {
+        QFETCH(Track, track);
+        QFETCH(PrintOptions, options);
+        const auto solid = track::buildPrintSolid(track, options);
+        QVERIFY2(solid.ok(), solid.ok() ? "" : solid.error().message.c_str());
+        QCOMPARE(countMissingSurface(track, *solid), 0U);
+        const geometry::MeshReport report = geometry::checkMesh(*solid, true);
+        QVERIFY(report.isSolid());
+        QCOMPARE(report.nonManifoldEdges, 0);
+        QCOMPARE(report.shells, 1);
+        QCOMPARE(report.overlappingTriangles, 0);
+
+        // Still so in the single precision of a file.
+        const QTemporaryDir folder;
+        const std::filesystem::path path = folder.filePath("track.stl").toStdString();
+        QVERIFY(geometry::writeStl(path, *solid).ok());
+        const auto read = geometry::readStl(path);
+        QVERIFY(read.ok());
+        const geometry::MeshReport written = geometry::checkMesh(*read);
+        QVERIFY(written.isSolid());
+        QCOMPARE(written.nonManifoldEdges, 0);
+        QVERIFY(std::abs(written.volume / report.volume - 1.0) < 1e-5);
+        const std::filesystem::path package = folder.filePath("track.3mf").toStdString();
+        QVERIFY(geometry::write3mf(package, *solid, "track").ok());
+        QVERIFY(geometry::read3mf(package).ok());
+    }
+
+    void flangeAsHighAsTheSurface() {
+        // The surface touches z = 0 at its border in one place; so does a flange as thick as the base.
+        track::CrossSection section{20 * mm, {{-0.5 * kWidth, 0.0}, {0.0, 0.0}, {0.5 * kWidth, 10 * mm}}};
+        const Track track = track::buildTrack({}, {{section}}).value();
+        for (const double bolts : {0.0, 4.5 * mm}) {
+            const auto solid = track::buildPrintSolid(track, makeOptions(0.0, true, bolts));
+            QVERIFY(solid.ok());
+            const geometry::MeshReport report = geometry::checkMesh(*solid, true);
+            QVERIFY(report.isSolid());
+            QCOMPARE(report.nonManifoldEdges, 0);
+        }
+    }
+
+    void surfacesThatOverhangAreClosedAllTheSame() {
+        track::Encoding encoding;
+        encoding.pointEncoding = track::PointEncoding::free;
+        const Track track = track::buildTrack({}, testing::drawTrap(encoding, 5)).value();
+        const auto solid = track::buildPrintSolid(track, makeOptions(5 * mm, true, 4.5 * mm));
+        QVERIFY2(solid.ok(), solid.ok() ? "" : solid.error().message.c_str());
+        QVERIFY(geometry::checkMesh(*solid).isSolid());
+        QCOMPARE(countMissingSurface(track, *solid), 0U);
+    }
+
+    void problemsNameTheirOption_data() {
+        QTest::addColumn<PrintOptions>("options");
+        QTest::addColumn<QString>("option");
+        const auto add = [](const char* option, auto change, const char* row = nullptr) {
+            PrintOptions options = makeOptions(5 * mm, true, 4.5 * mm);
+            change(options);
+            QTest::newRow(row != nullptr ? row : option) << options << QString(option);
+        };
+        add("baseThickness", [](PrintOptions& o) { o.baseThickness = 0.0; });
+        add("wallHeight", [](PrintOptions& o) { o.wallHeight = -1 * mm; });
+        add(
+            "wallHeight", [](PrintOptions& o) { o.wallHeight = NAN; }, "not a number");
+        add("wallThickness", [](PrintOptions& o) { o.wallThickness = 0.0; });
+        add(
+            "wallThickness", [](PrintOptions& o) { o.wallThickness = 5.0; }, "wall too thick");
+        add("flangeThickness", [](PrintOptions& o) { o.flangeThickness = 3.1 * mm; });
+        add("boltDiameter", [](PrintOptions& o) { o.boltDiameter = -1 * mm; });
+        add("boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 2 * mm; });
+        add(
+            "boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 90 * mm; }, "no length for bolts");
+        add("boltSpacing", [](PrintOptions& o) { o.boltSpacing = 4 * mm; });
+        add("insertRadius", [](PrintOptions& o) { o.insertRadius = -1 * mm; });
+    }
+
+    void problemsNameTheirOption() {
+        QFETCH(PrintOptions, options);
+        QFETCH(QString, option);
+        const auto solid = track::buildPrintSolid(makeFlat(), options);
+        QVERIFY(!solid.ok());
+        QCOMPARE(QString::fromStdString(solid.error().option), option);
+        QVERIFY(!solid.error().message.empty());
+    }
+
+    void anInsertNeedsRoom() {
+        PrintOptions options = makeOptions(5 * mm, true, 4.5 * mm);
+        const Track track = makeFlat(testing::makeBowl(Conveying::clockwise));
+        // 175 + 30 + 2 + 16 mm
+        QVERIFY(std::abs(track::insertRadiusOf(track, options) - 223 * mm) < 1e-12);
+        options.insertRadius = 222 * mm;
+        const auto solid = track::buildPrintSolid(track, options);
+        QVERIFY(!solid.ok());
+        QCOMPARE(solid.error().option, std::string("insertRadius"));
+        QVERIFY(solid.error().message.find("223 mm") != std::string::npos);
+    }
+};
+
+QTEST_APPLESS_MAIN(PrintSolidTest)
+#include "print_solid_test.moc"

@@ -1,0 +1,389 @@
+#include "ui/pages/evolve_page.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QLabel>
+#include <QListView>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSettings>
+#include <QSlider>
+#include <QSpinBox>
+#include <QTableView>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QtTest>
+
+#include "tests/ui/session/event_loop_probe.h"
+#include "tests/ui/session/session_fixture.h"
+#include "ui/charts/study_chart.h"
+#include "ui/look/message_bar.h"
+#include "ui/models/roles.h"
+#include "ui/pages/learning_charts.h"
+#include "ui/scene/scene_view.h"
+#include "ui/window/main_window.h"
+
+using namespace trapwright;
+using session::RunState;
+using session::waitUntil;
+
+namespace {
+
+constexpr int kGenerations = 6;
+constexpr int kIndividuals = 8;
+
+/// The window with a study of its own in it, and what a user does there.
+struct User {
+    window::MainWindow window;
+
+    explicit User(const session::SessionFixture& studies) : window(studies.environment()) {
+        window.resize(1280, 720);
+        window.show();
+        (void)QTest::qWaitForWindowExposed(&window);
+    }
+    ~User() {
+        window.desk().close(false);
+        window.close();
+    }
+    session::StudySession* session() { return window.desk().session(); }
+    RunState state() { return session()->state(); }
+    int saved() { return static_cast<int>(session()->summaries().size()); }
+    template <class Object>
+    Object* find(const QString& name) {
+        return window.findChild<Object*>(name);
+    }
+    QString text(const QString& label) { return find<QLabel>(label)->text(); }
+    scene::SceneView* scene() { return find<scene::SceneView>("scene"); }
+    std::shared_ptr<const track::Track> track() { return scene()->contents().track; }
+    QAbstractItemModel* rows(const QString& table) { return find<QTableView>(table + ".table")->model(); }
+    int winners() { return find<QListView>("filmStrip.list")->model()->rowCount(); }
+    charts::StudyChart* chart(const QString& name) { return find<charts::StudyChart>(name); }
+
+    bool open(const std::filesystem::path& study) {
+        window.openFile(study);
+        if (!waitUntil([&] { return session() != nullptr; })) return false;
+        window.showPage("evolve");
+        return waitUntil([&] { return find<pages::Page>("page.evolve")->isVisible(); });
+    }
+    void click(const QString& button) {
+        auto* found = find<QAbstractButton>(button);
+        QVERIFY2(found != nullptr && found->isVisible() && found->isEnabled(), qPrintable(button));
+        QTest::mouseClick(found, Qt::LeftButton);
+    }
+    bool waitFor(RunState wanted) {
+        return waitUntil([&] { return state() == wanted; });
+    }
+    bool waitForGenerations(int count) {
+        return waitUntil([&] { return saved() >= count; });
+    }
+    void show(const QString& panel) {
+        auto* dock = find<QDockWidget>("dock.evolve." + panel);
+        dock->show();
+        dock->raise();
+        QVERIFY(waitUntil([&] { return dock->widget()->isVisible() && !dock->visibleRegion().isEmpty(); }));
+    }
+    /// Presses a button of a question as soon as it is asked.
+    bool answer(const QString& question, const QString& button) {
+        QMessageBox* box = nullptr;
+        if (!waitUntil([&] { return (box = find<QMessageBox>(question)) != nullptr && box->isVisible(); }))
+            return false;
+        QTest::mouseClick(box->findChild<QPushButton*>(button), Qt::LeftButton);
+        return true;
+    }
+};
+
+double heightSum(const track::Track& track) {
+    double sum = 0.0;
+    for (const track::CrossSection& section : track.sections)
+        for (const base::Vec2& point : section.points)
+            sum += point.y();
+    return sum;
+}
+
+}  // namespace
+
+class EvolvePageTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void initTestCase() {
+        QVERIFY(folder_.isValid());
+        QSettings::setDefaultFormat(QSettings::IniFormat);
+        QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
+        qputenv("XDG_DATA_HOME", folder_.filePath("data").toLocal8Bit());
+        QCoreApplication::setOrganizationName("Trapwright");
+        QCoreApplication::setApplicationName("evolve_page_test");
+    }
+    void init() { QSettings().clear(); }
+
+    void beforeLearningItSaysWhatToDo() {
+        session::SessionFixture studies;
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QCOMPARE(user.text("evolve.state"), QString("Ready to learn"));
+        QVERIFY(user.find<QLabel>("filmStrip.empty")->isVisible());
+        // How long it takes is measured without being asked.
+        QVERIFY(waitUntil([&] { return user.text("evolve.detail").startsWith("About"); }));
+        QVERIFY(user.text("evolve.detail").contains("6 generations"));
+        // The flat track that learning starts from.
+        QVERIFY(waitUntil([&] { return user.track() != nullptr; }));
+        QVERIFY(user.find<QToolButton>("evolve.start")->isEnabled());
+        for (const char* button : {"evolve.pause", "evolve.stopAfterGeneration", "evolve.stopNow"})
+            QVERIFY2(!user.find<QToolButton>(button)->isEnabled(), button);
+    }
+
+    void learningFillsEverything() {
+        session::SessionFixture studies;
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QVERIFY(waitUntil([&] { return user.track() != nullptr; }));
+        const double flat = heightSum(*user.track());
+        user.click("evolve.start");
+        QCOMPARE(user.state(), RunState::learning);
+        QVERIFY(waitUntil([&] { return user.text("evolve.state") == "All 6 generations learned"; }));
+        for (const char* name : {"fitness", "strategy", "speed"}) {
+            const charts::StudyCurves& curves = user.chart(name)->studies().front();
+            QCOMPARE(curves.summaries.size(), std::size_t{kGenerations});
+            QCOMPARE(curves.trialsPerSecond.size(), std::size_t{kGenerations});
+            QVERIFY(curves.trialsPerSecond.back() > 0.0);
+        }
+        QCOMPARE(user.rows("generations")->rowCount(), kGenerations);
+        // The newest is on top.
+        QCOMPARE(user.rows("generations")->index(0, 0).data(models::ValueRole).toInt(), kGenerations - 1);
+        QCOMPARE(user.winners(), kGenerations);
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, winner"));
+        QVERIFY(waitUntil([&] { return heightSum(*user.track()) != flat; }));
+        const auto* log = user.find<QTreeWidget>("log.list");
+        QCOMPARE(log->findItems("Generation", Qt::MatchStartsWith, 1).size(), kGenerations);
+        QVERIFY(log->topLevelItem(log->topLevelItemCount() - 1)->text(1).startsWith("Ended"));
+        QVERIFY(!user.find<QToolButton>("evolve.start")->isEnabled());
+    }
+
+    void winnersInViewGetPictures() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        const QAbstractItemModel* strip = user.find<QListView>("filmStrip.list")->model();
+        QVERIFY(waitUntil([&] {
+            for (int row = 0; row < strip->rowCount(); ++row)
+                if (strip->index(row, 0).data(Qt::DecorationRole).value<QPixmap>().isNull()) return false;
+            return strip->rowCount() == kGenerations;
+        }));
+    }
+
+    void pauseAndResume() {
+        session::SessionFixture studies;
+        studies.trialTime = std::chrono::milliseconds(4);
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        user.click("evolve.start");
+        QVERIFY(user.waitForGenerations(1));
+        user.click("evolve.pause");
+        QCOMPARE(user.state(), RunState::paused);
+        QCOMPARE(user.text("evolve.state"), QString("Paused"));
+        const int saved = user.saved();
+        QTest::qWait(500);
+        QVERIFY(user.saved() <= saved + 1);  // one may have been on its way
+        QVERIFY(user.find<QToolButton>("evolve.start")->text().contains("sume"));
+        user.click("evolve.start");
+        QCOMPARE(user.state(), RunState::learning);
+        QVERIFY(user.waitForGenerations(saved + 2));
+    }
+
+    void stopAfterThisGenerationSavesIt() {
+        session::SessionFixture studies;
+        studies.trialTime = std::chrono::milliseconds(4);
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        user.click("evolve.start");
+        QVERIFY(user.waitForGenerations(1));
+        user.click("evolve.stopAfterGeneration");
+        QVERIFY(user.waitFor(RunState::idle));
+        QVERIFY(user.saved() >= 2 && user.saved() < kGenerations);
+        QCOMPARE(user.text("evolve.state"), QString("%1 of 6 generations learned").arg(user.saved()));
+    }
+
+    void stopNowAndGoOn() {
+        session::SessionFixture studies;
+        studies.trialTime = std::chrono::milliseconds(4);
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        user.click("evolve.start");
+        QVERIFY(user.waitForGenerations(1));
+        user.click("evolve.stopNow");
+        QVERIFY(user.waitFor(RunState::idle));
+        const int saved = user.saved();
+        QVERIFY(saved < kGenerations);
+        user.click("evolve.start");
+        QVERIFY(user.waitForGenerations(saved + 1));
+        QCOMPARE(user.winners(), user.saved());
+    }
+
+    void anyIndividualCanBeLookedAt() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QVERIFY(waitUntil([&] { return user.track() != nullptr; }));
+        const auto newest = user.track();
+        user.show("individuals");
+        auto* table = user.find<QTableView>("individuals.table");
+        QVERIFY(waitUntil([&] { return table->model()->rowCount() == kIndividuals; }));
+        // Sorted by fitness: the winner is first and current, the worst is last.
+        QCOMPARE(table->currentIndex().row(), 0);
+        const QModelIndex worst = table->model()->index(kIndividuals - 1, 0);
+        table->scrollTo(worst);
+        QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualRect(worst).center());
+        const int individual = worst.data(models::IndividualRole).toInt();
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, individual %1").arg(individual));
+        QVERIFY(waitUntil([&] { return user.track() != newest; }));
+        QVERIFY(heightSum(*user.track()) != heightSum(*newest));
+        QVERIFY(user.text("evolve.lengths").startsWith("Segments of"));
+        QVERIFY(!user.find<QWidget>("evolve.genes")->accessibleDescription().isEmpty());
+
+        user.find<QSpinBox>("individuals.generation")->setValue(2);
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 2, winner"));
+        QCOMPARE(table->model()->index(0, 0).data(models::GenerationRole).toInt(), 2);
+
+        user.window.activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(&user.window));
+        QTest::keyClick(table, Qt::Key_Escape);
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, winner"));
+        QVERIFY(waitUntil([&] { return heightSum(*user.track()) == heightSum(*newest); }));
+    }
+
+    void theStripGoesThroughAllWinners() {
+        session::SessionFixture studies;
+        studies.trialTime = std::chrono::milliseconds(4);
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        user.click("evolve.start");
+        QVERIFY(user.waitForGenerations(2));
+        auto* slider = user.find<QSlider>("filmStrip.slider");
+        slider->setValue(0);
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 0, winner"));
+        QVERIFY(!user.find<QToolButton>("filmStrip.follow")->isChecked());
+        const int saved = user.saved();
+        QVERIFY(user.waitForGenerations(saved + 1));
+        // What was picked stays while learning goes on.
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 0, winner"));
+        QCOMPARE(slider->value(), 0);
+        QCOMPARE(slider->maximum(), user.saved() - 1);
+        user.find<QAction>("evolve.next")->trigger();
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 1, winner"));
+        user.click("filmStrip.follow");
+        QVERIFY(user.waitFor(RunState::idle));
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, winner"));
+    }
+
+    void closingWhileItLearnsAsksAndItCanGoOn() {
+        session::SessionFixture studies;
+        studies.trialTime = std::chrono::milliseconds(20);
+        QVERIFY(makeStudy(studies));
+        int saved = 0;
+        {
+            User user(studies);
+            QVERIFY(user.open(studies.path("a.trap")));
+            user.click("evolve.start");
+            QVERIFY(user.waitForGenerations(1));
+            user.window.close();
+            QVERIFY(user.answer("dialog.running", "answer.goOn"));
+            QCOMPARE(user.state(), RunState::learning);
+            QVERIFY(user.window.isVisible());
+            user.window.close();
+            QVERIFY(user.answer("dialog.running", "answer.stopNow"));
+            QVERIFY(waitUntil([&] { return !user.window.isVisible(); }));
+            saved = user.saved();
+        }
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QVERIFY(user.saved() >= saved && user.saved() < kGenerations);
+        QCOMPARE(user.winners(), user.saved());
+        user.click("evolve.start");
+        QVERIFY(waitUntil([&] { return user.saved() == kGenerations && user.state() == RunState::idle; }));
+    }
+
+    void twoStudiesAreCompared() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        QVERIFY(makeLearned(studies, "b.trap"));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        auto* charts = user.window.findChild<pages::LearningCharts*>();
+        charts->compareWith(studies.path("b.trap"));
+        QVERIFY(waitUntil([&] { return user.chart("fitness")->studies().size() == 2; }));
+        QCOMPARE(user.chart("speed")->studies()[1].summaries.size(), std::size_t{kGenerations});
+        QVERIFY(user.text("evolve.compared").contains("b"));
+        user.click("evolve.endComparison");
+        QCOMPARE(user.chart("fitness")->studies().size(), std::size_t{1});
+        charts->compareWith(studies.path("missing.trap"));
+        QVERIFY(waitUntil(
+            [&] { return user.find<look::MessageBar>("messageBar")->text().contains("missing.trap"); }));
+    }
+
+    void lockedSettingsAreChangedInANewStudy() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QVERIFY(!user.find<pages::Page>("page.evolve")
+                     ->findChild<QWidget*>("field.simulation.engine")
+                     ->isEnabled());
+        user.click("evolve.change");
+        QVERIFY(waitUntil([&] { return user.saved() == 0; }));
+        QVERIFY(user.find<pages::Page>("page.track")->isVisible());
+        QCOMPARE(user.session()->settings().evolution.populationSize, kIndividuals);
+    }
+
+    void everyControlHasANameAndTakesKeys() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QList<QWidget*> controls;
+        for (const char* place : {"page.evolve", "filmStrip", "generations", "individuals"}) {
+            auto* widget = user.find<QWidget>(place);
+            for (QWidget* child : widget->findChildren<QWidget*>()) {
+                if (qobject_cast<QAbstractButton*>(child) || qobject_cast<QAbstractSpinBox*>(child) ||
+                    qobject_cast<QSlider*>(child))
+                    controls << child;
+            }
+        }
+        QVERIFY(controls.size() > 10);
+        for (QWidget* control : controls) {
+            if (control->objectName() == "qt_spinbox_lineedit" ||
+                qobject_cast<QTableView*>(control->parent()))
+                continue;
+            const auto* button = qobject_cast<QAbstractButton*>(control);
+            const QString name = control->accessibleName() + (button != nullptr ? button->text() : QString());
+            QVERIFY2(!name.isEmpty(), qPrintable(control->objectName()));
+            QVERIFY2(control->focusPolicy() & Qt::TabFocus, qPrintable(name));
+        }
+    }
+
+ private:
+    static bool makeStudy(const session::SessionFixture& studies) {
+        return studies.create("a.trap", session::smallSettings(kGenerations)) != nullptr;
+    }
+    static bool makeLearned(const session::SessionFixture& studies, const std::string& name) {
+        const auto made = studies.create(name, session::smallSettings(kGenerations));
+        return made && session::learnToTheEnd(*made);
+    }
+
+    QTemporaryDir folder_;
+};
+
+int main(int argc, char** argv) {
+    scene::SceneView::prepareApplication();
+    QApplication application(argc, argv);
+    EvolvePageTest test;
+    return QTest::qExec(&test, argc, argv);
+}
+#include "evolve_page_test.moc"

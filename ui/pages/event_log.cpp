@@ -1,0 +1,180 @@
+#include "ui/pages/event_log.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
+#include <QEvent>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QScrollBar>
+#include <QStackedLayout>
+#include <QTime>
+#include <QTreeWidget>
+
+#include "ui/look/icon.h"
+#include "ui/look/text.h"
+#include "ui/look/theme.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+using session::RunState;
+using session::StudySession;
+
+namespace {
+
+enum Columns { Time, What };
+
+constexpr int kMost = 5000;  // lines
+constexpr int kSign = 14;
+constexpr int kKindRole = Qt::UserRole;
+
+}  // namespace
+
+EventLog::EventLog(QWidget* parent)
+    : QWidget(parent), list_(new QTreeWidget(this)), stack_(new QStackedLayout(this)) {
+    setObjectName("log");
+    list_->setObjectName("log.list");
+    list_->setAccessibleName(tr("What happened"));
+    list_->setColumnCount(2);
+    list_->setHeaderLabels({tr("Time"), tr("What happened")});
+    list_->setRootIsDecorated(false);
+    list_->setUniformRowHeights(true);
+    list_->setFrameShape(QFrame::NoFrame);
+    list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    list_->header()->setStretchLastSection(true);
+    list_->header()->setSectionResizeMode(Time, QHeaderView::ResizeToContents);
+    auto* empty = new QLabel(
+        tr("What happens to the study is listed here: generations, checks, stops, failures."), this);
+    empty->setAlignment(Qt::AlignCenter);
+    empty->setWordWrap(true);
+    empty->setForegroundRole(QPalette::PlaceholderText);
+    stack_->addWidget(empty);
+    stack_->addWidget(list_);
+
+    auto* copy = new QAction(look::icon("save-as"), tr("Copy lines"), list_);
+    copy->setShortcut(QKeySequence::Copy);
+    copy->setShortcutContext(Qt::WidgetShortcut);
+    connect(copy, &QAction::triggered, this, [this] {
+        QString text;
+        for (int i = 0; i < list_->topLevelItemCount(); ++i) {
+            const QTreeWidgetItem* item = list_->topLevelItem(i);
+            if (item->isSelected()) text += item->text(Time) + '\t' + item->text(What) + '\n';
+        }
+        QApplication::clipboard()->setText(text);
+    });
+    list_->addAction(copy);
+    list_->setContextMenuPolicy(Qt::ActionsContextMenu);
+    colour();
+}
+
+void EventLog::setSession(StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    list_->clear();
+    stack_->setCurrentIndex(0);
+    if (!session_) return;
+    last_ = session_->state();
+    connect(session_, &StudySession::stateChanged, this, &EventLog::tellState);
+    connect(session_, &StudySession::generationSaved, this, &EventLog::tellGeneration);
+    connect(session_, &StudySession::checkSaved, this, &EventLog::tellCheck);
+    connect(session_, &StudySession::selectionSaved, this,
+            [this] { add(Kind::good, tr("Selection saved")); });
+    connect(session_, &StudySession::validationSaved, this,
+            [this] { add(Kind::good, tr("Validation saved")); });
+    connect(session_, &StudySession::failed, this,
+            [this](const QString& what, const QString& message) { add(Kind::error, what + ". " + message); });
+    const auto known = session_->summaries().size();
+    if (known > 0) add(Kind::info, tr("Opened, generations saved: %1").arg(known));
+}
+
+void EventLog::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) colour();
+}
+
+void EventLog::add(Kind kind, const QString& text) {
+    const QScrollBar* bar = list_->verticalScrollBar();
+    const bool atEnd = bar->value() == bar->maximum();
+    auto* item = new QTreeWidgetItem({QLocale().toString(QTime::currentTime(), "hh:mm:ss"), text});
+    item->setData(What, kKindRole, static_cast<unsigned>(kind));
+    item->setIcon(What, signs_[static_cast<std::size_t>(kind)]);
+    item->setToolTip(What, text);
+    if (list_->topLevelItemCount() >= kMost) delete list_->takeTopLevelItem(0);
+    list_->addTopLevelItem(item);
+    stack_->setCurrentIndex(1);
+    if (atEnd) list_->scrollToBottom();
+}
+
+void EventLog::colour() {
+    const std::pair<const char*, QColor> signs[] = {
+        {"info", palette().color(QPalette::PlaceholderText)},
+        {"good", look::toneColour(look::Tone::good, palette())},
+        {"warning", look::toneColour(look::Tone::warning, palette())},
+        {"error", look::toneColour(look::Tone::bad, palette())}};
+    for (std::size_t i = 0; i < std::size(signs); ++i)
+        signs_[i] = look::signPixmap(signs[i].first, signs[i].second, kSign, devicePixelRatioF());
+    for (int i = 0; i < list_->topLevelItemCount(); ++i) {
+        QTreeWidgetItem* item = list_->topLevelItem(i);
+        item->setIcon(What, signs_[item->data(What, kKindRole).toUInt()]);
+    }
+}
+
+void EventLog::tellState(RunState state) {
+    const RunState before = std::exchange(last_, state);
+    const QString next = QString::number(session_->summaries().size());
+    switch (state) {
+        case RunState::learning:
+            add(Kind::info, before == RunState::paused ? tr("Learning goes on")
+                                                       : tr("Learning began at generation %1").arg(next));
+            break;
+        case RunState::paused:
+            add(Kind::warning, tr("Paused"));
+            break;
+        case RunState::stoppingAfterGeneration:
+            add(Kind::info, tr("Will stop after this generation"));
+            break;
+        case RunState::stopping:
+            add(Kind::info, tr("Stopping at once"));
+            break;
+        case RunState::selecting:
+            add(Kind::info, tr("The best winners are simulated again"));
+            break;
+        case RunState::validating:
+            add(Kind::info, tr("Validation began"));
+            break;
+        case RunState::simulating:
+            break;
+        case RunState::idle:
+            if (before == RunState::simulating) break;
+            add(Kind::info, tr("Ended, generations saved: %1").arg(next));
+            break;
+    }
+}
+
+void EventLog::tellGeneration(int generation) {
+    const study::GenerationSummary& summary = session_->summaries().back();
+    const trial::Fitness& best = summary.statistics.best;
+    add(Kind::good,
+        tr("Generation %1 saved: best F %2, F_C %3, F_D %4, F_O %5, in %6")
+            .arg(generation)
+            .arg(QLocale().toString(best.total(), 'f', 3), QLocale().toString(best.collision, 'f', 0),
+                 QLocale().toString(best.distance, 'f', 3), QLocale().toString(best.orientation, 'f', 3),
+                 look::durationText(summary.seconds)));
+}
+
+void EventLog::tellCheck(int generation) {
+    const study::CheckRecord& check = session_->checks().back();
+    const auto share = [&](const study::EngineScore& score) {
+        return tr("%1 %2 of %3")
+            .arg(QString::fromStdString(score.engine))
+            .arg(score.oriented)
+            .arg(check.trials);
+    };
+    add(Kind::good, tr("Winner of generation %1 checked: %2, %3 parts as wanted")
+                        .arg(generation)
+                        .arg(share(check.learning), share(check.reference)));
+}
+
+}  // namespace trapwright::pages

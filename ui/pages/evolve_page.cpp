@@ -1,0 +1,331 @@
+#include "ui/pages/evolve_page.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSettings>
+#include <QSpinBox>
+#include <QThread>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include "ui/look/file_dialog.h"
+#include "ui/look/folding_group.h"
+#include "ui/look/icon.h"
+#include "ui/pages/event_log.h"
+#include "ui/pages/evolve_summary.h"
+#include "ui/pages/film_strip.h"
+#include "ui/pages/generation_table.h"
+#include "ui/pages/individual_card.h"
+#include "ui/pages/individual_table.h"
+#include "ui/pages/learning_charts.h"
+#include "ui/pages/run_actions.h"
+#include "ui/pages/run_card.h"
+#include "ui/pages/settings_form.h"
+#include "ui/pages/track_in_scene.h"
+#include "ui/scene/scene_view.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+using session::RunState;
+using session::StudySession;
+
+namespace {
+
+constexpr int kEstimateDelay = 400;  // [ms] after the last change of a setting
+constexpr auto kThreadsSetting = "threads";
+
+}  // namespace
+
+EvolvePage::EvolvePage(RunActions& run, QWidget* parent)
+    : Page({"evolve", tr("Evolve"), "evolve", tr("Tracks are learned; watch, stop, look at what came out")},
+           parent),
+      estimateDelay_(new QTimer(this)),
+      followAction_(new QAction(look::icon("to-end"), tr("Follow the best"), this)),
+      card_(new RunCard(run, this)),
+      form_(new SettingsForm({{"evolve.run", tr("Run"), {"evolution.generations", "simulation.engine"}}}, {},
+                             this)),
+      individualGroup_(new look::FoldingGroup("evolve.individual", tr("In the scene"), false, this)),
+      individual_(new IndividualCard(individualGroup_)),
+      charts_(new LearningCharts(this)),
+      generations_(new GenerationTable),
+      individuals_(new IndividualTable),
+      log_(new EventLog),
+      strip_(new FilmStrip) {
+    auto* settingsGroup = new look::FoldingGroup("evolve.settings", tr("Settings"), false, this);
+    summary_ = new EvolveSummary(settingsGroup);
+    settingsGroup->body()->addWidget(summary_);
+    individualGroup_->body()->addWidget(individual_);
+    form_->addToGroup("evolve.run", makeThreads(form_));
+
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(12, 12, 12, 12);
+    layout->setSpacing(8);
+    layout->addWidget(card_);
+    layout->addWidget(form_);
+    layout->addWidget(individualGroup_);
+    layout->addWidget(settingsGroup);
+    layout->addWidget(makeComparison());
+    layout->addStretch(1);
+
+    estimateDelay_->setSingleShot(true);
+    estimateDelay_->setInterval(kEstimateDelay);
+    connect(estimateDelay_, &QTimer::timeout, this, &EvolvePage::askForEstimate);
+    connect(&build_, &session::TrackBuild::built, this,
+            [this](const std::shared_ptr<const track::Track>& track) {
+                track_ = track;
+                individual_->showTrack(*track);
+                showScene();
+            });
+    connect(&build_, &session::TrackBuild::failed, this,
+            [this](const QString& message) { emit failed(tr("The track cannot be shown"), message); });
+    addActions();
+    connectViews();
+    refresh();
+}
+
+QWidget* EvolvePage::makeThreads(QWidget* parent) {
+    auto* row = new QWidget(parent);
+    threads_ = new QSpinBox(row);
+    threads_->setObjectName("evolve.threads");
+    const int processors = std::max(QThread::idealThreadCount(), 1);
+    threads_->setRange(0, processors);
+    threads_->setSpecialValueText(tr("all %1").arg(processors));
+    threads_->setToolTip(
+        tr("How many processors learning keeps busy, from the next start on. The results are the same."));
+    threads_->setAccessibleName(tr("Threads"));
+    threads_->setMinimumWidth(128);
+    threads_->setValue(QSettings().value(kThreadsSetting, 0).toInt());
+    auto* label = new QLabel(tr("Threads"), row);
+    label->setBuddy(threads_);
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(label, 1);
+    layout->addWidget(threads_);
+    connect(threads_, &QSpinBox::valueChanged, this, [this](int threads) {
+        QSettings().setValue(kThreadsSetting, threads);
+        if (!session_) return;
+        session_->setThreads(static_cast<unsigned>(threads));
+        estimateDelay_->start();
+    });
+    return row;
+}
+
+QWidget* EvolvePage::makeComparison() {
+    auto* group = new look::FoldingGroup("evolve.comparison", tr("Comparison"), false, this);
+    compared_ = new QLabel(group);
+    compared_->setObjectName("evolve.compared");
+    compared_->setWordWrap(true);
+    compare_ = new QPushButton(tr("Compare with..."), group);
+    compare_->setObjectName("evolve.compare");
+    compare_->setToolTip(tr("Shows the curves of another study in the same charts"));
+    endComparison_ = new QPushButton(tr("End"), group);
+    endComparison_->setObjectName("evolve.endComparison");
+    endComparison_->setAccessibleName(tr("End the comparison"));
+    auto* buttons = new QHBoxLayout;
+    buttons->addStretch(1);
+    buttons->addWidget(endComparison_);
+    buttons->addWidget(compare_);
+    group->body()->addWidget(compared_);
+    group->body()->addLayout(buttons);
+    connect(compare_, &QPushButton::clicked, this, &EvolvePage::askForComparison);
+    connect(endComparison_, &QPushButton::clicked, charts_, &LearningCharts::endComparison);
+    const auto show = [this] {
+        const QString name = charts_->comparedName();
+        compared_->setText(name.isEmpty() ? tr("No other study is in the charts.")
+                                          : tr("The charts show <b>%1</b>, too.").arg(name.toHtmlEscaped()));
+        endComparison_->setVisible(!name.isEmpty());
+    };
+    connect(charts_, &LearningCharts::comparisonChanged, this, show);
+    show();
+    return group;
+}
+
+void EvolvePage::addActions() {
+    const auto add = [this](QAction* action, const QString& name, const QKeySequence& key, auto act) {
+        action->setObjectName(name);
+        action->setShortcut(key);
+        connect(action, &QAction::triggered, this, act);
+        addAction(action);
+    };
+    add(followAction_, "evolve.follow", Qt::Key_Escape, &EvolvePage::follow);
+    add(new QAction(tr("Winner of the generation before"), this), "evolve.previous",
+        QKeySequence(Qt::ALT | Qt::Key_Left), [this] { stepWinner(-1); });
+    add(new QAction(tr("Winner of the next generation"), this), "evolve.next",
+        QKeySequence(Qt::ALT | Qt::Key_Right), [this] { stepWinner(1); });
+    add(new QAction(look::icon("add"), tr("Compare with another study..."), this), "evolve.compareWith",
+        QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_K), &EvolvePage::askForComparison);
+}
+
+void EvolvePage::connectViews() {
+    connect(card_, &RunCard::settingsWanted, this, [this] { emit pageWanted("track"); });
+    connect(form_, &SettingsForm::edited, this, [this](const study::Settings& settings, const QString& what) {
+        if (session_) session_->changeSettings(settings, what);
+    });
+    connect(summary_, &EvolveSummary::changeWanted, this, &EvolvePage::changeSettings);
+    connect(strip_, &FilmStrip::picked, this, &EvolvePage::pickWinner);
+    connect(strip_, &FilmStrip::followWanted, this, &EvolvePage::follow);
+    connect(generations_, &GenerationTable::picked, this, &EvolvePage::pickWinner);
+    connect(individuals_, &IndividualTable::picked, this, &EvolvePage::pick);
+    connect(individuals_, &IndividualTable::generationPicked, this, &EvolvePage::pickWinner);
+    connect(charts_, &LearningCharts::picked, this, &EvolvePage::pickWinner);
+    connect(charts_, &LearningCharts::failed, this, &Page::failed);
+    connect(generations_, &GenerationTable::failed, this, &Page::failed);
+    connect(individuals_, &IndividualTable::failed, this, &Page::failed);
+}
+
+std::vector<Panel> EvolvePage::panels() {
+    std::vector<Panel> panels = charts_->panels();
+    panels.push_back({"generations", tr("Generations"), generations_});
+    panels.push_back({"individuals", tr("Individuals"), individuals_});
+    panels.push_back({"log", tr("Log"), log_});
+    return panels;
+}
+
+QWidget* EvolvePage::sceneBar() {
+    return strip_;
+}
+
+void EvolvePage::setSession(StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    build_.cancel();
+    design_.reset();
+    track_.reset();
+    picked_.reset();
+    card_->setSession(session);
+    charts_->setSession(session);
+    generations_->setSession(session);
+    individuals_->setSession(session);
+    log_->setSession(session);
+    strip_->setSession(session);
+    if (session_) {
+        session_->setThreads(static_cast<unsigned>(threads_->value()));
+        connect(session_, &StudySession::settingsChanged, this, &EvolvePage::refresh);
+        connect(session_, &StudySession::partChanged, this, &EvolvePage::refresh);
+        connect(session_, &StudySession::stateChanged, this, &EvolvePage::refresh);
+        connect(session_, &StudySession::generationSaved, this, [this] {
+            if (!picked_) showPicked();
+        });
+    }
+    refresh();
+}
+
+void EvolvePage::activate(scene::SceneView& scene) {
+    scene_ = &scene;
+    showPicked();
+    estimateDelay_->start();
+}
+
+void EvolvePage::deactivate() {
+    scene_ = nullptr;
+}
+
+void EvolvePage::refresh() {
+    for (QWidget* widget : std::initializer_list<QWidget*>{form_, summary_})
+        widget->setVisible(session_ != nullptr);
+    compare_->setEnabled(session_ != nullptr);
+    if (session_) {
+        const bool locked = session_->locked();
+        form_->show(session_->settings());
+        form_->setLocked(
+            [locked](const std::string& key) { return !locked || key == "evolution.generations"; });
+        form_->setProblems(session_->problems(), session_->recommendations());
+        summary_->show(session_->settings(), locked);
+        if (session_->state() == RunState::idle) estimateDelay_->start();
+    }
+    showPicked();
+}
+
+void EvolvePage::askForEstimate() {
+    if (!session_ || scene_ == nullptr || session_->state() != RunState::idle) return;
+    const auto known = static_cast<int>(session_->summaries().size());
+    if (known < session_->settings().evolution.generations) session_->requestEstimate();
+}
+
+void EvolvePage::askForComparison() {
+    if (!session_) return;
+    look::askForFile(this,
+                     {"study", tr("Compare with a study"), tr("Compare"), tr("Studies (*.trap)"), {}, {}},
+                     [this](const std::filesystem::path& study) { charts_->compareWith(study); });
+}
+
+void EvolvePage::changeSettings() {
+    if (!session_) return;
+    const bool locked = session_->locked();
+    emit pageWanted("track");
+    if (locked) emit forkWanted();
+}
+
+void EvolvePage::follow() {
+    picked_.reset();
+    showPicked();
+}
+
+void EvolvePage::pick(const study::Winner& individual) {
+    picked_ = individual;
+    showPicked();
+}
+
+void EvolvePage::pickWinner(int generation) {
+    if (!session_) return;
+    const std::vector<study::Winner>& winners = session_->winners();
+    if (generation >= 0 && generation < static_cast<int>(winners.size()))
+        pick(winners[static_cast<std::size_t>(generation)]);
+}
+
+void EvolvePage::stepWinner(int step) {
+    if (const study::Winner* winner = shown()) pickWinner(winner->generation + step);
+}
+
+const study::Winner* EvolvePage::shown() const {
+    if (picked_) return &*picked_;
+    return session_ && !session_->winners().empty() ? &session_->winners().back() : nullptr;
+}
+
+void EvolvePage::showPicked() {
+    const study::Winner* individual = shown();
+    const int generation = individual != nullptr ? individual->generation : -1;
+    const QString caption = individual != nullptr ? captionOf(*individual) : QString();
+    followAction_->setEnabled(picked_.has_value());
+    strip_->setCurrent(generation, caption, !picked_);
+    generations_->setCurrent(generation);
+    individuals_->setCurrent(generation, individual != nullptr ? individual->individual : -1);
+    individualGroup_->setSummary(caption);
+    if (individual == nullptr) {
+        individual_->clear();
+    } else {
+        individual_->show(session_->settings(), *individual);
+        if (track_) individual_->showTrack(*track_);
+    }
+    if (session_ && scene_ != nullptr) buildTrack(individual);
+}
+
+void EvolvePage::buildTrack(const study::Winner* individual) {
+    const study::TrackSettings& settings = session_->settings().track;
+    Design design{settings, individual != nullptr ? individual->record.chromosome : evolution::Chromosome()};
+    if (design_ && *design_ == design) return showScene();
+    design_ = std::move(design);
+    if (individual == nullptr) {
+        build_.buildLayout(settings);
+    } else {
+        build_.buildIndividual(settings, individual->record.chromosome);
+    }
+}
+
+QString EvolvePage::captionOf(const study::Winner& individual) const {
+    const auto& winners = session_->winners();
+    const auto generation = static_cast<std::size_t>(individual.generation);
+    const bool winner =
+        generation < winners.size() && winners[generation].individual == individual.individual;
+    return winner ? tr("Generation %1, winner").arg(individual.generation)
+                  : tr("Generation %1, individual %2").arg(individual.generation).arg(individual.individual);
+}
+
+void EvolvePage::showScene() {
+    if (scene_ != nullptr && session_) showTrackWithPart(*scene_, track_, session_->part());
+}
+
+}  // namespace trapwright::pages

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <QPointer>
+#include <memory>
+#include <optional>
+
+#include "core/study/records.h"
+#include "core/study/settings.h"
+#include "core/track/track.h"
+#include "ui/pages/page.h"
+#include "ui/session/track_build.h"
+
+class QLabel;
+class QPushButton;
+class QSpinBox;
+class QTimer;
+
+namespace trapwright::look {
+class FoldingGroup;
+}
+
+namespace trapwright::pages {
+
+class EventLog;
+class EvolveSummary;
+class FilmStrip;
+class GenerationTable;
+class IndividualCard;
+class IndividualTable;
+class LearningCharts;
+class RunActions;
+class RunCard;
+class SettingsForm;
+
+/// Step 3: learning is started, watched and stopped; any individual that was learned can be looked at. The
+/// scene follows the newest winner until another one is picked.
+class EvolvePage : public Page {
+    Q_OBJECT
+ public:
+    explicit EvolvePage(RunActions& run, QWidget* parent = nullptr);
+
+    void setSession(session::StudySession* session) override;
+    void activate(scene::SceneView& scene) override;
+    void deactivate() override;
+    std::vector<Panel> panels() override;
+    QWidget* sceneBar() override;
+
+ private:
+    /// What a track is built from; no genes: the flat track before anything is learned.
+    struct Design {
+        study::TrackSettings settings;
+        evolution::Chromosome genes;
+        friend bool operator==(const Design&, const Design&) = default;
+    };
+
+    QWidget* makeThreads(QWidget* parent);
+    QWidget* makeComparison();
+    void addActions();
+    void connectViews();
+
+    void refresh();
+    void askForEstimate();
+    void askForComparison();
+    void changeSettings();
+
+    /// Shows the newest winner, now and whenever there is a newer one.
+    void follow();
+    void pick(const study::Winner& individual);
+    void pickWinner(int generation);
+    void stepWinner(int step);
+    void showPicked();
+    void buildTrack(const study::Winner* individual);
+    void showScene();
+    [[nodiscard]] const study::Winner* shown() const;
+    [[nodiscard]] QString captionOf(const study::Winner& individual) const;
+
+    QPointer<session::StudySession> session_;
+    scene::SceneView* scene_ = nullptr;    // while the page is shown
+    std::optional<study::Winner> picked_;  // none: the newest winner is followed
+    session::TrackBuild build_;
+    std::optional<Design> design_;  // what track_ is built from, or being built from
+    std::shared_ptr<const track::Track> track_;
+    QTimer* estimateDelay_;
+    QAction* followAction_;
+
+    RunCard* card_;
+    SettingsForm* form_;
+    QSpinBox* threads_;
+    look::FoldingGroup* individualGroup_;
+    IndividualCard* individual_;
+    EvolveSummary* summary_;
+    QLabel* compared_;
+    QPushButton* compare_;
+    QPushButton* endComparison_;
+    LearningCharts* charts_;
+    // The window owns these.
+    GenerationTable* generations_;
+    IndividualTable* individuals_;
+    EventLog* log_;
+    FilmStrip* strip_;
+};
+
+}  // namespace trapwright::pages

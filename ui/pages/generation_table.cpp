@@ -1,0 +1,42 @@
+#include "ui/pages/generation_table.h"
+
+#include <QVBoxLayout>
+
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+using session::StudySession;
+
+GenerationTable::GenerationTable(QWidget* parent)
+    : QWidget(parent),
+      table_(
+          new RecordTable("generations", tr("Generations"),
+                          tr("Each generation gets a row as soon as it is complete. Start learning with F5."),
+                          model_, this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(table_);
+    table_->sortBy(models::GenerationModel::Generation, Qt::DescendingOrder);
+    connect(table_, &RecordTable::picked, this,
+            [this](int row) { emit picked(model_.rows()[static_cast<std::size_t>(row)].summary.index); });
+    connect(table_, &RecordTable::failed, this, &GenerationTable::failed);
+}
+
+void GenerationTable::setSession(StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    if (!session_) return model_.setGenerations({}, {});
+    model_.setGenerations(session_->summaries(), session_->checks());
+    connect(session_, &StudySession::generationSaved, this,
+            [this] { model_.append(session_->summaries().back()); });
+    connect(session_, &StudySession::checkSaved, this,
+            [this] { model_.setCheck(session_->checks().back()); });
+}
+
+void GenerationTable::setCurrent(int generation) {
+    const bool known = generation >= 0 && generation < model_.rowCount();
+    table_->setCurrentRow(known ? generation : -1);
+}
+
+}  // namespace trapwright::pages

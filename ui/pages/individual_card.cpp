@@ -1,0 +1,91 @@
+#include "ui/pages/individual_card.h"
+
+#include <QLabel>
+#include <QLocale>
+#include <QVBoxLayout>
+
+#include "core/study/track_design.h"
+#include "ui/look/text.h"
+#include "ui/pages/gene_picture.h"
+#include "ui/pages/part_facts.h"
+
+namespace trapwright::pages {
+
+namespace {
+
+QString fixed(double value, int decimals) {
+    return QLocale().toString(value, 'f', decimals);
+}
+
+}  // namespace
+
+IndividualCard::IndividualCard(QWidget* parent)
+    : QWidget(parent),
+      empty_(new QLabel(
+          tr("No track has been learned yet. The scene shows the flat track that learning starts from."),
+          this)),
+      contents_(new QWidget(this)),
+      scores_(new FactList(contents_)),
+      strategy_(new FactList(contents_)),
+      lengths_(new QLabel(contents_)),
+      genes_(new GenePicture(contents_)) {
+    empty_->setWordWrap(true);
+    empty_->setForegroundRole(QPalette::PlaceholderText);
+    scores_->setObjectName("evolve.scores");
+    lengths_->setObjectName("evolve.lengths");
+    lengths_->setWordWrap(true);
+    lengths_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    lengths_->setForegroundRole(QPalette::PlaceholderText);
+    auto* column = new QVBoxLayout(contents_);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(6);
+    column->addWidget(scores_);
+    column->addWidget(strategy_);
+    column->addWidget(lengths_);
+    column->addWidget(genes_);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(empty_);
+    layout->addWidget(contents_);
+    clear();
+}
+
+void IndividualCard::clear() {
+    empty_->show();
+    contents_->hide();
+}
+
+void IndividualCard::show(const study::Settings& settings, const study::Winner& individual) {
+    const study::IndividualRecord& record = individual.record;
+    const trial::Fitness& fitness = record.fitness;
+    scores_->show({{tr("Fitness F"), fixed(fitness.total(), 3)},
+                   {tr("Collisions F_C"), tr("%1 triangles").arg(fixed(fitness.collision, 0))},
+                   {tr("Distance F_D"), tr("%1 segments").arg(fixed(fitness.distance, 3))},
+                   {tr("Orientation F_O"), tr("%1 √rad").arg(fixed(fitness.orientation, 3))},
+                   {tr("Parts"), record.trials == 0 ? tr("not simulated: the track crosses itself")
+                                                    : tr("%1 of %2 finished, %3 stuck, %4 fell")
+                                                          .arg(record.finished)
+                                                          .arg(record.trials)
+                                                          .arg(record.stuck)
+                                                          .arg(record.fellOff)}});
+    const evolution::StrategyValues strategy =
+        evolution::limitStrategy(evolution::decodeStrategy(record.chromosome.strategy),
+                                 study::generationParameters(settings.evolution).transition);
+    strategy_->show({{tr("Crossover p_x"), fixed(strategy.crossover, 4)},
+                     {tr("Mutation p_dm"), fixed(strategy.mutation, 4)},
+                     {tr("Smoothing p_s"), fixed(strategy.smoothing, 4)}});
+    genes_->show(record.chromosome, settings.track.crossSections);
+    empty_->hide();
+    contents_->show();
+}
+
+void IndividualCard::showTrack(const track::Track& track) {
+    QStringList lengths;
+    for (int i = track.firstTrapSection; i < track.lastTrapSection; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        lengths << look::numberText(1e3 * (track.sections[at + 1].x - track.sections[at].x));
+    }
+    lengths_->setText(tr("Segments of %1 mm").arg(lengths.join(", ")));
+}
+
+}  // namespace trapwright::pages

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <QWidget>
+
+#include "core/study/records.h"
+#include "core/study/settings.h"
+#include "core/track/track.h"
+
+class QLabel;
+
+namespace trapwright::pages {
+
+class FactList;
+class GenePicture;
+
+/// The individual whose track is in the scene: its scores, what it is made of, its genes.
+class IndividualCard : public QWidget {
+    Q_OBJECT
+ public:
+    explicit IndividualCard(QWidget* parent);
+
+    void show(const study::Settings& settings, const study::Winner& individual);
+    /// Its track, as soon as it is built.
+    void showTrack(const track::Track& track);
+    /// No individual yet.
+    void clear();
+
+ private:
+    QLabel* empty_;
+    QWidget* contents_;
+    FactList* scores_;
+    FactList* strategy_;
+    QLabel* lengths_;
+    GenePicture* genes_;
+};
+
+}  // namespace trapwright::pages

@@ -1,0 +1,123 @@
+#include "ui/pages/learning_charts.h"
+
+#include <algorithm>
+
+#include "ui/charts/study_chart.h"
+#include "ui/look/text.h"
+#include "ui/session/study_curves.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+using session::StudySession;
+
+namespace {
+
+std::vector<double> speedsOf(const std::vector<study::GenerationSummary>& summaries) {
+    std::vector<double> speeds;
+    speeds.reserve(summaries.size());
+    for (const study::GenerationSummary& summary : summaries)
+        speeds.push_back(summary.trialsPerSecond());
+    return speeds;
+}
+
+}  // namespace
+
+LearningCharts::LearningCharts(QObject* parent) : QObject(parent) {
+    add(new charts::FitnessChart);
+    add(new charts::StrategyChart);
+    add(new charts::SpeedChart);
+    add(new charts::EngineChart);
+}
+
+void LearningCharts::add(charts::StudyChart* chart) {
+    charts_.push_back(chart);
+    connect(chart, &charts::StudyChart::failed, this, &LearningCharts::failed);
+    connect(chart, &charts::StudyChart::picked, this, &LearningCharts::picked);
+}
+
+std::vector<Panel> LearningCharts::panels() const {
+    std::vector<Panel> panels;
+    for (charts::StudyChart* chart : charts_)
+        panels.push_back({chart->objectName(), chart->title(), chart});
+    return panels;
+}
+
+void LearningCharts::setSession(StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    reading_.cancel();
+    const bool compared = std::exchange(other_, std::nullopt).has_value();
+    showStudies();
+    if (compared) emit comparisonChanged();
+    if (!session_) return;
+    connect(session_, &StudySession::generationSaved, this, [this] {
+        const study::GenerationSummary& summary = session_->summaries().back();
+        for (charts::StudyChart* chart : charts_)
+            chart->appendGeneration(summary, summary.trialsPerSecond());
+    });
+    connect(session_, &StudySession::checkSaved, this, [this] {
+        for (charts::StudyChart* chart : charts_)
+            chart->appendCheck(session_->checks().back());
+    });
+    connect(session_, &StudySession::partChanged, this, &LearningCharts::showStudies);
+    connect(session_, &StudySession::settingsChanged, this, &LearningCharts::showStudies);
+    connect(session_, &StudySession::pathChanged, this, &LearningCharts::showStudies);
+}
+
+void LearningCharts::compareWith(const std::filesystem::path& study) {
+    if (!session_) return;
+    const QString what = tr("%1 cannot be compared").arg(look::toText(study.filename()));
+    if (study == session_->path()) {
+        emit failed(what, tr("It is the study that is open. Choose another one."));
+        return;
+    }
+    reading_.start([this, study, what]() -> session::NewestTask::Deliver {
+        auto curves = session::loadCurves(study);
+        if (!curves) {
+            return [this, what, message = curves.error().message] {
+                emit failed(what, QString::fromStdString(message));
+            };
+        }
+        charts::StudyCurves other{QString::fromStdString(curves->name),
+                                  std::move(curves->summaries),
+                                  std::move(curves->checks),
+                                  {},
+                                  curves->bestOrientationScore};
+        other.trialsPerSecond = speedsOf(other.summaries);
+        return [this, what, other = std::move(other)] {
+            if (other.summaries.empty()) {
+                emit failed(what, tr("It has no generations yet. Choose a study that has learned."));
+                return;
+            }
+            other_ = other;
+            showStudies();
+            emit comparisonChanged();
+        };
+    });
+}
+
+void LearningCharts::endComparison() {
+    reading_.cancel();
+    other_.reset();
+    showStudies();
+    emit comparisonChanged();
+}
+
+QString LearningCharts::comparedName() const {
+    return other_ ? other_->name : QString();
+}
+
+void LearningCharts::showStudies() {
+    std::vector<charts::StudyCurves> studies;
+    if (session_) {
+        const std::vector<study::GenerationSummary>& summaries = session_->summaries();
+        studies.push_back({look::toText(session_->path().stem()), summaries, session_->checks(),
+                           speedsOf(summaries), session_->bestOrientationScore()});
+        if (other_) studies.push_back(*other_);
+    }
+    for (charts::StudyChart* chart : charts_)
+        chart->setStudies(studies);
+}
+
+}  // namespace trapwright::pages

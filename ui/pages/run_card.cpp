@@ -1,0 +1,193 @@
+#include "ui/pages/run_card.h"
+
+#include <QAccessible>
+#include <QGridLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "ui/look/text.h"
+#include "ui/pages/run_actions.h"
+#include "ui/session/study_session.h"
+
+namespace trapwright::pages {
+
+using session::RunProgress;
+using session::RunState;
+
+RunCard::RunCard(RunActions& run, QWidget* parent)
+    : QWidget(parent),
+      title_(new QLabel(this)),
+      detail_(new QLabel(this)),
+      speed_(new QLabel(this)),
+      bar_(new QProgressBar(this)) {
+    title_->setObjectName("evolve.state");
+    QFont font = title_->font();
+    font.setPointSizeF(font.pointSizeF() * 1.3);
+    font.setBold(true);
+    title_->setFont(font);
+    title_->setAccessibleName(tr("What the study is doing"));
+    detail_->setObjectName("evolve.detail");
+    detail_->setWordWrap(true);
+    speed_->setObjectName("evolve.speed");
+    speed_->setForegroundRole(QPalette::PlaceholderText);
+    connect(detail_, &QLabel::linkActivated, this, &RunCard::settingsWanted);
+    bar_->setObjectName("evolve.progress");
+    bar_->setAccessibleName(tr("Progress of the whole run"));
+    bar_->setTextVisible(false);
+    bar_->setFixedHeight(8);
+
+    auto* buttons = new QGridLayout;
+    buttons->setSpacing(6);
+    buttons->addWidget(makeButton(run.start(), "evolve.start"), 0, 0);
+    buttons->addWidget(makeButton(run.pause(), "evolve.pause"), 0, 1);
+    buttons->addWidget(makeButton(run.stopAfterGeneration(), "evolve.stopAfterGeneration"), 1, 0);
+    buttons->addWidget(makeButton(run.stopNow(), "evolve.stopNow"), 1, 1);
+    buttons->setColumnStretch(0, 3);
+    buttons->setColumnStretch(1, 2);
+
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(4);
+    layout->addWidget(title_);
+    layout->addWidget(detail_);
+    layout->addWidget(bar_);
+    layout->addWidget(speed_);
+    layout->addSpacing(4);
+    layout->addLayout(buttons);
+    update();
+}
+
+QWidget* RunCard::makeButton(QAction* action, const QString& name) {
+    auto* button = new QToolButton(this);
+    button->setDefaultAction(action);
+    button->setObjectName(name);
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->setMinimumHeight(32);
+    return button;
+}
+
+void RunCard::setSession(session::StudySession* session) {
+    if (session_) session_->disconnect(this);
+    session_ = session;
+    if (session_) {
+        using session::StudySession;
+        connect(session_, &StudySession::stateChanged, this, &RunCard::announce);
+        connect(session_, &StudySession::progressed, this, &RunCard::update);
+        connect(session_, &StudySession::estimated, this, &RunCard::update);
+        connect(session_, &StudySession::settingsChanged, this, &RunCard::update);
+        connect(session_, &StudySession::partChanged, this, &RunCard::update);
+        connect(session_, &StudySession::generationSaved, this, &RunCard::update);
+    }
+    update();
+}
+
+void RunCard::announce() {
+    update();
+    title_->setAccessibleDescription(detail_->text());
+    QAccessibleEvent alert(title_, QAccessible::Alert);
+    QAccessible::updateAccessibility(&alert);
+}
+
+void RunCard::update() {
+    const RunState state = session_ ? session_->state() : RunState::idle;
+    const bool idle = state == RunState::idle || state == RunState::simulating;
+    bar_->setVisible(!idle);
+    speed_->setVisible(!idle);
+    if (!session_) return;
+    if (idle) {
+        showIdle();
+    } else {
+        showRun(state);
+    }
+}
+
+QString RunCard::workText() const {
+    const study::EvolutionSettings& evolution = session_->settings().evolution;
+    const int left = evolution.generations - static_cast<int>(session_->summaries().size());
+    const QString what =
+        left == 1 ? tr("1 generation of %1 × %2 trials") : tr("%3 generations of %1 × %2 trials");
+    const QString each = what.arg(evolution.populationSize).arg(evolution.trialsPerEvaluation);
+    return left == 1 ? each : each.arg(left);
+}
+
+void RunCard::showIdle() {
+    const int known = static_cast<int>(session_->summaries().size());
+    const int wanted = session_->settings().evolution.generations;
+    if (!session_->problems().empty()) {
+        title_->setText(tr("Not ready to learn"));
+        detail_->setText(tr("Mend what is marked on the <a href=\"track\">Track page</a> first."));
+        return;
+    }
+    if (known >= wanted) {
+        title_->setText(tr("All %1 generations learned").arg(known));
+        detail_->setText(tr("Raise their number below to learn on."));
+        return;
+    }
+    title_->setText(known == 0 ? tr("Ready to learn")
+                               : tr("%1 of %2 generations learned").arg(known).arg(wanted));
+    const double seconds = session_->estimatedSeconds();
+    const QString work = workText();
+    if (seconds <= 0.0) {
+        detail_->setText(known == 0 ? tr("%1 to go.").arg(work) : tr("%1 left.").arg(work));
+    } else {
+        detail_->setText(tr("About <b>%1</b> for %2.").arg(look::durationText(std::max(seconds, 1.0)), work));
+    }
+}
+
+void RunCard::showRun(RunState state) {
+    const RunProgress progress = session_->progress();
+    const bool checking = progress.generations > 0 && progress.generation >= progress.generations;
+    const double done = progress.trials > 0
+                            ? static_cast<double>(progress.trialsDone) / static_cast<double>(progress.trials)
+                            : 0.0;
+    double whole = done;
+    QString detail;
+    if (checking) {
+        detail = tr("All generations are saved. The last winners are checked in the reference engine.");
+    } else if (progress.generations > 0) {
+        whole = (progress.generation + done) / progress.generations;
+        detail = tr("Generation %1 of %2, individual %3 of %4")
+                     .arg(progress.generation + 1)
+                     .arg(progress.generations)
+                     .arg(progress.individualsDone)
+                     .arg(progress.individuals);
+    } else if (progress.trials > 0) {
+        detail = tr("%L1 of %L2 trials").arg(progress.trialsDone).arg(progress.trials);
+    }
+    switch (state) {
+        case RunState::paused:
+            title_->setText(tr("Paused"));
+            break;
+        case RunState::stoppingAfterGeneration:
+            title_->setText(tr("Stopping after this generation"));
+            break;
+        case RunState::stopping:
+            title_->setText(tr("Stopping"));
+            break;
+        case RunState::selecting:
+            title_->setText(tr("Simulating the best winners"));
+            break;
+        case RunState::validating:
+            title_->setText(tr("Validating"));
+            break;
+        default:
+            title_->setText(checking ? tr("Checking winners") : tr("Learning"));
+            break;
+    }
+    detail_->setText(detail);
+    QStringList facts;
+    if (progress.trialsPerSecond > 0) facts << tr("%L1 trials/s").arg(qRound(progress.trialsPerSecond));
+    if (progress.secondsLeft > 0) facts << tr("%1 left").arg(look::durationText(progress.secondsLeft));
+    // As high without text, so that nothing below moves.
+    speed_->setText(facts.isEmpty() ? QString(" ") : facts.join(", "));
+    constexpr int kSteps = 1000;
+    bar_->setMaximum(kSteps);
+    bar_->setValue(qRound(std::clamp(whole, 0.0, 1.0) * kSteps));
+}
+
+}  // namespace trapwright::pages

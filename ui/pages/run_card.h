@@ -1,0 +1,45 @@
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+
+class QLabel;
+class QProgressBar;
+
+namespace trapwright::session {
+class StudySession;
+enum class RunState;
+}  // namespace trapwright::session
+
+namespace trapwright::pages {
+
+class RunActions;
+
+/// What a study is doing, how far it is and how long it takes, with the buttons that start and end learning.
+class RunCard : public QWidget {
+    Q_OBJECT
+ public:
+    RunCard(RunActions& run, QWidget* parent);
+
+    void setSession(session::StudySession* session);
+
+ signals:
+    /// The settings have to be mended first.
+    void settingsWanted();
+
+ private:
+    QWidget* makeButton(QAction* action, const QString& name);
+    void update();
+    void announce();
+    void showIdle();
+    void showRun(session::RunState state);
+    [[nodiscard]] QString workText() const;
+
+    QPointer<session::StudySession> session_;
+    QLabel* title_;
+    QLabel* detail_;
+    QLabel* speed_;
+    QProgressBar* bar_;
+};
+
+}  // namespace trapwright::pages

@@ -1,0 +1,66 @@
+#include "ui/pages/winner_pictures.h"
+
+#include <QPixmap>
+#include <QTimer>
+#include <utility>
+
+#include "ui/models/winner_model.h"
+#include "ui/scene/picture_maker.h"
+
+namespace trapwright::pages {
+
+namespace {
+
+constexpr int kRest = 20;  // [ms] for everything else that waits, between two pictures
+
+}  // namespace
+
+WinnerPictures::WinnerPictures(models::WinnerModel& model, QSize size, QObject* parent)
+    : QObject(parent), model_(model), size_(size) {
+    connect(&build_, &session::TrackBuild::built, this, &WinnerPictures::draw);
+    connect(&build_, &session::TrackBuild::failed, this, [this] {
+        generation_ = -1;
+        next();
+    });
+}
+
+WinnerPictures::~WinnerPictures() = default;
+
+void WinnerPictures::setTracks(const study::TrackSettings& settings) {
+    settings_ = settings;
+    wanted_.clear();
+    build_.cancel();
+    generation_ = -1;
+}
+
+void WinnerPictures::setLook(bool dark, double pixelRatio) {
+    dark_ = dark;
+    pixelRatio_ = pixelRatio;
+}
+
+void WinnerPictures::want(std::deque<int> generations) {
+    wanted_ = std::move(generations);
+    next();
+}
+
+void WinnerPictures::next() {
+    while (generation_ < 0 && !wanted_.empty()) {
+        const int generation = wanted_.front();
+        wanted_.pop_front();
+        const study::Winner* winner = model_.winnerAt(model_.rowOf(generation));
+        if (winner == nullptr || model_.hasPicture(generation)) continue;
+        generation_ = generation;
+        build_.buildIndividual(settings_, winner->record.chromosome);
+    }
+}
+
+void WinnerPictures::draw(const std::shared_ptr<const track::Track>& track) {
+    if (!maker_) maker_ = std::make_unique<scene::PictureMaker>();
+    maker_->setTheme(dark_ ? scene::SceneTheme::dark() : scene::SceneTheme::light());
+    QPixmap picture = QPixmap::fromImage(maker_->trackPicture(track, size_ * pixelRatio_));
+    picture.setDevicePixelRatio(pixelRatio_);
+    model_.setPicture(std::exchange(generation_, -1), picture);
+    QTimer::singleShot(kRest, this, &WinnerPictures::next);
+}
+
+}  // namespace trapwright::pages
