@@ -43,7 +43,7 @@ class ReplayFilesTest : public QObject {
         if (QStandardPaths::findExecutable("ffmpeg").isEmpty()) QSKIP("ffmpeg is not installed");
         ReviewUser user(study_);
         QVERIFY(user.waitForReplay());
-        // The trial that fits best into a second.
+        // As fast as it takes to be over in a second.
         user.player().setSpeed(user.player().duration());
         const double seconds = user.player().duration() / user.player().speed();
         user.files().setFramesPerSecond(25);
