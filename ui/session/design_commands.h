@@ -33,7 +33,7 @@ class SettingsCommand : public QUndoCommand {
 
 /// A part as a study has it.
 struct PartVersion {
-    store::StoredPart stored;
+    std::shared_ptr<const store::StoredPart> stored;
     study::PartSettings settings;
     std::shared_ptr<const part::Part> part;
 };

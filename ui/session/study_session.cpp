@@ -30,7 +30,8 @@ StudySession::State::State(OpenedStudy study, const Environment& environmentGive
     : environment(environmentGiven),
       path(study.file.path()),
       settings(std::move(study.design.settings)),
-      part{std::move(study.design.stored), settings.part, std::move(study.design.part)},
+      part{std::make_shared<const store::StoredPart>(std::move(study.design.stored)), settings.part,
+           std::move(study.design.part)},
       summaries(std::move(study.summaries)),
       winners(std::move(study.winners)),
       checks(std::move(study.checks)),
@@ -126,7 +127,7 @@ std::shared_ptr<const part::Part> StudySession::part() const {
 }
 
 const store::StoredPart& StudySession::storedPart() const {
-    return state_->part.stored;
+    return *state_->part.stored;
 }
 
 double StudySession::bestOrientationScore() const {
@@ -217,10 +218,10 @@ base::Status StudySession::saveAs(const std::filesystem::path& path) {
 
 base::Result<std::unique_ptr<StudySession>> StudySession::fork(const std::filesystem::path& path) const {
     auto file =
-        store::StudyFile::create(path, state_->settings, state_->part.stored, state_->environment.program);
+        store::StudyFile::create(path, state_->settings, *state_->part.stored, state_->environment.program);
     if (!file) return file.error();
     return makeSession(
-        readNewStudy(std::move(*file), {state_->settings, state_->part.stored, state_->part.part}),
+        readNewStudy(std::move(*file), {state_->settings, *state_->part.stored, state_->part.part}),
         state_->environment);
 }
 

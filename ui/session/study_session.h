@@ -172,7 +172,7 @@ class StudySession : public QObject {
     void pushPart(const PartVersion& version, const QString& what);
     void applySettings(const study::Settings& settings);
     void applyPart(const PartVersion& version);
-    void saveDesign(const std::optional<store::StoredPart>& part);
+    void saveDesign(const std::shared_ptr<const store::StoredPart>& part);
     void savePending();
 
     void startRun(RunState kind, const QString& what, std::function<std::optional<work::Failure>(Run&)> work);

@@ -34,13 +34,14 @@ void StudySession::changePart(const store::StoredPart& part, const study::PartSe
                 emit failed(what, QString::fromStdString(message));
             };
         }
-        const auto shared = std::make_shared<const part::Part>(std::move(built->part));
-        return [this, what, version = PartVersion{part, settings, shared}] { pushPart(version, what); };
+        const PartVersion version{std::make_shared<const store::StoredPart>(part), settings,
+                                  std::make_shared<const part::Part>(std::move(built->part))};
+        return [this, what, version] { pushPart(version, what); };
     });
 }
 
 void StudySession::changePart(const ImportedPart& part, const QString& what) {
-    pushPart({part.stored, part.settings, part.part}, what);
+    pushPart({std::make_shared<const store::StoredPart>(part.stored), part.settings, part.part}, what);
 }
 
 void StudySession::pushPart(const PartVersion& version, const QString& what) {
@@ -58,7 +59,7 @@ void StudySession::applySettings(const study::Settings& settings) {
     state_->settings = settings;
     state_->settings.part = part;
     if (state_->run) state_->run->learning.setGenerations(settings.evolution.generations);
-    saveDesign(std::nullopt);
+    saveDesign(nullptr);
     emit settingsChanged();
 }
 
@@ -70,7 +71,7 @@ void StudySession::applyPart(const PartVersion& version) {
     emit settingsChanged();
 }
 
-void StudySession::saveDesign(const std::optional<store::StoredPart>& part) {
+void StudySession::saveDesign(const std::shared_ptr<const store::StoredPart>& part) {
     state_->findProblems();
     state_->estimatedSeconds = 0.0;
     state_->estimate.cancel();

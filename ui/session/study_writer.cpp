@@ -2,7 +2,8 @@
 
 namespace trapwright::session {
 
-void StudyWriter::setPending(const study::Settings& settings, const std::optional<store::StoredPart>& part) {
+void StudyWriter::setPending(const study::Settings& settings,
+                             const std::shared_ptr<const store::StoredPart>& part) {
     const std::lock_guard lock(mutex_);
     settings_ = settings;
     if (part) part_ = part;
@@ -10,7 +11,7 @@ void StudyWriter::setPending(const study::Settings& settings, const std::optiona
 
 base::Status StudyWriter::savePending() {
     std::optional<study::Settings> settings;
-    std::optional<store::StoredPart> part;
+    std::shared_ptr<const store::StoredPart> part;
     {
         const std::lock_guard lock(mutex_);
         settings.swap(settings_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -17,7 +18,7 @@ class StudyWriter {
     explicit StudyWriter(store::StudyFile file) : file_(std::move(file)) {}
 
     /// Has these settings, and the part if one is given, saved by the next savePending().
-    void setPending(const study::Settings& settings, const std::optional<store::StoredPart>& part);
+    void setPending(const study::Settings& settings, const std::shared_ptr<const store::StoredPart>& part);
     /// Saves the newest settings that are not saved yet.
     base::Status savePending();
     [[nodiscard]] store::StudyFile& file() { return file_; }
@@ -27,8 +28,8 @@ class StudyWriter {
  private:
     store::StudyFile file_;
     std::mutex mutex_;
-    std::optional<study::Settings> settings_;  // pending
-    std::optional<store::StoredPart> part_;    // likewise
+    std::optional<study::Settings> settings_;        // pending
+    std::shared_ptr<const store::StoredPart> part_;  // likewise; null: not changed
 };
 
 }  // namespace trapwright::session
