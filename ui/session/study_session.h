@@ -79,9 +79,8 @@ class StudySession : public QObject {
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
     [[nodiscard]] base::Result<study::Winner> loadWinner(int generation, int individual) const;
 
-    /// The track that the work goes on with, to be validated and exported: the user's choice, else the one
-    /// that was validated last, else the best of the last selection, else the last winner. None without
-    /// generations.
+    /// The track that is exported in the end: the user's choice since the study was opened, else the best of
+    /// the last selection, else the highest winner. None without generations.
     [[nodiscard]] std::optional<study::Winner> chosen() const;
     void choose(const study::Winner& individual);
 

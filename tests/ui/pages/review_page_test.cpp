@@ -24,7 +24,7 @@ class ReviewPageTest : public QObject {
         QVERIFY(!study_.isEmpty());
     }
 
-    void trialsOfTheLastWinnerAreListed() {
+    void trialsOfTheTrackAreListed() {
         ReviewUser user(study_);
         QTRY_COMPARE_WITH_TIMEOUT(user.trials().model()->rowCount(), 16, kPatience);
         int counted = 0;
@@ -175,6 +175,13 @@ class ReviewPageTest : public QObject {
         QCOMPARE(user.session()->chosen()->generation, second.generation);
         QCOMPARE(user.session()->chosen()->individual, second.individual);
         QVERIFY(!user.find<QPushButton>("review.makeFinal")->isVisible());
+        // It is the one that is exported.
+        user.window.showPage("export");
+        QVERIFY(
+            user.find<QComboBox>("export.track")
+                ->currentText()
+                .contains(
+                    QString("generation %1, individual %2").arg(second.generation).arg(second.individual)));
     }
 
     void aFailedRowLeadsToItsReplay() {
