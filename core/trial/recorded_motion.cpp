@@ -38,8 +38,7 @@ base::Pose RecordedMotion::poseAt(double time) const {
     const double share = (time - times_[before]) / (times_[before + 1] - times_[before]);
     const base::Pose& from = poses_[before];
     const base::Pose& to = poses_[before + 1];
-    return {from.rotation.slerp(share, to.rotation),
-            (1.0 - share) * from.position + share * to.position};
+    return {from.rotation.slerp(share, to.rotation), (1.0 - share) * from.position + share * to.position};
 }
 
 const std::vector<ContactForce>& RecordedMotion::forcesAt(double time) const {

@@ -21,7 +21,8 @@ class RecordedMotion {
     [[nodiscard]] base::Pose poseAt(double time) const;
     /// Those of the last sample that is not later.
     [[nodiscard]] const std::vector<ContactForce>& forcesAt(double time) const;
-    /// Where the centre of mass comes along, samples that are nearer than `spacing` [m] to the one before left out.
+    /// Where the centre of mass comes along, samples that are nearer than `spacing` [m] to the one before
+    /// left out.
     [[nodiscard]] std::vector<base::Vec3> path(double spacing) const;
 
  private:

@@ -50,7 +50,12 @@ ExportPage::ExportPage(QWidget* parent)
     tracks_->setToolTip(tr("The first of the last selection, unless another one is picked"));
     tracks_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     connect(tracks_, &QComboBox::activated, this, [this] {
-        chosen_ = true;
+        const auto winner = session_->loadWinner(tracks_->currentData(kGeneration).toInt(),
+                                                 tracks_->currentData(kIndividual).toInt());
+        if (!winner)
+            return emit failed(tr("The track cannot be read"),
+                               QString::fromStdString(winner.error().message));
+        session_->choose(*winner);
         build();
     });
 
@@ -150,7 +155,6 @@ void ExportPage::addExport(const QString& format, const QString& text, const QKe
 void ExportPage::setSession(session::StudySession* session) {
     if (session_) session_->disconnect(this);
     session_ = session;
-    chosen_ = false;
     print_.cancel();
     printed_.reset();
     shown_.reset();
@@ -160,6 +164,7 @@ void ExportPage::setSession(session::StudySession* session) {
         connect(session_, &StudySession::settingsChanged, this, &ExportPage::refresh);
         connect(session_, &StudySession::generationSaved, this, &ExportPage::refresh);
         connect(session_, &StudySession::selectionSaved, this, &ExportPage::refresh);
+        connect(session_, &StudySession::chosenChanged, this, &ExportPage::refresh);
     }
     refresh();
 }
@@ -192,8 +197,6 @@ void ExportPage::refresh() {
 }
 
 void ExportPage::fillTracks() {
-    const QVariant generation = tracks_->currentData(kGeneration);
-    const QVariant individual = tracks_->currentData(kIndividual);
     tracks_->clear();
     if (!session_) return;
     const auto add = [this](const QString& text, int ofGeneration, int number) {
@@ -219,9 +222,10 @@ void ExportPage::fillTracks() {
                 .arg(look::numberText(winner.record.fitness.total())),
             winner.generation, winner.individual);
     }
-    for (int i = 0; chosen_ && i < tracks_->count(); ++i) {
-        if (tracks_->itemData(i, kGeneration) == generation &&
-            tracks_->itemData(i, kIndividual) == individual)
+    const auto chosen = session_->chosen();
+    for (int i = 0; chosen && i < tracks_->count(); ++i) {
+        if (tracks_->itemData(i, kGeneration) == chosen->generation &&
+            tracks_->itemData(i, kIndividual) == chosen->individual)
             return tracks_->setCurrentIndex(i);
     }
 }

@@ -46,7 +46,6 @@ class ExportPage : public Page {
     std::shared_ptr<const session::PrintedTrack> printed_;  // of the choice in force; null while it is built
     std::shared_ptr<const geometry::TriangleMesh> shown_;   // the last one that was built
     bool stale_ = true;                                     // nothing was asked for since the last change
-    bool chosen_ = false;                                   // the user picked the track
     QWidget* contents_;
     QLabel* empty_;
     QComboBox* tracks_;

@@ -121,15 +121,19 @@ void JudgingCard::update() {
     }
     compare_->setEnabled(obstacle.isEmpty());
     validate_->setEnabled(obstacle.isEmpty() && winner_.has_value());
-    compare_->setToolTip(obstacle.isEmpty() ? tr("Simulate the highest winners many times each and rank them") : obstacle);
-    validate_->setToolTip(obstacle.isEmpty() ? tr("Simulate parts that start in each stable pose") : obstacle);
+    compare_->setToolTip(obstacle.isEmpty() ? tr("Simulate the highest winners many times each and rank them")
+                                            : obstacle);
+    validate_->setToolTip(obstacle.isEmpty() ? tr("Simulate parts that start in each stable pose")
+                                             : obstacle);
     busy_->setVisible(judging);
     showProgress();
     if (!session_) return;
     const study::ValidationSettings& settings = session_->settings().validation;
     const QLocale locale;
-    const auto winners = std::min<std::size_t>(static_cast<std::size_t>(settings.selectionWinners), session_->winners().size());
-    compareText_->setText(tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials)));
+    const auto winners = std::min<std::size_t>(static_cast<std::size_t>(settings.selectionWinners),
+                                               session_->winners().size());
+    compareText_->setText(
+        tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials)));
     validateText_->setText(tr("%1 stable poses, %2 trials each")
                                .arg(session_->part()->stablePoses.size())
                                .arg(locale.toString(settings.trialsPerPose)));

@@ -17,7 +17,8 @@ class StudySession;
 
 namespace trapwright::pages {
 
-/// Starts the comparison of the best winners and the validation of one track, and shows how far they have come.
+/// Starts the comparison of the best winners and the validation of one track, and shows how far they have
+/// come.
 class JudgingCard : public QWidget {
     Q_OBJECT
  public:

@@ -14,15 +14,32 @@ namespace {
 constexpr int kPicturesWaiting = 3;  // that ffmpeg has not taken yet
 
 QStringList arguments(const Movie& movie, const QString& file) {
-    return {"-y",         "-loglevel",   "error",
-            "-f",         "rawvideo",    "-pixel_format",
-            "bgr0",       "-video_size", QString("%1x%2").arg(movie.size.width()).arg(movie.size.height()),
-            "-framerate", QString::number(movie.framesPerSecond),
-            "-i",         "-",           "-an",
-            "-c:v",       "libx264",     "-preset",
-            "medium",     "-crf",        "18",
-            "-pix_fmt",   "yuv420p",     "-movflags",
-            "+faststart", "-f",          "mp4",
+    return {"-y",
+            "-loglevel",
+            "error",
+            "-f",
+            "rawvideo",
+            "-pixel_format",
+            "bgr0",
+            "-video_size",
+            QString("%1x%2").arg(movie.size.width()).arg(movie.size.height()),
+            "-framerate",
+            QString::number(movie.framesPerSecond),
+            "-i",
+            "-",
+            "-an",
+            "-c:v",
+            "libx264",
+            "-preset",
+            "medium",
+            "-crf",
+            "18",
+            "-pix_fmt",
+            "yuv420p",
+            "-movflags",
+            "+faststart",
+            "-f",
+            "mp4",
             file};
 }
 
@@ -38,8 +55,9 @@ void MovieExport::start(const Movie& movie) {
     if (busy()) return;
     const QString program = QStandardPaths::findExecutable("ffmpeg");
     if (program.isEmpty()) {
-        emit failed(tr("Films are made by the program ffmpeg, which is not installed. Install it (on Debian and Ubuntu: "
-                       "sudo apt install ffmpeg) and try again."));
+        emit failed(tr(
+            "Films are made by the program ffmpeg, which is not installed. Install it (on Debian and Ubuntu: "
+            "sudo apt install ffmpeg) and try again."));
         return;
     }
     movie_ = movie;
@@ -67,7 +85,8 @@ void MovieExport::cancel() {
 /// Gives ffmpeg one picture, and comes back for the next one when other events had their turn.
 void MovieExport::feed() {
     if (!busy() || feeding_ || next_ >= movie_.frames || process_->state() != QProcess::Running) return;
-    if (process_->bytesToWrite() >= kPicturesWaiting * 4LL * movie_.size.width() * movie_.size.height()) return;
+    if (process_->bytesToWrite() >= kPicturesWaiting * 4LL * movie_.size.width() * movie_.size.height())
+        return;
     feeding_ = true;
     const QImage picture = movie_.picture(next_).convertToFormat(QImage::Format_RGB32);
     feeding_ = false;
@@ -92,12 +111,13 @@ void MovieExport::end(int exitCode, QProcess::ExitStatus status) {
     const bool complete = status == QProcess::NormalExit && exitCode == 0 && next_ == movie_.frames;
     std::error_code error;
     if (complete)
-        std::filesystem::rename(QFile::encodeName(partial_).toStdString(), QFile::encodeName(movie_.file).toStdString(),
-                                error);
+        std::filesystem::rename(QFile::encodeName(partial_).toStdString(),
+                                QFile::encodeName(movie_.file).toStdString(), error);
     const QString file = movie_.file;
     drop();
     if (!complete) {
-        emit failed(tr("ffmpeg could not write %1: %2").arg(file, said.isEmpty() ? tr("it ended early") : said));
+        emit failed(
+            tr("ffmpeg could not write %1: %2").arg(file, said.isEmpty() ? tr("it ended early") : said));
     } else if (error) {
         emit failed(tr("%1 cannot be written: %2").arg(file, QString::fromStdString(error.message())));
     } else {

@@ -12,15 +12,15 @@ namespace trapwright::pages {
 
 /// A film to be made.
 struct Movie {
-    QString file;              // .mp4
-    QSize size;                // pixels, even
+    QString file;  // .mp4
+    QSize size;    // pixels, even
     int framesPerSecond = 30;
     int frames = 0;
     std::function<QImage(int frame)> picture;  // of that size; called in the GUI thread
 };
 
-/// Makes a film with ffmpeg, picture by picture between the window's other events. The file appears when it is
-/// complete.
+/// Makes a film with ffmpeg, picture by picture between the window's other events. The file appears when it
+/// is complete.
 class MovieExport : public QObject {
     Q_OBJECT
  public:

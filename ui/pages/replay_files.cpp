@@ -124,13 +124,15 @@ void ReplayFiles::addButtons() {
     savePicture_->setObjectName("review.savePicture");
     savePicture_->setToolTip(tr("Save what the scene shows as a picture"));
     connect(savePicture_, &QPushButton::clicked, this, [this] {
-        look::askForNewFile(this, {"picture", tr("Save the picture"), tr("Save"), tr("Pictures (*.png)"), "png", name_},
-                            [this](const std::filesystem::path& file) { savePicture(look::toText(file)); });
+        look::askForNewFile(
+            this, {"picture", tr("Save the picture"), tr("Save"), tr("Pictures (*.png)"), "png", name_},
+            [this](const std::filesystem::path& file) { savePicture(look::toText(file)); });
     });
     saveMovie_->setObjectName("review.saveMovie");
     saveMovie_->setToolTip(tr("Save the replay as a film, at the speed of the replay"));
     connect(saveMovie_, &QPushButton::clicked, this, [this] {
-        look::askForNewFile(this, {"film", tr("Save the film"), tr("Save"), tr("Films (*.mp4)"), "mp4", name_},
+        look::askForNewFile(this,
+                            {"film", tr("Save the film"), tr("Save"), tr("Films (*.mp4)"), "mp4", name_},
                             [this](const std::filesystem::path& file) { saveMovie(look::toText(file)); });
     });
 }
@@ -138,7 +140,8 @@ void ReplayFiles::addButtons() {
 void ReplayFiles::setScene(scene::SceneView* scene) {
     if (scene == nullptr && export_.busy()) {
         export_.cancel();
-        emit failed(tr("The film was not saved"), tr("Its pictures are those of the Review page: stay there until it is."));
+        emit failed(tr("The film was not saved"),
+                    tr("Its pictures are those of the Review page: stay there until it is."));
     }
     scene_ = scene;
     showLength();
@@ -182,9 +185,11 @@ void ReplayFiles::savePicture(const QString& file) {
         emit failed(tr("The picture cannot be saved"), tr("It could not be drawn. Try a smaller size."));
         return;
     }
-    const base::Status status = base::writeFile(QFile::encodeName(file).toStdString(),
-                                                std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
-    if (!status) return emit failed(tr("The picture cannot be saved"), QString::fromStdString(status.error().message));
+    const base::Status status =
+        base::writeFile(QFile::encodeName(file).toStdString(),
+                        std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
+    if (!status)
+        return emit failed(tr("The picture cannot be saved"), QString::fromStdString(status.error().message));
     length_->setText(tr("Saved: %1").arg(file));
 }
 

@@ -19,7 +19,8 @@ void ReplayScene::setScene(scene::SceneView* scene) {
     showTrack();
 }
 
-void ReplayScene::setTrack(std::shared_ptr<const track::Track> track, std::shared_ptr<const part::Part> part) {
+void ReplayScene::setTrack(std::shared_ptr<const track::Track> track,
+                           std::shared_ptr<const part::Part> part) {
     trials_.clear();
     if (track == track_ && part == part_) return showTrials();
     track_ = std::move(track);

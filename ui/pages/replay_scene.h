@@ -27,8 +27,8 @@ struct ReplayView {
     bool forces = false;
 };
 
-/// A track with the trials that are replayed on it, in the 3D scene: the first as the part itself, the others as
-/// ghosts in the colours of their verdicts.
+/// A track with the trials that are replayed on it, in the 3D scene: the first as the part itself, the others
+/// as ghosts in the colours of their verdicts.
 class ReplayScene {
  public:
     /// The scene to draw in from now on, at once with everything; null: none.

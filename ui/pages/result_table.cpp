@@ -27,7 +27,8 @@ bool isLink(const QModelIndex& index, const QSet<int>& columns) {
 
 class LinkDelegate : public QStyledItemDelegate {
  public:
-    LinkDelegate(const QSet<int>& columns, QObject* parent) : QStyledItemDelegate(parent), columns_(columns) {}
+    LinkDelegate(const QSet<int>& columns, QObject* parent)
+        : QStyledItemDelegate(parent), columns_(columns) {}
 
  protected:
     void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
@@ -67,6 +68,9 @@ ResultTable::ResultTable(const QString& name, const QString& title, QAbstractIte
     setAccessibleName(title);
     text_->setObjectName(name + ".head");
     text_->setForegroundRole(QPalette::PlaceholderText);
+    // It must not widen the window's middle.
+    text_->setWordWrap(true);
+    text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     empty_->setAlignment(Qt::AlignCenter);
     empty_->setWordWrap(true);
     empty_->setMargin(16);
@@ -128,13 +132,13 @@ void ResultTable::showEmpty() {
 }
 
 void ResultTable::askAndSave() {
-    look::askForNewFile(this, {"table", tr("Save the table"), tr("Save"), tr("CSV (*.csv)"), "csv", accessibleName()},
-                        [this](const std::filesystem::path& file) {
-                            const base::Status status = base::writeFile(file, models::toCsv(model_).toStdString());
-                            if (!status)
-                                emit failed(tr("The table cannot be saved"),
-                                            QString::fromStdString(status.error().message));
-                        });
+    look::askForNewFile(
+        this, {"table", tr("Save the table"), tr("Save"), tr("CSV (*.csv)"), "csv", accessibleName()},
+        [this](const std::filesystem::path& file) {
+            const base::Status status = base::writeFile(file, models::toCsv(model_).toStdString());
+            if (!status)
+                emit failed(tr("The table cannot be saved"), QString::fromStdString(status.error().message));
+        });
 }
 
 }  // namespace trapwright::pages

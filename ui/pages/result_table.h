@@ -12,8 +12,8 @@ class QTableView;
 
 namespace trapwright::pages {
 
-/// A table of results with a sentence above it and actions beside that; while it is empty, it says what to do.
-/// Numbers in some columns look and work like links, unless they are 0.
+/// A table of results with a sentence above it and actions beside that; while it is empty, it says what to
+/// do. Numbers in some columns look and work like links, unless they are 0.
 class ResultTable : public QWidget {
     Q_OBJECT
  public:

@@ -31,7 +31,8 @@ QString fromText(const std::string& text) {
 }  // namespace
 
 ReviewPage::ReviewPage(QWidget* parent)
-    : Page({"review", tr("Review"), "review", tr("Compare the winners, validate the best one, replay its trials")},
+    : Page({"review", tr("Review"), "review",
+            tr("Compare the winners, validate the best one, replay its trials")},
            parent),
       review_(this),
       choice_(new TrackChoice(this)),
@@ -71,7 +72,8 @@ void ReviewPage::addInspector() {
 void ReviewPage::addTables() {
     selectionTable_->view().setSelectionBehavior(QAbstractItemView::SelectRows);
     connect(selectionTable_.get(), &ResultTable::cellChosen, this, [this](const QModelIndex& index) {
-        choice_->setWinner(index.data(models::GenerationRole).toInt(), index.data(models::IndividualRole).toInt());
+        choice_->setWinner(index.data(models::GenerationRole).toInt(),
+                           index.data(models::IndividualRole).toInt());
     });
     validationTable_->setLinkColumns({ValidationModel::Failures, ValidationModel::WrongOrientation,
                                       ValidationModel::Stuck, ValidationModel::FellOff});
@@ -158,35 +160,39 @@ void ReviewPage::showWinner() {
 
 void ReviewPage::showSelection() {
     if (!shownSelection_) return;
-    shownSelection_->setEmptyText(session_ && !session_->winners().empty()
-                                      ? tr("The winners were not compared yet. Compare them to find the best one.")
-                                      : tr("Learn a track first: then the winners can be compared."));
+    shownSelection_->setEmptyText(
+        session_ && !session_->winners().empty()
+            ? tr("The winners were not compared yet. Compare them to find the best one.")
+            : tr("Learn a track first: then the winners can be compared."));
     if (!session_ || session_->selections().empty()) {
         shownSelection_->setHead({});
         return selection_.clear();
     }
     const study::SelectionRecord& last = session_->selections().back();
-    shownSelection_->setHead(tr("Simulated by %1. Choose a row to look at its track.").arg(fromText(last.engine)));
+    shownSelection_->setHead(
+        tr("Simulated by %1. Choose a row to look at its track.").arg(fromText(last.engine)));
     selection_.setSelection(last);
 }
 
 void ReviewPage::showValidation() {
     if (!shownValidation_) return;
     const std::optional<study::Winner>& winner = choice_->winner();
-    shownValidation_->setEmptyText(winner ? tr("This track was not validated yet. Validate it to see how often it fails.")
-                                          : tr("Learn a track first: then it can be validated."));
+    shownValidation_->setEmptyText(
+        winner ? tr("This track was not validated yet. Validate it to see how often it fails.")
+               : tr("Learn a track first: then it can be validated."));
     const study::ValidationRecord* found = nullptr;
     if (session_ && winner) {
         for (const study::ValidationRecord& record : session_->validations())
-            if (record.generation == winner->generation && record.individual == winner->individual) found = &record;
+            if (record.generation == winner->generation && record.individual == winner->individual)
+                found = &record;
     }
     if (found == nullptr) {
         shownValidation_->setHead({});
         return validation_.clear();
     }
-    shownValidation_->setHead(tr("Simulated by %1; success is within %2° of the expected orientation. Choose a number of "
-                                 "failures to see them.")
-                                  .arg(fromText(found->engine), look::numberText(found->tolerance / base::kDegree)));
+    shownValidation_->setHead(
+        tr("Simulated by %1, success within %2°. Choose a number of failures to see them.")
+            .arg(fromText(found->engine), look::numberText(found->tolerance / base::kDegree)));
     validation_.setValidation(*found);
 }
 

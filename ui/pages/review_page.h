@@ -15,8 +15,8 @@ class ReplayFiles;
 class ResultTable;
 class TrackChoice;
 
-/// Step 4: how good a track is. The best winners are compared, the chosen one is validated, and every trial can be
-/// looked at.
+/// Step 4: how good a track is. The best winners are compared, the chosen one is validated, and every trial
+/// can be looked at.
 class ReviewPage : public Page {
     Q_OBJECT
  public:

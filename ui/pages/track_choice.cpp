@@ -30,8 +30,9 @@ QString nameOf(int generation, int individual) {
 }
 
 QString shareText(int good, int trials) {
-    return TrackChoice::tr("%1 % (95 % bounds %2)")
-        .arg(models::percent(good, trials), models::boundsText(stats::calcClopperPearson(good, trials), trials));
+    return TrackChoice::tr("%1 % (%2)")
+        .arg(models::percent(good, trials),
+             models::boundsText(stats::calcClopperPearson(good, trials), trials));
 }
 
 }  // namespace
@@ -79,7 +80,8 @@ void TrackChoice::setSession(StudySession* session) {
 }
 
 void TrackChoice::setWinner(int generation, int individual) {
-    if (!session_ || (winner_ && winner_->generation == generation && winner_->individual == individual)) return;
+    if (!session_ || (winner_ && winner_->generation == generation && winner_->individual == individual))
+        return;
     const auto winner = session_->loadWinner(generation, individual);
     if (!winner) {
         emit failed(tr("The track cannot be shown"), QString::fromStdString(winner.error().message));
@@ -126,8 +128,10 @@ void TrackChoice::showFacts() {
     const study::SelectionEntry* compared = nullptr;
     for (const study::SelectionRecord& selection : session_->selections())
         for (const study::SelectionEntry& entry : selection.entries)
-            if (entry.generation == winner_->generation && entry.individual == winner_->individual) compared = &entry;
-    if (compared != nullptr) facts.emplace_back(tr("Comparison"), shareText(compared->oriented, compared->trials));
+            if (entry.generation == winner_->generation && entry.individual == winner_->individual)
+                compared = &entry;
+    if (compared != nullptr)
+        facts.emplace_back(tr("Comparison"), shareText(compared->oriented, compared->trials));
     const study::ValidationRecord* validated = nullptr;
     for (const study::ValidationRecord& validation : session_->validations())
         if (validation.generation == winner_->generation && validation.individual == winner_->individual)

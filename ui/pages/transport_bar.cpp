@@ -30,7 +30,10 @@ int toLine(double time) {
 }  // namespace
 
 TransportBar::TransportBar(ReplayPlayer& player)
-    : player_(player), line_(new QSlider(Qt::Horizontal, this)), time_(new QLabel(this)), speed_(new QComboBox(this)) {
+    : player_(player),
+      line_(new QSlider(Qt::Horizontal, this)),
+      time_(new QLabel(this)),
+      speed_(new QComboBox(this)) {
     setObjectName("transport");
     setAccessibleName(tr("Replay"));
     setAttribute(Qt::WA_StyledBackground);
@@ -84,8 +87,8 @@ ReplayView TransportBar::view() const {
     return {trace_->isChecked(), forces_->isChecked()};
 }
 
-QAction* TransportBar::addButton(QHBoxLayout& row, const QString& name, const QString& icon, const QString& text,
-                                 const QKeySequence& key) {
+QAction* TransportBar::addButton(QHBoxLayout& row, const QString& name, const QString& icon,
+                                 const QString& text, const QKeySequence& key) {
     auto* action = new QAction(look::icon(icon), text, this);
     action->setObjectName(name);
     action->setShortcut(key);
@@ -101,8 +104,8 @@ QAction* TransportBar::addButton(QHBoxLayout& row, const QString& name, const QS
     return action;
 }
 
-QAction* TransportBar::addSwitch(QHBoxLayout& row, const QString& name, const QString& icon, const QString& text,
-                                 const QKeySequence& key, bool on) {
+QAction* TransportBar::addSwitch(QHBoxLayout& row, const QString& name, const QString& icon,
+                                 const QString& text, const QKeySequence& key, bool on) {
     QAction* action = addButton(row, name, icon, text, key);
     action->setCheckable(true);
     action->setChecked(on);
@@ -110,7 +113,9 @@ QAction* TransportBar::addSwitch(QHBoxLayout& row, const QString& name, const QS
 }
 
 void TransportBar::addPlayerButtons(QHBoxLayout& row) {
-    const auto connectTo = [this](QAction* action, auto act) { connect(action, &QAction::triggered, this, act); };
+    const auto connectTo = [this](QAction* action, auto act) {
+        connect(action, &QAction::triggered, this, act);
+    };
     connectTo(addButton(row, "replay.toStart", "to-start", tr("To the beginning"), Qt::Key_Home),
               [this] { player_.setTime(0.0); });
     connectTo(addButton(row, "replay.stepBack", "step-back", tr("Back by 1 ms"), Qt::Key_Left),
@@ -173,7 +178,8 @@ void TransportBar::showTime() {
     line_->setValue(toLine(player_.time()));
     const QLocale locale;
     time_->setText(any ? tr("%1 of %2 s · cycle %3")
-                             .arg(locale.toString(player_.time(), 'f', 3), locale.toString(player_.duration(), 'f', 3),
+                             .arg(locale.toString(player_.time(), 'f', 3),
+                                  locale.toString(player_.duration(), 'f', 3),
                                   locale.toString(player_.time() * frequency_, 'f', 1))
                        : hint_);
     time_->setForegroundRole(any ? QPalette::WindowText : QPalette::PlaceholderText);

@@ -14,8 +14,8 @@ class QSlider;
 
 namespace trapwright::pages {
 
-/// What is below a scene in which something is replayed: the time line, and the buttons of a player. Each button is
-/// an action with a key.
+/// What is below a scene in which something is replayed: the time line, and the buttons of a player. Each
+/// button is an action with a key.
 class TransportBar : public QWidget {
     Q_OBJECT
  public:

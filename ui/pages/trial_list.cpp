@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "ui/look/icon.h"
 #include "ui/models/verdict_look.h"
 
 namespace trapwright::pages {
@@ -114,14 +113,12 @@ QWidget* TrialList::makeFoot() {
     ghosts_->setObjectName("trials.ghosts");
     ghosts_->setRange(0, kMostGhosts);
     ghosts_->setAccessibleName(tr("Ghosts"));
-    ghosts_->setToolTip(tr("How many of the next trials of the list are shown at once, in the colours of how they end"));
+    ghosts_->setToolTip(
+        tr("How many of the next trials of the list are shown at once, in the colours of how they end"));
     connect(ghosts_, &QSpinBox::valueChanged, this, &TrialList::chosenChanged);
-    auto* sign = new QLabel(foot);
-    sign->setPixmap(look::icon("ghosts").pixmap(16));
     auto* label = new QLabel(tr("Next ones as &ghosts"), foot);
     label->setBuddy(ghosts_);
     auto* row = new QHBoxLayout;
-    row->addWidget(sign);
     row->addWidget(label, 1);
     row->addWidget(ghosts_);
 
@@ -209,7 +206,8 @@ void TrialList::applyChips() {
 
 void TrialList::select(int trial) {
     const QModelIndex index = filter_.mapFromSource(model_.index(trial, TrialModel::Trial));
-    table_->selectionModel()->setCurrentIndex(index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    table_->selectionModel()->setCurrentIndex(
+        index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     table_->scrollTo(index);
 }
 

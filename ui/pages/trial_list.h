@@ -26,8 +26,8 @@ struct TrialSource {
     int count = 0;
 };
 
-/// The simulated trials of one individual: which ones, how each ended, filters by that, and which are replayed. The
-/// current one is; the other selected ones go along as ghosts.
+/// The simulated trials of one individual: which ones, how each ended, filters by that, and which are
+/// replayed. The current one is; the other selected ones go along as ghosts.
 class TrialList : public QWidget {
     Q_OBJECT
  public:

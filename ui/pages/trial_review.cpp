@@ -25,11 +25,12 @@ std::vector<models::TrialRow> makeRows(const SimulatedTrials& trials, const part
     std::vector<models::TrialRow> rows;
     for (std::size_t i = 0; i < trials.outcomes.size(); ++i) {
         const trial::Outcome& outcome = trials.outcomes[i];
-        models::TrialRow row{static_cast<int>(i), trials.request.kind == TrialKind::validation ? trials.request.pose : -1,
+        models::TrialRow row{static_cast<int>(i),
+                             trials.request.kind == TrialKind::validation ? trials.request.pose : -1,
                              trials.judged.verdicts[i], outcome};
         if (outcome.ending == trial::Ending::finished)
-            row.angle = trial::calcOrientationAngle(outcome.farthest.rotation, trials.judged.expected, symmetry,
-                                                    trial::OrientationDistance::symmetric);
+            row.angle = trial::calcOrientationAngle(outcome.farthest.rotation, trials.judged.expected,
+                                                    symmetry, trial::OrientationDistance::symmetric);
         rows.push_back(std::move(row));
     }
     return rows;
@@ -57,11 +58,12 @@ TrialReview::TrialReview(QObject* parent)
     connect(bar_, &TransportBar::viewChanged, this, [this](const ReplayView& view) { scene_.setView(view); });
     connect(&player_, &ReplayPlayer::timeChanged, this, [this](double time) { scene_.showTime(time); });
     connect(orientation_, &charts::ChartPanel::failed, this, &TrialReview::failed);
-    connect(&build_, &session::TrackBuild::built, this, [this](const std::shared_ptr<const track::Track>& track) {
-        track_ = track;
-        showTrack();
-        wantReplays();
-    });
+    connect(&build_, &session::TrackBuild::built, this,
+            [this](const std::shared_ptr<const track::Track>& track) {
+                track_ = track;
+                showTrack();
+                wantReplays();
+            });
     connect(&build_, &session::TrackBuild::failed, this,
             [this](const QString& message) { emit failed(tr("The track cannot be shown"), message); });
     setWinner(std::nullopt);
@@ -69,7 +71,8 @@ TrialReview::TrialReview(QObject* parent)
 
 TrialReview::~TrialReview() {
     // What the window took is the window's.
-    for (QWidget* widget : {static_cast<QWidget*>(list_), static_cast<QWidget*>(bar_), static_cast<QWidget*>(orientation_)})
+    for (QWidget* widget :
+         {static_cast<QWidget*>(list_), static_cast<QWidget*>(bar_), static_cast<QWidget*>(orientation_)})
         if (widget != nullptr && widget->parent() == nullptr) delete widget;
 }
 
@@ -106,8 +109,9 @@ void TrialReview::setWinner(const std::optional<study::Winner>& winner) {
     forgetTrials();
     makeSources();
     showTrack();
-    list_->setEmptyText(winner ? tr("This track was never simulated. Compare the winners or validate it first.")
-                               : tr("Learn a track first: its trials are listed here."));
+    list_->setEmptyText(winner
+                            ? tr("This track was never simulated. Compare the winners or validate it first.")
+                            : tr("Learn a track first: its trials are listed here."));
     bar_->setHint(winner ? tr("Choose a trial to replay it") : QString());
     if (!winner_) return;
     build_.buildIndividual(session_->settings().track, winner_->record.chromosome);
@@ -198,7 +202,8 @@ void TrialReview::forgetTrials() {
 }
 
 void TrialReview::wantTrials() {
-    if (simulated_ || !visible_ || !session_ || source_ < 0 || source_ >= static_cast<int>(sources_.size())) return;
+    if (simulated_ || !visible_ || !session_ || source_ < 0 || source_ >= static_cast<int>(sources_.size()))
+        return;
     simulated_ = true;
     const TrialSource& source = sources_[static_cast<std::size_t>(source_)];
     list_->setEmptyText(tr("The trials are being simulated."));
@@ -216,7 +221,8 @@ void TrialReview::takeTrials(const SimulatedTrials& trials) {
     counting_.start([this, trials, tolerance, part = session_->part()]() -> session::NewestTask::Deliver {
         auto rows = makeRows(trials, part->symmetry);
         auto shares = study::calcOrientationShares(*part, trials.outcomes, trials.judged.expected);
-        return [this, rows = std::move(rows), shares = std::move(shares), tolerance, wanted = trials.wanted]() mutable {
+        return [this, rows = std::move(rows), shares = std::move(shares), tolerance,
+                wanted = trials.wanted]() mutable {
             showTrials(std::move(rows), wanted, std::move(shares), tolerance);
         };
     });

@@ -23,8 +23,8 @@ namespace trapwright::pages {
 
 class TransportBar;
 
-/// The trials of one individual of a study: listed, replayed in the scene, and their orientations as a chart. Trials
-/// are simulated when they are to be seen.
+/// The trials of one individual of a study: listed, replayed in the scene, and their orientations as a chart.
+/// Trials are simulated when they are to be seen.
 class TrialReview : public QObject {
     Q_OBJECT
  public:
@@ -45,7 +45,8 @@ class TrialReview : public QObject {
     /// Where replays are seen; null while they are not.
     void setScene(scene::SceneView* scene);
 
-    /// Lists the validation's trials of a pose that ended so, and plays the first of them as soon as it is known.
+    /// Lists the validation's trials of a pose that ended so, and plays the first of them as soon as it is
+    /// known.
     void goToTrials(int pose, const std::set<work::TrialVerdict>& verdicts);
 
  signals:
@@ -58,7 +59,8 @@ class TrialReview : public QObject {
     void setSource(int source);
     void wantTrials();
     void takeTrials(const session::SimulatedTrials& trials);
-    void showTrials(std::vector<models::TrialRow> rows, int wanted, study::OrientationShares shares, double tolerance);
+    void showTrials(std::vector<models::TrialRow> rows, int wanted, study::OrientationShares shares,
+                    double tolerance);
     void playFirstShown();
     void wantReplays();
     void takeReplay(const work::TrialsRequest& request, int trial,
@@ -72,9 +74,9 @@ class TrialReview : public QObject {
     std::vector<TrialSource> sources_;
     int source_ = 0;
     bool visible_ = false;
-    bool simulated_ = false;     // the trials of the source are there or on their way
-    bool playWanted_ = false;    // the first trial shown, when there is one
-    std::vector<int> wanted_;    // replays, as they are to be shown
+    bool simulated_ = false;      // the trials of the source are there or on their way
+    bool playWanted_ = false;     // the first trial shown, when there is one
+    std::vector<int> wanted_;     // replays, as they are to be shown
     std::vector<int> requested_;  // of these, that have not come yet
     std::vector<ReplayedTrial> replays_;
 

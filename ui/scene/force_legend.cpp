@@ -40,7 +40,8 @@ QString forceText(double force) {
 void paintArrow(QPainter& painter, const QPointF& from, double length) {
     const QPointF tip = from + QPointF(length, 0.0);
     painter.drawLine(from, tip);
-    painter.drawPolyline(QPolygonF({tip + QPointF(-kHead, -0.6 * kHead), tip, tip + QPointF(-kHead, 0.6 * kHead)}));
+    painter.drawPolyline(
+        QPolygonF({tip + QPointF(-kHead, -0.6 * kHead), tip, tip + QPointF(-kHead, 0.6 * kHead)}));
 }
 
 }  // namespace
@@ -80,7 +81,8 @@ OverlayItem makeForceLegend(const SceneContents& contents, const Camera& camera,
                     painter.setPen(QPen(theme.contact, 2.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
                     paintArrow(painter, {area.left() + 8.0, y + 0.5 * metrics.height()}, sample.length);
                     painter.setPen(theme.text);
-                    painter.drawText(QPointF(area.left() + 18.0 + longest, y + metrics.ascent()), sample.text);
+                    painter.drawText(QPointF(area.left() + 18.0 + longest, y + metrics.ascent()),
+                                     sample.text);
                 }
             }};
 }

@@ -79,8 +79,8 @@ class StudySession : public QObject {
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
     [[nodiscard]] base::Result<study::Winner> loadWinner(int generation, int individual) const;
 
-    /// The track that the work goes on with, to be validated and exported: the user's choice, else the one that was
-    /// validated last, else the best of the last selection, else the last winner. None without generations.
+    /// The track that is exported in the end: the user's choice since the study was opened, else the best of
+    /// the last selection, else the highest winner. None without generations.
     [[nodiscard]] std::optional<study::Winner> chosen() const;
     void choose(const study::Winner& individual);
 
@@ -125,8 +125,8 @@ class StudySession : public QObject {
     /// if not the most frequent one.
     void startValidation(const study::Winner& winner,
                          const std::optional<base::Quaternion>& expected = std::nullopt);
-    /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed(); until then
-    /// trialsArrived() tells the first ones. A replay need not wait for the last one.
+    /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed(); until
+    /// then trialsArrived() tells the first ones. A replay need not wait for the last one.
     void simulateTrials(const work::TrialsRequest& request);
     /// Poses of one of these trials every `interval` seconds. Ends with replayed() or failed().
     void replay(const work::TrialsRequest& request, int trial, double interval);
@@ -188,7 +188,8 @@ class StudySession : public QObject {
     void makeAgain(const QString& what, const work::TrialsRequest& request, unsigned threads,
                    Simulate simulate);
     Deliver simulateSome(const std::shared_ptr<const Simulation>& simulation, SimulatedTrials trials);
-    void postSimulation(const QString& what, const base::RunControl& control, std::function<Deliver()> simulate);
+    void postSimulation(const QString& what, const base::RunControl& control,
+                        std::function<Deliver()> simulate);
     void countSimulations(int change);
 
     std::unique_ptr<State> state_;

@@ -35,17 +35,17 @@ void StudySession::makeAgain(const QString& what, const work::TrialsRequest& req
     if (stored->engine.empty())
         stored->engine = work::engineFor(state_->settings.simulation.engine, work::EngineUse::judging);
     if (!request.engine.empty()) stored->engine = request.engine;
-    postSimulation(what, state_->simulated,
-                   [this, request, threads, stored = std::move(*stored), simulate = std::move(simulate),
-                    settings = state_->settings, part = state_->part.part,
-                    control = state_->simulated]() -> Deliver {
-                       auto batch = work::makeTrials(settings, part, request, stored);
-                       if (!batch) return batch.error();
-                       auto engine = state_->environment.makeEngine(stored.engine, {threads, 0.0});
-                       if (!engine) return engine.error();
-                       return simulate(std::make_shared<const Simulation>(
-                           Simulation{settings, part, stored, std::move(*batch), std::move(*engine), control}));
-                   });
+    postSimulation(
+        what, state_->simulated,
+        [this, request, threads, stored = std::move(*stored), simulate = std::move(simulate),
+         settings = state_->settings, part = state_->part.part, control = state_->simulated]() -> Deliver {
+            auto batch = work::makeTrials(settings, part, request, stored);
+            if (!batch) return batch.error();
+            auto engine = state_->environment.makeEngine(stored.engine, {threads, 0.0});
+            if (!engine) return engine.error();
+            return simulate(std::make_shared<const Simulation>(
+                Simulation{settings, part, stored, std::move(*batch), std::move(*engine), control}));
+        });
 }
 
 /// `simulate` works on the thread for it, after what was posted before.
@@ -82,13 +82,14 @@ StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Sim
                                                  SimulatedTrials trials) {
     trial::TrialBatch batch = simulation->batch;
     const auto first = static_cast<std::ptrdiff_t>(trials.outcomes.size());
-    batch.trials.assign(simulation->batch.trials.begin() + first,
-                        simulation->batch.trials.begin() + std::min<std::ptrdiff_t>(first + kAtOnce, trials.wanted));
+    batch.trials.assign(
+        simulation->batch.trials.begin() + first,
+        simulation->batch.trials.begin() + std::min<std::ptrdiff_t>(first + kAtOnce, trials.wanted));
     const auto outcomes = study::runTrials(*simulation->engine, {&batch, 1}, simulation->control);
     if (!outcomes) return outcomes.error();
     trials.outcomes.insert(trials.outcomes.end(), outcomes->front().begin(), outcomes->front().end());
-    trials.judged = work::judgeTrials(trials.outcomes, simulation->part->symmetry, simulation->stored.expected,
-                                      simulation->settings.validation.tolerance);
+    trials.judged = work::judgeTrials(trials.outcomes, simulation->part->symmetry,
+                                      simulation->stored.expected, simulation->settings.validation.tolerance);
     return std::function([this, simulation, trials = std::move(trials)] {
         if (static_cast<int>(trials.outcomes.size()) == trials.wanted) {
             emit trialsSimulated(trials);
@@ -103,18 +104,18 @@ StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Sim
 }
 
 void StudySession::replay(const work::TrialsRequest& request, int trial, double interval) {
-    makeAgain(tr("The trial could not be replayed"), request, 1,
-              [this, request, trial,
-               interval](const std::shared_ptr<const Simulation>& simulation) -> Deliver {
-                  if (trial < 0 || trial >= static_cast<int>(simulation->batch.trials.size()))
-                      return base::Error{noTrials().toStdString()};
-                  auto replay = simulation->engine->replay(simulation->batch, static_cast<std::size_t>(trial),
-                                                           interval, simulation->control);
-                  if (!replay) return replay.error();
-                  const auto trajectory = std::make_shared<const trial::Trajectory>(std::move(*replay));
-                  return std::function(
-                      [this, request, trial, trajectory] { emit replayed(request, trial, trajectory); });
-              });
+    makeAgain(
+        tr("The trial could not be replayed"), request, 1,
+        [this, request, trial, interval](const std::shared_ptr<const Simulation>& simulation) -> Deliver {
+            if (trial < 0 || trial >= static_cast<int>(simulation->batch.trials.size()))
+                return base::Error{noTrials().toStdString()};
+            auto replay = simulation->engine->replay(simulation->batch, static_cast<std::size_t>(trial),
+                                                     interval, simulation->control);
+            if (!replay) return replay.error();
+            const auto trajectory = std::make_shared<const trial::Trajectory>(std::move(*replay));
+            return std::function(
+                [this, request, trial, trajectory] { emit replayed(request, trial, trajectory); });
+        });
 }
 
 void StudySession::cancelSimulations() {

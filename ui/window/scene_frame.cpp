@@ -60,6 +60,9 @@ SceneFrame::SceneFrame(QWidget* parent)
 
 void SceneFrame::showWelcome(bool welcome) {
     stack_->setCurrentIndex(welcome ? 0 : 1);
+    // Unseen it must not keep the scene wide.
+    const QSizePolicy::Policy policy = welcome ? QSizePolicy::Preferred : QSizePolicy::Ignored;
+    welcome_->setSizePolicy(policy, policy);
 }
 
 void SceneFrame::addBar(const QString& page, QWidget* bar) {

@@ -66,7 +66,8 @@ class RecordedMotionTest : public QObject {
         Trajectory trajectory;
         trajectory.samples.resize(2);
         trajectory.samples[1].time = 0.5;
-        trajectory.samples[1].room = {base::Quaternion(Eigen::AngleAxisd(1.0, Vec3::UnitX())), {0.0, 4.0, 0.0}};
+        trajectory.samples[1].room = {base::Quaternion(Eigen::AngleAxisd(1.0, Vec3::UnitX())),
+                                      {0.0, 4.0, 0.0}};
         trajectory.samples[1].forces.resize(1);
         const RecordedMotion motion(trajectory, {});
         const base::Pose pose = motion.poseAt(0.125);
