@@ -54,13 +54,13 @@ FoldingGroup::FoldingGroup(const QString& name, const QString& title, bool folde
     body_->setSpacing(4);
 
     connect(title_, &QToolButton::toggled, this, [this](bool open) {
-        show_(!open);
+        applyFold(!open);
         QSettings().setValue(settingOf(name_), !open);
     });
     const bool folded = QSettings().value(settingOf(name), foldedAtFirst).toBool();
     const QSignalBlocker quiet(title_);
     title_->setChecked(!folded);
-    show_(folded);
+    applyFold(folded);
 }
 
 void FoldingGroup::setSummary(const QString& text) {
@@ -80,7 +80,7 @@ void FoldingGroup::changeEvent(QEvent* event) {
     if (event->type() == QEvent::PaletteChange) title_->setIcon(icon(isFolded() ? "fold" : "unfold"));
 }
 
-void FoldingGroup::show_(bool folded) {
+void FoldingGroup::applyFold(bool folded) {
     contents_->setVisible(!folded);
     title_->setIcon(icon(folded ? "fold" : "unfold"));
 }

@@ -26,7 +26,7 @@ class FoldingGroup : public QWidget {
     void changeEvent(QEvent* event) override;
 
  private:
-    void show_(bool folded);
+    void applyFold(bool folded);
 
     QString name_;
     QToolButton* title_;

@@ -27,6 +27,13 @@ look::FileQuestion partQuestion() {
             {},           {}};
 }
 
+work::PartRequest partRequest(const std::string& part) {
+    work::PartRequest request;
+    request.part = part;
+    request.tolerance = study::PartSettings{}.symmetryTolerance;
+    return request;
+}
+
 QString sizeText(const base::Vec3& size) {
     constexpr double kMillimetres = 1e3;
     const bool large = size.maxCoeff() >= 1.0;

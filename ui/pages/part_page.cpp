@@ -218,9 +218,7 @@ void PartPage::deactivate() {
 }
 
 bool PartPage::takeFile(const std::filesystem::path& file) {
-    work::PartRequest request;
-    request.part = file.string();
-    import(request);
+    import(partRequest(file.string()));
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QScreen>
 #include <QSettings>
 #include <QTimer>
 #include <QUndoGroup>
@@ -24,7 +25,8 @@ namespace trapwright::window {
 
 namespace {
 
-constexpr QSize kFirstSize(1280, 800);
+constexpr QSize kFirstSize(1440, 900);
+constexpr QSize kFrameOfWindow(16, 48);  // that the desktop draws around it, about
 const QString kFirstPage = QStringLiteral("part");
 
 bool isStudy(const std::filesystem::path& file) {
@@ -71,7 +73,7 @@ MainWindow::MainWindow(session::Environment environment)
     addHelpMenu();
     addCorner();
 
-    resize(kFirstSize);
+    resize(kFirstSize.boundedTo(screen()->availableSize() - kFrameOfWindow));
     restoreGeometry(QSettings().value("window/geometry").toByteArray());
     setSession(nullptr);
     updateTitle();

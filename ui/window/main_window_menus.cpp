@@ -163,7 +163,6 @@ void MainWindow::addCorner() {
         auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action));
         if (button == nullptr) continue;
         button->setFocusPolicy(Qt::TabFocus);
-        button->setAccessibleName(action->text().remove('&'));
         if (action != run_.start()) continue;
         // A menu bar does not make room for a text that grows: "Start" becomes "Go on" and "Resume".
         button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);

@@ -104,9 +104,7 @@ void MainWindow::openExample(const QString& name, bool learn) {
                     showPage("evolve");
                     desk_.session()->startLearning();
                 });
-        work::PartRequest request;
-        request.part = name.toStdString();
-        import->start(request);
+        import->start(pages::partRequest(name.toStdString()));
     });
 }
 

@@ -1,6 +1,7 @@
 #include "ui/window/rail.h"
 
 #include <QActionGroup>
+#include <QLayout>
 #include <QToolButton>
 
 #include "ui/look/icon.h"
@@ -17,7 +18,7 @@ constexpr int kIcon = 26;
 // The page that is shown has a bar of the accent at its left, and bold text: never colour alone.
 constexpr auto kStyle =
     "#rail { border: none; border-right: 1px solid palette(mid); background: palette(base); spacing: 0px; "
-    "padding: 4px 0px; }"
+    "padding: 0px; }"
     "#rail QToolButton { border: none; border-left: 3px solid transparent; border-radius: 0px; padding: 6px "
     "3px 6px 0px; }"
     "#rail QToolButton:hover { background: palette(window); }"
@@ -34,6 +35,8 @@ Rail::Rail(const std::vector<pages::Page*>& pages, QWidget* parent) : QToolBar(t
     setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
     setIconSize({kIcon, kIcon});
     setStyleSheet(kStyle);
+    layout()->setContentsMargins(0, 0, 0, 0);
+    layout()->setSpacing(0);
 
     auto* group = new QActionGroup(this);
     for (std::size_t i = 0; i < pages.size(); ++i) {
