@@ -99,8 +99,7 @@ class RunningTest : public QObject {
             open(window);
             action(window, "run.start")->trigger();
             QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
-            QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(state_) && !std::filesystem::is_empty(state_),
-                                     kPatience);
+            QTRY_VERIFY_WITH_TIMEOUT(hasNote(), kPatience);
             std::filesystem::copy(state_, copy_, std::filesystem::copy_options::recursive);
         }
         std::filesystem::remove_all(state_);
@@ -139,6 +138,14 @@ class RunningTest : public QObject {
         window.show();
         window.openFile(study_);
         QVERIFY(QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, kPatience));
+    }
+    /// Its lock is there before it.
+    [[nodiscard]] bool hasNote() const {
+        std::error_code missing;
+        for (const auto& entry : std::filesystem::directory_iterator(state_, missing)) {
+            if (entry.path().extension() == ".note") return true;
+        }
+        return false;
     }
     static QAction* action(window::MainWindow& window, const char* name) {
         return window.findChild<QAction*>(name);
