@@ -23,14 +23,14 @@ Q_DECLARE_METATYPE(PrintOptions)
 
 namespace {
 
-constexpr double mm = base::kMillimetre;
-constexpr double kBase = 3 * mm;
-constexpr double kWidth = 60 * mm;
-constexpr double kSurface = 15 * mm;  // the lead-in's height
+constexpr double kMm = base::kMillimetre;
+constexpr double kBase = 3 * kMm;
+constexpr double kWidth = 60 * kMm;
+constexpr double kSurface = 15 * kMm;  // the lead-in's height
 
 /// Flat from end to end: 80 mm lead-in, 20 mm trap, two segments of 36 mm: 172 mm.
 Track makeFlat(const FeederShape& shape = {}) {
-    track::CrossSection section{20 * mm, {}};
+    track::CrossSection section{20 * kMm, {}};
     for (const double y : {-0.5, -0.2, 0.1, 0.5})
         section.points.emplace_back(y * kWidth, kSurface);
     track::TrackParameters parameters;
@@ -38,7 +38,7 @@ Track makeFlat(const FeederShape& shape = {}) {
     return track::buildTrack(parameters, {{section}}).value();
 }
 
-constexpr double kLength = 172 * mm;
+constexpr double kLength = 172 * kMm;
 
 Track readExample(const std::string& name) {
     const auto file =
@@ -131,24 +131,24 @@ class PrintSolidTest : public QObject {
         const double plain = kLength * kWidth * (kSurface + kBase);
         compareVolume(volumeOf(track, {}), plain);
         PrintOptions options;
-        options.baseThickness = 7 * mm;
-        compareVolume(volumeOf(track, options), kLength * kWidth * (kSurface + 7 * mm));
+        options.baseThickness = 7 * kMm;
+        compareVolume(volumeOf(track, options), kLength * kWidth * (kSurface + 7 * kMm));
 
-        options = makeOptions(10 * mm, false, 0.0);
-        options.wallThickness = 2.5 * mm;
-        const double walls = 2.0 * kLength * 2.5 * mm * (kSurface + 10 * mm + kBase);
+        options = makeOptions(10 * kMm, false, 0.0);
+        options.wallThickness = 2.5 * kMm;
+        const double walls = 2.0 * kLength * 2.5 * kMm * (kSurface + 10 * kMm + kBase);
         compareVolume(volumeOf(track, options), plain + walls);
 
         options.flange = true;
-        options.flangeThickness = 2 * mm;
-        options.boltEdgeDistance = 6 * mm;
-        const double flanges = 2.0 * kLength * 12 * mm * 2 * mm;
+        options.flangeThickness = 2 * kMm;
+        options.boltEdgeDistance = 6 * kMm;
+        const double flanges = 2.0 * kLength * 12 * kMm * 2 * kMm;
         compareVolume(volumeOf(track, options), plain + walls + flanges);
 
         // (172 - 12) / 40: five holes a side; each a 48-gon around a circle of 5 mm.
-        options.boltDiameter = 5 * mm;
-        options.boltSpacing = 40 * mm;
-        const double hole = 48.0 * std::pow(2.5 * mm, 2) * std::tan(base::kPi / 48) * 2 * mm;
+        options.boltDiameter = 5 * kMm;
+        options.boltSpacing = 40 * kMm;
+        const double hole = 48.0 * std::pow(2.5 * kMm, 2) * std::tan(base::kPi / 48) * 2 * kMm;
         compareVolume(volumeOf(track, options), plain + walls + flanges - 10.0 * hole);
 
         // Without walls the flange begins at the track's own sides.
@@ -157,13 +157,13 @@ class PrintSolidTest : public QObject {
     }
 
     void sizeOfALinearTrack() {
-        PrintOptions options = makeOptions(10 * mm, true, 4 * mm);
+        PrintOptions options = makeOptions(10 * kMm, true, 4 * kMm);
         const auto solid = track::buildPrintSolid(makeFlat(), options);
         QVERIFY(solid.ok());
         const geometry::Box box = geometry::calcBoundingBox(*solid);
         const double side = 0.5 * kWidth + options.wallThickness + 2.0 * options.boltEdgeDistance;
         QVERIFY((box.low - base::Vec3(0.0, -side, -kBase)).norm() < 1e-12);
-        QVERIFY((box.high - base::Vec3(kLength, side, kSurface + 10 * mm)).norm() < 1e-12);
+        QVERIFY((box.high - base::Vec3(kLength, side, kSurface + 10 * kMm)).norm() < 1e-12);
     }
 
     void insertOfABowl() {
@@ -171,23 +171,23 @@ class PrintSolidTest : public QObject {
             const FeederShape shape = testing::makeBowl(conveying);
             const Track track = makeFlat(shape);
             PrintOptions options = makeOptions(0.0, true, 0.0);
-            options.insertRadius = 230 * mm;
+            options.insertRadius = 230 * kMm;
             const auto solid = track::buildPrintSolid(track, options);
             QVERIFY(solid.ok());
             // The foot is a sector of a ring from the track's outer side to the bowl; chords take a little.
             const double angle = kLength / shape.bowlRadius;
             const double outside = shape.bowlRadius + 0.5 * kWidth;
-            const double foot = 0.5 * angle * (std::pow(230 * mm, 2) - outside * outside) * 3 * mm;
+            const double foot = 0.5 * angle * (std::pow(230 * kMm, 2) - outside * outside) * 3 * kMm;
             const double plain = volumeOf(track, {});
             compareVolume(geometry::checkMesh(*solid).volume - plain, foot, 0.02);
             double farthest = 0.0;
             for (const base::Vec3& v : solid->vertices)
                 farthest = std::max(farthest, std::hypot(v.x(), v.y()));
-            QVERIFY(std::abs(farthest - 230 * mm) < 1e-9);
+            QVERIFY(std::abs(farthest - 230 * kMm) < 1e-9);
 
             // Radius 230 - 8: (172 / 175 * 222 - 16) / 50: five holes.
-            options.boltDiameter = 5 * mm;
-            const double hole = 48.0 * std::pow(2.5 * mm, 2) * std::tan(base::kPi / 48) * 3 * mm;
+            options.boltDiameter = 5 * kMm;
+            const double hole = 48.0 * std::pow(2.5 * kMm, 2) * std::tan(base::kPi / 48) * 3 * kMm;
             compareVolume(geometry::checkMesh(*solid).volume - volumeOf(track, options), 5.0 * hole, 1e-6);
         }
     }
@@ -204,10 +204,10 @@ class PrintSolidTest : public QObject {
             {"anticlockwise", testing::makeBowl(Conveying::anticlockwise)}};
         const std::pair<const char*, PrintOptions> options[] = {
             {"plain", {}},
-            {"walls", makeOptions(5 * mm, false, 0.0)},
+            {"walls", makeOptions(5 * kMm, false, 0.0)},
             {"flange", makeOptions(0.0, true, 0.0)},
-            {"bolts", makeOptions(0.0, true, 4.5 * mm)},
-            {"walls, bolts", makeOptions(5 * mm, true, 4.5 * mm)}};
+            {"bolts", makeOptions(0.0, true, 4.5 * kMm)},
+            {"walls, bolts", makeOptions(5 * kMm, true, 4.5 * kMm)}};
         for (const auto& [name, track] : tracks)
             for (const auto& [kind, shape] : shapes)
                 for (const auto& [title, option] : options)
@@ -243,9 +243,9 @@ class PrintSolidTest : public QObject {
 
     void flangeAsHighAsTheSurface() {
         // The surface touches z = 0 at its border in one place; so does a flange as thick as the base.
-        track::CrossSection section{20 * mm, {{-0.5 * kWidth, 0.0}, {0.0, 0.0}, {0.5 * kWidth, 10 * mm}}};
+        track::CrossSection section{20 * kMm, {{-0.5 * kWidth, 0.0}, {0.0, 0.0}, {0.5 * kWidth, 10 * kMm}}};
         const Track track = track::buildTrack({}, {{section}}).value();
-        for (const double bolts : {0.0, 4.5 * mm}) {
+        for (const double bolts : {0.0, 4.5 * kMm}) {
             const auto solid = track::buildPrintSolid(track, makeOptions(0.0, true, bolts));
             QVERIFY(solid.ok());
             const geometry::MeshReport report = geometry::checkMesh(*solid, true);
@@ -258,7 +258,7 @@ class PrintSolidTest : public QObject {
         track::Encoding encoding;
         encoding.pointEncoding = track::PointEncoding::free;
         const Track track = track::buildTrack({}, testing::drawTrap(encoding, 5)).value();
-        const auto solid = track::buildPrintSolid(track, makeOptions(5 * mm, true, 4.5 * mm));
+        const auto solid = track::buildPrintSolid(track, makeOptions(5 * kMm, true, 4.5 * kMm));
         QVERIFY2(solid.ok(), solid.ok() ? "" : solid.error().message.c_str());
         QVERIFY(geometry::checkMesh(*solid).isSolid());
         QCOMPARE(countMissingSurface(track, *solid), 0U);
@@ -268,24 +268,25 @@ class PrintSolidTest : public QObject {
         QTest::addColumn<PrintOptions>("options");
         QTest::addColumn<QString>("option");
         const auto add = [](const char* option, auto change, const char* row = nullptr) {
-            PrintOptions options = makeOptions(5 * mm, true, 4.5 * mm);
+            PrintOptions options = makeOptions(5 * kMm, true, 4.5 * kMm);
             change(options);
             QTest::newRow(row != nullptr ? row : option) << options << QString(option);
         };
         add("baseThickness", [](PrintOptions& o) { o.baseThickness = 0.0; });
-        add("wallHeight", [](PrintOptions& o) { o.wallHeight = -1 * mm; });
+        add("wallHeight", [](PrintOptions& o) { o.wallHeight = -1 * kMm; });
         add(
             "wallHeight", [](PrintOptions& o) { o.wallHeight = NAN; }, "not a number");
         add("wallThickness", [](PrintOptions& o) { o.wallThickness = 0.0; });
         add(
             "wallThickness", [](PrintOptions& o) { o.wallThickness = 5.0; }, "wall too thick");
-        add("flangeThickness", [](PrintOptions& o) { o.flangeThickness = 3.1 * mm; });
-        add("boltDiameter", [](PrintOptions& o) { o.boltDiameter = -1 * mm; });
-        add("boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 2 * mm; });
+        add("flangeThickness", [](PrintOptions& o) { o.flangeThickness = 3.1 * kMm; });
+        add("boltDiameter", [](PrintOptions& o) { o.boltDiameter = -1 * kMm; });
+        add("boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 2 * kMm; });
         add(
-            "boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 90 * mm; }, "no length for bolts");
-        add("boltSpacing", [](PrintOptions& o) { o.boltSpacing = 4 * mm; });
-        add("insertRadius", [](PrintOptions& o) { o.insertRadius = -1 * mm; });
+            "boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 90 * kMm; },
+            "no length for bolts");
+        add("boltSpacing", [](PrintOptions& o) { o.boltSpacing = 4 * kMm; });
+        add("insertRadius", [](PrintOptions& o) { o.insertRadius = -1 * kMm; });
     }
 
     void problemsNameTheirOption() {
@@ -298,11 +299,11 @@ class PrintSolidTest : public QObject {
     }
 
     void anInsertNeedsRoom() {
-        PrintOptions options = makeOptions(5 * mm, true, 4.5 * mm);
+        PrintOptions options = makeOptions(5 * kMm, true, 4.5 * kMm);
         const Track track = makeFlat(testing::makeBowl(Conveying::clockwise));
         // 175 + 30 + 2 + 16 mm
-        QVERIFY(std::abs(track::insertRadiusOf(track, options) - 223 * mm) < 1e-12);
-        options.insertRadius = 222 * mm;
+        QVERIFY(std::abs(track::insertRadiusOf(track, options) - 223 * kMm) < 1e-12);
+        options.insertRadius = 222 * kMm;
         const auto solid = track::buildPrintSolid(track, options);
         QVERIFY(!solid.ok());
         QCOMPARE(solid.error().option, std::string("insertRadius"));
