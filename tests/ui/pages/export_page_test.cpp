@@ -25,7 +25,7 @@ using namespace trapwright;
 
 namespace {
 
-constexpr double mm = base::kMillimetre;
+constexpr double kMm = base::kMillimetre;
 constexpr int kPatience = 60000;  // [ms] for what happens in the background, on a busy machine
 
 /// The window with a study open at the Export page, and what a user does there.
@@ -141,9 +141,9 @@ class ExportPageTest : public QObject {
         QCOMPARE(report.nonManifoldEdges, 0);
 
         track::PrintOptions options;
-        options.wallHeight = 5 * mm;
+        options.wallHeight = 5 * kMm;
         options.flange = true;
-        options.boltDiameter = 3.4 * mm;
+        options.boltDiameter = 3.4 * kMm;
         const geometry::TriangleMesh expected = user.buildSelected(options);
         QVERIFY(std::abs(report.volume / geometry::checkMesh(expected).volume - 1.0) < 1e-5);
         const base::Vec3 difference =
@@ -174,7 +174,7 @@ class ExportPageTest : public QObject {
             user.type("wallHeight", height);
         QVERIFY(user.waitForSolid());
         track::PrintOptions options;
-        options.wallHeight = 7 * mm;
+        options.wallHeight = 7 * kMm;
         const geometry::Box got = geometry::calcBoundingBox(*user.scene().solid);
         QVERIFY((got.high - geometry::calcBoundingBox(user.buildSelected(options)).high).norm() < 1e-12);
     }
@@ -246,7 +246,7 @@ class ExportPageTest : public QObject {
         double farthest = 0.0;
         for (const base::Vec3& v : user.scene().solid->vertices)
             farthest = std::max(farthest, std::hypot(v.x(), v.y()));
-        QVERIFY(std::abs(farthest - 260 * mm) < 1e-9);
+        QVERIFY(std::abs(farthest - 260 * kMm) < 1e-9);
     }
 
     void withoutGenerationsItSaysWhatIsMissing() {
