@@ -49,7 +49,7 @@ ReviewPage::ReviewPage(QWidget* parent)
     connect(choice_, &TrackChoice::failed, this, &Page::failed);
     connect(files_, &ReplayFiles::failed, this, &Page::failed);
     connect(&review_, &TrialReview::failed, this, &Page::failed);
-    setSession(nullptr);
+    ReviewPage::setSession(nullptr);
 }
 
 ReviewPage::~ReviewPage() = default;

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "core/study/validation.h"
 #include "ui/look/icon.h"
@@ -113,8 +114,7 @@ void TrackChoice::listWinners() {
     };
     list_->setCurrentIndex(-1);
     const std::vector<study::Winner>& winners = session_->winners();
-    for (auto winner = winners.rbegin(); winner != winners.rend(); ++winner)
-        add(*winner);
+    std::for_each(winners.rbegin(), winners.rend(), add);
     if (winner_ && list_->currentText() != nameOf(winner_->generation, winner_->individual)) add(*winner_);
 }
 

@@ -238,12 +238,8 @@ void TrialReview::showTrials(std::vector<models::TrialRow> rows, int wanted, stu
 void TrialReview::playFirstShown() {
     const std::optional<int> first = list_->firstShown();
     if (!first) return;
-    if (playWanted_) {
-        list_->select(*first);
-    } else if (list_->chosen().empty()) {
-        // Something to see before anything was asked for; it stands still.
-        list_->select(*first);
-    }
+    // Something to see before anything was asked for; it stands still.
+    if (playWanted_ || list_->chosen().empty()) list_->select(*first);
 }
 
 void TrialReview::wantReplays() {
