@@ -111,7 +111,7 @@ void MainWindow::openExample(const QString& name, bool learn) {
 void MainWindow::offerRecovery() {
     const auto interrupted = session::takeInterruptedStudies(desk_.environment().stateFolder);
     if (interrupted.empty() || desk_.session() != nullptr) return;
-    const std::filesystem::path study = interrupted.front();
+    const std::filesystem::path& study = interrupted.front();
     frame_->messages().show(
         look::MessageKind::warning,
         tr("%1 was learning when the program ended").arg(look::toText(study.stem())),
