@@ -7,7 +7,6 @@
 
 using namespace trapwright;
 using study::FieldInfo;
-using study::FieldKind;
 
 namespace {
 

@@ -155,8 +155,7 @@ class PartImportTest : public QObject {
 
  private:
     std::filesystem::path write(const QString& name, const QByteArray& content) {
-        std::filesystem::path file =
-            std::filesystem::path(folder_.path().toStdString()) / name.toStdString();
+        std::filesystem::path file = std::filesystem::path(folder_.path().toStdString()) / name.toStdString();
         std::ofstream(file, std::ios::binary) << content.toStdString();
         return file;
     }
