@@ -66,10 +66,4 @@ Parameters applyChanges(const Parameters& before, std::span<const Change> change
     return after;
 }
 
-std::optional<double> findSetPoint(double halfStroke, std::span<const Calibration> calibrations) {
-    const Calibration* const speed = findNewest(calibrations, {Method::conveyingSpeed});
-    if (speed == nullptr || !(speed->result.value > 0.0)) return std::nullopt;
-    return halfStroke / speed->result.value;
-}
-
 }  // namespace trapwright::calibration

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,9 +21,6 @@ struct Change {
     std::string key;  // of study::Settings: "simulation.contact.staticFriction"
     double before = 0.0;
     Estimate after;  // SI
-
-    /// Whether the value before lies outside the interval.
-    [[nodiscard]] bool significant() const { return before < after.low || before > after.high; }
 };
 
 /// What these measurements would change, the newest of each kind. Static friction stands for kinetic as well
@@ -36,9 +32,5 @@ std::vector<Change> findChanges(const Parameters& before, std::span<const Calibr
 
 /// `before` with these changes.
 Parameters applyChanges(const Parameters& before, std::span<const Change> changes);
-
-/// The set-point at which the real drive has this half-stroke [m], by the newest measurement; none without
-/// one. May be more than 1: the drive does not reach it.
-std::optional<double> findSetPoint(double halfStroke, std::span<const Calibration> calibrations);
 
 }  // namespace trapwright::calibration

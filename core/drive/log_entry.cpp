@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/csv.h"
+
 namespace trapwright::drive {
 
 namespace {
@@ -39,16 +41,6 @@ std::string toText(const std::optional<bool>& value) {
     return *value ? "1" : "0";
 }
 
-std::string quote(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
-
 }  // namespace
 
 std::string_view nameOf(LogKind kind) {
@@ -67,17 +59,17 @@ std::optional<LogKind> findLogKind(std::string_view name) {
 
 std::string logHeaderCsv() {
     return "number,time (UTC),kind,set-point (%),frequency (Hz),enabled,acceleration (m/s^2),"
-           "half-stroke (mm),current (%),text\r\n";
+           "half-stroke (mm),current (%),text\n";
 }
 
 std::string toCsv(const LogEntry& entry) {
     constexpr double kPercent = 0.01;
     constexpr double kMillimetre = 1e-3;
-    return fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", entry.number, toText(entry.time),
+    return fmt::format("{},{},{},{},{},{},{},{},{},{}\n", entry.number, toText(entry.time),
                        nameOf(entry.kind), toText(entry.setPoint, kPercent), toText(entry.frequency, 1.0),
                        toText(entry.enabled), toText(entry.acceleration, 1.0),
                        toText(entry.halfStroke, kMillimetre), toText(entry.current, kPercent),
-                       quote(entry.text));
+                       base::csvField(entry.text));
 }
 
 std::string toCsv(std::span<const LogEntry> entries) {

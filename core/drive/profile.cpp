@@ -17,18 +17,6 @@ std::optional<std::string> FaultCode::findFault(unsigned raw) const {
     return fmt::format("code {} (hexadecimal {:X}); the drive's manual says what it means", code, code);
 }
 
-std::string_view nameOf(Protocol protocol) {
-    switch (protocol) {
-        case Protocol::modbusTcp:
-            return "modbus-tcp";
-        case Protocol::modbusRtu:
-            return "modbus-rtu";
-        case Protocol::reo:
-            return "reo";
-    }
-    return {};
-}
-
 std::string_view nameOf(Table table) {
     switch (table) {
         case Table::coil:

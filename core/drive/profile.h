@@ -145,11 +145,7 @@ struct Profile {
 
 /// Reads a profile. Error: what is wrong, under which key, and what must stand there.
 base::Result<Profile> readProfile(std::string_view json);
-/// The profile as such a file.
-std::string writeProfile(const Profile& profile);
 
-/// "modbus-tcp", "modbus-rtu" and "reo".
-std::string_view nameOf(Protocol protocol);
 /// "coil", "holding register" and so on.
 std::string_view nameOf(Table table);
 

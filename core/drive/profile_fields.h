@@ -6,7 +6,7 @@
 
 #include "core/drive/profile.h"
 
-/// The names that reader and writer of profiles share.
+/// The names in profiles.
 namespace trapwright::drive::fields {
 
 inline constexpr std::string_view kFormat = "trapwright drive";

@@ -3,22 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <system_error>
 
 #include "core/base/file.h"
+#include "core/base/resources.h"
 
 namespace trapwright::drive {
 
 namespace {
-
-/// Beside the executable: <prefix>/bin/trapwright-studio uses <prefix>/share/trapwright/resources.
-std::filesystem::path installedResources() {
-    std::error_code failure;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failure);
-    if (failure) return {};
-    return program.parent_path().parent_path() / "share" / "trapwright" / "resources";
-}
 
 void addFile(const std::filesystem::path& file, ProfileFolder& folder) {
     const auto text = base::readFile(file);
@@ -48,13 +40,7 @@ void sortByTitle(std::vector<Profile>& profiles) {
 }  // namespace
 
 std::filesystem::path findBundledProfiles() {
-    if (const char* folder = std::getenv("TRAPWRIGHT_RESOURCES"); folder != nullptr && *folder != '\0') {
-        return std::filesystem::path(folder) / "drives";
-    }
-    std::error_code failure;
-    std::filesystem::path installed = installedResources() / "drives";
-    if (std::filesystem::exists(installed, failure)) return installed;
-    return std::filesystem::path(TRAPWRIGHT_SOURCE_RESOURCES) / "drives";
+    return base::findResource("drives");
 }
 
 ProfileFolder readProfileFolder(const std::filesystem::path& folder) {

@@ -14,8 +14,7 @@ struct ProfileFolder {
     std::vector<std::string> problems;  // each names its file
 };
 
-/// Where the profiles are that come with Trapwright: the folder drives/ in that which the environment's
-/// TRAPWRIGHT_RESOURCES names, in share/trapwright/resources of the installation, or in the source tree.
+/// Where the profiles are that come with Trapwright (base::findResource).
 std::filesystem::path findBundledProfiles();
 
 /// Reads every *.json of a folder; nothing where there is no such folder.

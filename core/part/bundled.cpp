@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdlib>
 
+#include "core/base/resources.h"
 #include "core/part/shapes.h"
 
 namespace trapwright::part {
@@ -36,14 +36,6 @@ geometry::TriangleMesh turnMillimetres(std::array<Vec2, N> profile) {
     for (Vec2& point : profile)
         point *= kMm;
     return makeTurned(profile, kFacets);
-}
-
-/// Beside the executable: <prefix>/bin/trapwright uses <prefix>/share/trapwright/resources.
-std::filesystem::path installedResources() {
-    std::error_code failure;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failure);
-    if (failure) return {};
-    return program.parent_path().parent_path() / "share" / "trapwright" / "resources";
 }
 
 }  // namespace
@@ -81,14 +73,7 @@ geometry::TriangleMesh makeBundledShape(std::string_view name) {
 }
 
 std::filesystem::path findBundledFile(const BundledPart& part) {
-    const std::filesystem::path relative = std::filesystem::path("parts") / part.file;
-    if (const char* folder = std::getenv("TRAPWRIGHT_RESOURCES"); folder != nullptr && *folder != '\0') {
-        return std::filesystem::path(folder) / relative;
-    }
-    std::error_code failure;
-    std::filesystem::path installed = installedResources() / relative;
-    if (std::filesystem::exists(installed, failure)) return installed;
-    return std::filesystem::path(TRAPWRIGHT_SOURCE_RESOURCES) / relative;
+    return base::findResource(std::filesystem::path("parts") / part.file);
 }
 
 std::span<const Vec2> bracketProfile() {

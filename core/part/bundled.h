@@ -27,8 +27,7 @@ base::Result<BundledPart> findBundledPart(std::string_view name);
 /// The shape of a bundled part as the generator writes it, by construction. Empty for an unknown name. [m]
 geometry::TriangleMesh makeBundledShape(std::string_view name);
 
-/// Where the part's file is: in the folder that the environment's TRAPWRIGHT_RESOURCES names, or
-/// share/trapwright/ resources of the installation that the running program belongs to, or the source tree.
+/// Where the part's file is (base::findResource).
 std::filesystem::path findBundledFile(const BundledPart& part);
 
 /// The L bracket once more, as a STEP file.

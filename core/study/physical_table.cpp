@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/base/csv.h"
 #include "core/stats/family.h"
 #include "core/stats/independent_rates.h"
 
@@ -178,14 +179,6 @@ std::string sideHeadings(const char* side) {
     return text;
 }
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string doubled;
-    for (const char c : text)
-        doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return '"' + doubled + '"';
-}
-
 }  // namespace
 
 PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalValidation& physical) {
@@ -250,7 +243,7 @@ std::string physicalTrialsCsv(const PhysicalValidation& physical) {
     for (const PhysicalTrial& trial : physical.trials) {
         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", trial.number + 1,
                        trial.pose + 1, nameOf(trial.outcome), trial.seconds, kPercent * trial.setPoint,
-                       trial.frequency, quoted(trial.time), quoted(trial.note));
+                       trial.frequency, base::csvField(trial.time), base::csvField(trial.note));
     }
     return text;
 }

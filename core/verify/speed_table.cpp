@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/verify/predicted_speed.h"
-
 namespace trapwright::verify {
 
 namespace {
@@ -35,18 +33,6 @@ base::Result<calibration::SpeedTable> measureSpeedTable(const trial::Engine& eng
         greatest = std::max(greatest, speed->mean);
         const double alongTrack = row.drive.halfStroke * row.drive.angularFrequency();
         if (speed->mean < kFallen * greatest && greatest > 0.1 * alongTrack) break;
-    }
-    return calibration::risingPart(table);
-}
-
-calibration::SpeedTable predictSpeedTable(const trial::Drive& drive, const trial::ContactParameters& contact,
-                                          double gravity) {
-    calibration::SpeedTable table;
-    trial::Drive row = drive;
-    for (int i = 1; i <= kRows; ++i) {
-        row.halfStroke = halfStrokeOf(i, drive, gravity);
-        table.halfStrokes.push_back(row.halfStroke);
-        table.speeds.push_back(predictConveying(row, contact, gravity).speed);
     }
     return calibration::risingPart(table);
 }

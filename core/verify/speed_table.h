@@ -13,8 +13,4 @@ base::Result<calibration::SpeedTable> measureSpeedTable(const trial::Engine& eng
                                                         const ConveyingScene& scene,
                                                         const base::RunControl& control);
 
-/// The same by predictConveying(): at once, but of a point, which does not rattle as parts do.
-calibration::SpeedTable predictSpeedTable(const trial::Drive& drive, const trial::ContactParameters& contact,
-                                          double gravity);
-
 }  // namespace trapwright::verify

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/verify/predicted_speed.h"
-#include "core/verify/speed_table.h"
 
 using namespace trapwright;
 using calibration::Reading;
@@ -104,7 +103,14 @@ class HalfStrokeTest : public QObject {
     void predictionIsInverted() {
         const trial::Drive drive;
         const trial::ContactParameters contact{0.4, 0.4, 0.0};
-        const SpeedTable table = verify::predictSpeedTable(drive, contact, base::kStandardGravity);
+        SpeedTable predicted;
+        for (int row = 1; row <= 32; ++row) {
+            trial::Drive one = drive;
+            one.halfStroke = 0.05e-3 * row;
+            predicted.halfStrokes.push_back(one.halfStroke);
+            predicted.speeds.push_back(verify::predictConveying(one, contact, base::kStandardGravity).speed);
+        }
+        const SpeedTable table = calibration::risingPart(predicted);
         QVERIFY(table.speeds.size() >= 8);
         QVERIFY(table.halfStrokes.back() > 0.7e-3);
         for (const double halfStroke : {0.25e-3, 0.4e-3, 0.6e-3}) {

@@ -18,13 +18,12 @@ class LogEntryTest : public QObject {
         entry.acceleration = 12.5;
         entry.halfStroke = 0.4e-3;
         entry.text = "say \"hot\", twice";
-        QCOMPARE(
-            QString::fromStdString(drive::toCsv(entry)),
-            QString("7,2025-11-20T13:45:00.125Z,reading,25,,1,12.5,0.4,,\"say \"\"hot\"\", twice\"\r\n"));
+        QCOMPARE(QString::fromStdString(drive::toCsv(entry)),
+                 QString("7,2025-11-20T13:45:00.125Z,reading,25,,1,12.5,0.4,,\"say \"\"hot\"\", twice\"\n"));
         const auto header = QString::fromStdString(drive::logHeaderCsv());
         QCOMPARE(header.count(','), QString::fromStdString(drive::toCsv(drive::LogEntry{})).count(','));
         const std::vector<drive::LogEntry> entries = {entry, entry};
-        QCOMPARE(QString::fromStdString(drive::toCsv(entries)).count("\r\n"), 3);
+        QCOMPARE(QString::fromStdString(drive::toCsv(entries)).count("\n"), 3);
     }
 
     void millisecondsRoundUpToTheNextSecond() {

@@ -29,7 +29,7 @@ std::vector<drive::LogEntry> readLog(const QString& name) {
         if (!cells[3].isEmpty()) entry.setPoint = cells[3].toDouble() * 0.01;
         entries.push_back(entry);
     }
-    if (!text.endsWith("\r\n")) entries.clear();
+    if (!text.endsWith("\n")) entries.clear();
     return entries;
 }
 
