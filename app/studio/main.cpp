@@ -59,7 +59,6 @@ int main(int argc, char** argv) {
     // A file that reaches its size limit is an error to report like a full disk, not the end of the process.
     (void)std::signal(SIGXFSZ, SIG_IGN);
     if (!findDisplay(argc, argv)) return 1;
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     QCoreApplication::setOrganizationName("Trapwright");
     QCoreApplication::setApplicationName("trapwright-studio");

@@ -11,6 +11,7 @@
 
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/scene/when_ready.h"
 
 namespace trapwright::feeder {
 
@@ -125,10 +126,10 @@ void PlanCards::drawPictures() {
     const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
     pictures_.setTheme(dark ? scene::SceneTheme::dark() : scene::SceneTheme::light());
     for (std::size_t i = 0; i < cards_.size(); ++i) {
-        QPixmap pixmap = QPixmap::fromImage(
-            pictures_.partPicture(part_, part_->stablePoses[i].rotation, kPicture * devicePixelRatioF()));
-        pixmap.setDevicePixelRatio(devicePixelRatioF());
-        cards_[i].picture->setPixmap(pixmap);
+        QLabel* const picture = cards_[i].picture;
+        scene::whenReady(
+            pictures_.partPicture(part_, part_->stablePoses[i].rotation, kPicture, devicePixelRatioF()),
+            picture, [picture](const QImage& drawn) { picture->setPixmap(QPixmap::fromImage(drawn)); });
     }
 }
 

@@ -102,6 +102,9 @@ void PlanForm::reset() {
 }
 
 void PlanForm::listTracks() {
+    const QVariant generation = track_->currentData();
+    const QVariant individual = track_->currentData(kIndividualRole);
+    const bool first = track_->currentIndex() <= 0;
     track_->clear();
     if (!session_) return showTotal();
     const auto add = [this](const study::Winner& winner, const QString& text) {
@@ -112,6 +115,11 @@ void PlanForm::listTracks() {
     const std::vector<study::Winner>& winners = session_->winners();
     std::for_each(winners.rbegin(), winners.rend(),
                   [&](const study::Winner& winner) { add(winner, tr("Generation %1, individual %2")); });
+    // What was picked stays picked.
+    for (int i = 0; !first && i < track_->count(); ++i) {
+        if (track_->itemData(i) == generation && track_->itemData(i, kIndividualRole) == individual)
+            track_->setCurrentIndex(i);
+    }
     begin_->setToolTip(winners.empty() ? tr("Learn a track first") : QString());
     showTotal();
 }

@@ -67,9 +67,9 @@ Report ReportCard::makeReport() const {
     report.calibrations = session_->calibrations();
     scene::PictureMaker pictures;
     pictures.setTheme(scene::SceneTheme::light());
-    if (placing_.track()) report.track = pictures.trackPicture(placing_.track(), kTrackPicture);
+    if (placing_.track()) report.track = pictures.trackPicture(placing_.track(), kTrackPicture).result();
     for (const part::StablePose& pose : report.part->stablePoses)
-        report.poses.push_back(pictures.partPicture(report.part, pose.rotation, kPosePicture));
+        report.poses.push_back(pictures.partPicture(report.part, pose.rotation, kPosePicture).result());
     report.program = QString::fromStdString(program_);
     report.written = QDateTime::currentDateTime();
     return report;

@@ -6,7 +6,7 @@
 
 #include "core/base/math.h"
 #include "ui/look/text.h"
-#include "ui/pages/part_facts.h"
+#include "ui/pages/fact_list.h"
 
 namespace trapwright::pages {
 

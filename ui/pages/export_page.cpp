@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "core/study/selection.h"
 #include "ui/look/file_dialog.h"
@@ -163,7 +164,10 @@ void ExportPage::setSession(session::StudySession* session) {
     if (session_) {
         using session::StudySession;
         connect(session_, &StudySession::settingsChanged, this, &ExportPage::refresh);
-        connect(session_, &StudySession::generationSaved, this, &ExportPage::refresh);
+        connect(session_, &StudySession::generationSaved, this, [this] {
+            listStale_ = scene_ == nullptr;
+            if (!listStale_) refresh();
+        });
         connect(session_, &StudySession::selectionSaved, this, &ExportPage::refresh);
         connect(session_, &StudySession::chosenChanged, this, &ExportPage::refresh);
     }
@@ -172,6 +176,7 @@ void ExportPage::setSession(session::StudySession* session) {
 
 void ExportPage::activate(scene::SceneView& scene) {
     scene_ = &scene;
+    if (std::exchange(listStale_, false)) refresh();
     showScene();
     if (stale_) build();
 }

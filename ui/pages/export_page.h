@@ -46,6 +46,7 @@ class ExportPage : public Page {
     std::shared_ptr<const session::PrintedTrack> printed_;  // of the choice in force; null while it is built
     std::shared_ptr<const geometry::TriangleMesh> shown_;   // the last one that was built
     bool stale_ = true;                                     // nothing was asked for since the last change
+    bool listStale_ = false;                                // of tracks, because the page was not shown
     QWidget* contents_;
     QLabel* empty_;
     QComboBox* tracks_;

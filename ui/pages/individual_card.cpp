@@ -6,8 +6,8 @@
 
 #include "core/study/track_design.h"
 #include "ui/look/text.h"
+#include "ui/pages/fact_list.h"
 #include "ui/pages/gene_picture.h"
-#include "ui/pages/part_facts.h"
 
 namespace trapwright::pages {
 

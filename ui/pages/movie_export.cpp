@@ -2,10 +2,11 @@
 
 #include <QFile>
 #include <QStandardPaths>
-#include <QTimer>
 #include <filesystem>
 #include <system_error>
 #include <utility>
+
+#include "ui/scene/when_ready.h"
 
 namespace trapwright::pages {
 
@@ -63,6 +64,7 @@ void MovieExport::start(const Movie& movie) {
     movie_ = movie;
     partial_ = movie.file + ".part";
     next_ = 0;
+    drawing_ = false;
     process_ = new QProcess(this);
     connect(process_, &QProcess::started, this, &MovieExport::feed);
     connect(process_, &QProcess::bytesWritten, this, &MovieExport::feed);
@@ -82,14 +84,20 @@ void MovieExport::cancel() {
     emit cancelled();
 }
 
-/// Gives ffmpeg one picture, and comes back for the next one when other events had their turn.
+/// Has the next picture drawn, unless ffmpeg has enough to do.
 void MovieExport::feed() {
-    if (!busy() || feeding_ || next_ >= movie_.frames || process_->state() != QProcess::Running) return;
+    if (!busy() || drawing_ || next_ >= movie_.frames || process_->state() != QProcess::Running) return;
     if (process_->bytesToWrite() >= kPicturesWaiting * 4LL * movie_.size.width() * movie_.size.height())
         return;
-    feeding_ = true;
-    const QImage picture = movie_.picture(next_).convertToFormat(QImage::Format_RGB32);
-    feeding_ = false;
+    drawing_ = true;
+    scene::whenReady(movie_.picture(next_), process_, [this, process = process_](const QImage& picture) {
+        if (process != process_) return;  // dropped
+        drawing_ = false;
+        write(picture.convertToFormat(QImage::Format_RGB32));
+    });
+}
+
+void MovieExport::write(const QImage& picture) {
     if (picture.size() != movie_.size) {
         drop();
         emit failed(tr("Picture %1 could not be drawn. Try a smaller size.").arg(next_ + 1));
@@ -102,7 +110,7 @@ void MovieExport::feed() {
     if (next_ == movie_.frames) {
         process_->closeWriteChannel();
     } else {
-        QTimer::singleShot(0, this, &MovieExport::feed);
+        feed();
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QFuture>
 #include <QImage>
 #include <QObject>
 #include <QProcess>
@@ -16,10 +17,10 @@ struct Movie {
     QSize size;    // pixels, even
     int framesPerSecond = 30;
     int frames = 0;
-    std::function<QImage(int frame)> picture;  // of that size; called in the GUI thread
+    std::function<QFuture<QImage>(int frame)> picture;  // of that size; called in the GUI thread
 };
 
-/// Makes a film with ffmpeg, picture by picture between the window's other events. The file appears when it
+/// Makes a film with ffmpeg, picture by picture as they are drawn in the background. The file appears when it
 /// is complete.
 class MovieExport : public QObject {
     Q_OBJECT
@@ -40,13 +41,14 @@ class MovieExport : public QObject {
 
  private:
     void feed();
+    void write(const QImage& picture);
     void end(int exitCode, QProcess::ExitStatus status);
     void drop();
 
     Movie movie_;
-    QString partial_;  // the file as long as it is not complete
-    int next_ = 0;     // frame
-    bool feeding_ = false;
+    QString partial_;              // the file as long as it is not complete
+    int next_ = 0;                 // frame
+    bool drawing_ = false;         // the next picture
     QProcess* process_ = nullptr;  // while busy
 };
 

@@ -1,8 +1,6 @@
 #include "ui/pages/part_facts.h"
 
 #include <Eigen/Eigenvalues>
-#include <QGridLayout>
-#include <QLabel>
 #include <QLocale>
 
 #include "ui/look/text.h"
@@ -10,31 +8,6 @@
 namespace trapwright::pages {
 
 using look::numberText;
-
-FactList::FactList(QWidget* parent) : QWidget(parent), grid_(new QGridLayout(this)) {
-    grid_->setContentsMargins(0, 0, 0, 0);
-    grid_->setHorizontalSpacing(12);
-    grid_->setVerticalSpacing(4);
-    grid_->setColumnStretch(1, 1);
-}
-
-void FactList::show(const std::vector<std::pair<QString, QString>>& facts) {
-    qDeleteAll(findChildren<QLabel*>(Qt::FindDirectChildrenOnly));
-    int row = 0;
-    for (const auto& [name, value] : facts) {
-        auto* nameLabel = new QLabel(name, this);
-        nameLabel->setForegroundRole(QPalette::PlaceholderText);
-        auto* valueLabel = new QLabel(value, this);
-        valueLabel->setTextFormat(Qt::PlainText);
-        valueLabel->setAlignment(Qt::AlignRight);
-        valueLabel->setWordWrap(true);
-        valueLabel->setTextInteractionFlags(Qt::TextSelectableByMouse);
-        valueLabel->setAccessibleName(name + ": " + value);
-        grid_->addWidget(nameLabel, row, 0, Qt::AlignTop);
-        grid_->addWidget(valueLabel, row, 1);
-        ++row;
-    }
-}
 
 Facts meshFacts(const geometry::MeshReport& report, std::size_t triangles) {
     Facts facts = {{FactList::tr("Triangles"), QLocale().toString(static_cast<qulonglong>(triangles))},

@@ -9,6 +9,7 @@
 
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/scene/when_ready.h"
 
 namespace trapwright::pages {
 
@@ -59,11 +60,10 @@ void PoseCards::rebuild() {
         card->setStyleSheet(
             "#poseCard { border: 1px solid palette(mid); border-radius: 6px; background: palette(base); }");
         auto* picture = new QLabel(card);
-        QPixmap pixmap =
-            QPixmap::fromImage(pictures_.partPicture(part_, pose.rotation, kPicture * devicePixelRatioF()));
-        pixmap.setDevicePixelRatio(devicePixelRatioF());
-        picture->setPixmap(pixmap);
+        picture->setFixedHeight(kPicture.height());
         picture->setAlignment(Qt::AlignCenter);
+        scene::whenReady(pictures_.partPicture(part_, pose.rotation, kPicture, devicePixelRatioF()), picture,
+                         [picture](const QImage& drawn) { picture->setPixmap(QPixmap::fromImage(drawn)); });
         auto* chance = new QLabel(tr("%1 %").arg(look::numberText(100.0 * pose.probability)), card);
         QFont bold = chance->font();
         bold.setBold(true);

@@ -10,7 +10,7 @@
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
-#include "ui/pages/part_facts.h"
+#include "ui/pages/fact_list.h"
 #include "ui/pages/part_files.h"
 
 namespace trapwright::pages {

@@ -19,6 +19,7 @@
 #include "ui/look/text.h"
 #include "ui/pages/replay_player.h"
 #include "ui/scene/scene_view.h"
+#include "ui/scene/when_ready.h"
 
 namespace trapwright::pages {
 
@@ -29,6 +30,15 @@ constexpr std::array kSizes{QSize(1280, 720), QSize(1920, 1080), QSize(2560, 144
 constexpr QSize kUsualSize(1920, 1080);
 constexpr int kUsualRate = 30;
 constexpr double kUsualHeight = 720.0;  // at which labels are as large as on a screen
+
+/// Empty if there is no image.
+QByteArray encodePng(const QImage& image) {
+    QByteArray bytes;
+    QBuffer buffer(&bytes);
+    buffer.open(QIODevice::WriteOnly);
+    if (image.isNull() || !image.save(&buffer, "PNG")) return {};
+    return bytes;
+}
 
 double ratioOf(QSize size) {
     return size.height() / kUsualHeight;
@@ -177,11 +187,15 @@ void ReplayFiles::showLength() {
 
 void ReplayFiles::savePicture(const QString& file) {
     if (scene_ == nullptr) return;
-    const QImage picture = scene_->picture(pictureSize(), ratioOf(pictureSize()));
-    QByteArray bytes;
-    QBuffer buffer(&bytes);
-    buffer.open(QIODevice::WriteOnly);
-    if (picture.isNull() || !picture.save(&buffer, "PNG")) {
+    length_->setText(tr("Drawing the picture"));
+    // Encoded where it is drawn: that of a large one takes long.
+    const auto bytes = scene_->picture(pictureSize(), ratioOf(pictureSize())).then(encodePng);
+    scene::whenReady(bytes, this, [this, file](const QByteArray& png) { writePicture(png, file); });
+}
+
+void ReplayFiles::writePicture(const QByteArray& bytes, const QString& file) {
+    showLength();
+    if (bytes.isEmpty()) {
         emit failed(tr("The picture cannot be saved"), tr("It could not be drawn. Try a smaller size."));
         return;
     }

@@ -44,6 +44,7 @@ class ReplayFiles : public QWidget {
     void addButtons();
     [[nodiscard]] QSize pictureSize() const;
     [[nodiscard]] int countFrames() const;
+    void writePicture(const QByteArray& bytes, const QString& file);
     void showLength();
     void showEnd(const QString& text);
 

@@ -107,7 +107,9 @@ void ReviewPage::setSession(StudySession* session) {
     choice_->setSession(session);
     showSelection();
     if (!session_) return;
-    connect(session_, &StudySession::generationSaved, choice_, &TrackChoice::refresh);
+    connect(session_, &StudySession::generationSaved, this, [this] {
+        if (isVisible()) choice_->refresh();  // otherwise when the page is activated
+    });
     connect(session_, &StudySession::selectionSaved, this, [this] {
         choice_->refresh();
         showSelection();

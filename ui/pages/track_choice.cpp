@@ -11,7 +11,7 @@
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/models/numbers.h"
-#include "ui/pages/part_facts.h"
+#include "ui/pages/fact_list.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {

@@ -186,7 +186,9 @@ void TrackPage::setSession(session::StudySession* session) {
         connect(session_, &StudySession::settingsChanged, this, &TrackPage::refresh);
         connect(session_, &StudySession::partChanged, this, &TrackPage::refresh);
         connect(session_, &StudySession::stateChanged, this, &TrackPage::refresh);
-        connect(session_, &StudySession::generationSaved, this, &TrackPage::refresh);
+        connect(session_, &StudySession::generationSaved, this, [this] {
+            if (locked_->isHidden() == session_->locked()) refresh();
+        });
     }
     refresh();
 }

@@ -1,19 +1,13 @@
 #include "ui/pages/winner_pictures.h"
 
 #include <QPixmap>
-#include <QTimer>
 #include <utility>
 
 #include "ui/models/winner_model.h"
 #include "ui/scene/picture_maker.h"
+#include "ui/scene/when_ready.h"
 
 namespace trapwright::pages {
-
-namespace {
-
-constexpr int kRest = 20;  // [ms] for everything else that waits, between two pictures
-
-}  // namespace
 
 WinnerPictures::WinnerPictures(models::WinnerModel& model, QSize size, QObject* parent)
     : QObject(parent), model_(model), size_(size) {
@@ -57,10 +51,12 @@ void WinnerPictures::next() {
 void WinnerPictures::draw(const std::shared_ptr<const track::Track>& track) {
     if (!maker_) maker_ = std::make_unique<scene::PictureMaker>();
     maker_->setTheme(dark_ ? scene::SceneTheme::dark() : scene::SceneTheme::light());
-    QPixmap picture = QPixmap::fromImage(maker_->trackPicture(track, size_ * pixelRatio_));
-    picture.setDevicePixelRatio(pixelRatio_);
-    model_.setPicture(std::exchange(generation_, -1), picture);
-    QTimer::singleShot(kRest, this, &WinnerPictures::next);
+    scene::whenReady(maker_->trackPicture(track, size_, pixelRatio_), this,
+                     [this, generation = generation_](const QImage& drawn) {
+                         if (generation != generation_) return;  // no longer wanted
+                         model_.setPicture(std::exchange(generation_, -1), QPixmap::fromImage(drawn));
+                         next();
+                     });
 }
 
 }  // namespace trapwright::pages

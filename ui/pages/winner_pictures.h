@@ -18,8 +18,8 @@ class PictureMaker;
 
 namespace trapwright::pages {
 
-/// Gives winners their small pictures, one after the other: each track is built in the background, and the
-/// event loop goes on between two pictures.
+/// Gives winners their small pictures, one after the other; tracks are built and pictures drawn in the
+/// background.
 class WinnerPictures : public QObject {
     Q_OBJECT
  public:

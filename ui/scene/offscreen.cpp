@@ -1,69 +1,89 @@
 #include "ui/scene/offscreen.h"
 
-#include <QOffscreenSurface>
-#include <QOpenGLContext>
+#include <QCoreApplication>
+#include <QElapsedTimer>
 #include <QOpenGLFramebufferObject>
+#include <QOpenGLFunctions>
+#include <utility>
 
 namespace trapwright::scene {
 
 namespace {
 
-/// Puts back the context that was current before: a widget may be in the middle of painting.
-class CurrentContext {
- public:
-    CurrentContext(QOpenGLContext& context, QOffscreenSurface& surface)
-        : before_(QOpenGLContext::currentContext()),
-          beforeSurface_(before_ ? before_->surface() : nullptr),
-          context_(context) {
-        made_ = context.makeCurrent(&surface);
-    }
-    CurrentContext(const CurrentContext&) = delete;
-    CurrentContext& operator=(const CurrentContext&) = delete;
-    ~CurrentContext() {
-        if (before_ && beforeSurface_) {
-            before_->makeCurrent(beforeSurface_);
-        } else if (made_) {
-            context_.doneCurrent();
-        }
-    }
-    [[nodiscard]] bool made() const { return made_; }
+constexpr std::pair kVersion(3, 2);  // of OpenGL, that VTK needs
 
- private:
-    QOpenGLContext* before_;
-    QSurface* beforeSurface_;
-    QOpenGLContext& context_;
-    bool made_ = false;
-};
+bool drawsInSoftware(QOpenGLContext& context) {
+    const auto* name = reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER));
+    const QString renderer = QString::fromLatin1(name).toLower();
+    return renderer.contains("llvmpipe") || renderer.contains("softpipe") || renderer.contains("software");
+}
+
+QString advice() {
+    return QCoreApplication::translate("scene",
+                                       "Update the display's driver, or set LIBGL_ALWAYS_SOFTWARE=1 to draw "
+                                       "without it.");
+}
 
 }  // namespace
 
-struct Offscreen::State {
-    QOffscreenSurface surface;
-    QOpenGLContext context;
-    Stage stage{[this] { context.makeCurrent(&surface); }};
-};
+QSurfaceFormat Offscreen::format() {
+    QSurfaceFormat format;
+    format.setRenderableType(QSurfaceFormat::OpenGL);
+    format.setVersion(kVersion.first, kVersion.second);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    format.setRedBufferSize(8);
+    format.setGreenBufferSize(8);
+    format.setBlueBufferSize(8);
+    format.setAlphaBufferSize(8);
+    format.setDepthBufferSize(24);
+    format.setStencilBufferSize(8);
+    // VTK smooths edges in a framebuffer of its own.
+    format.setSamples(0);
+    return format;
+}
 
-Offscreen::Offscreen() : state_(std::make_unique<State>()) {
-    state_->surface.setFormat(QSurfaceFormat::defaultFormat());
-    state_->surface.create();
-    state_->context.setFormat(QSurfaceFormat::defaultFormat());
-    state_->context.create();
+Offscreen::Offscreen(QOffscreenSurface& surface)
+    : surface_(surface), stage_([this] { context_.makeCurrent(&surface_); }) {
+    context_.setFormat(format());
+    if (!context_.create() || !context_.makeCurrent(&surface_)) {
+        problem_ = QCoreApplication::translate("scene", "This display offers no OpenGL.") + ' ' + advice();
+        return;
+    }
+    const auto version = context_.format().version();
+    if (version < kVersion) {
+        problem_ = QCoreApplication::translate("scene",
+                                               "The 3D scene needs OpenGL %1.%2; this display offers %3.%4.")
+                       .arg(kVersion.first)
+                       .arg(kVersion.second)
+                       .arg(version.first)
+                       .arg(version.second) +
+                   ' ' + advice();
+        return;
+    }
+    inSoftware_ = drawsInSoftware(context_);
 }
 
 Offscreen::~Offscreen() {
-    const CurrentContext current(state_->context, state_->surface);
-    if (current.made()) state_->stage.releaseGraphics();
+    if (!context_.makeCurrent(&surface_)) return;
+    stage_.releaseGraphics();
+    context_.doneCurrent();
 }
 
-QImage Offscreen::draw(const SceneContents& contents, const Camera& camera, QSize pixels, double pixelRatio) {
-    const CurrentContext current(state_->context, state_->surface);
-    if (!current.made() || pixels.isEmpty()) return {};
-    QOpenGLFramebufferObject frame(pixels, QOpenGLFramebufferObject::CombinedDepthStencil);
-    if (!frame.bind()) return {};
-    state_->stage.draw(contents, camera, frame.handle(), pixels, pixelRatio, true);
-    QImage image = frame.toImage().convertToFormat(QImage::Format_RGB32);
-    image.setDevicePixelRatio(pixelRatio);
-    return image;
+Rendering Offscreen::draw(const RenderRequest& request) {
+    Rendering made;
+    made.problem = problem_;
+    made.inSoftware = inSoftware_;
+    if (!problem_.isEmpty() || request.pixels.isEmpty() || !context_.makeCurrent(&surface_)) return made;
+    QElapsedTimer clock;
+    clock.start();
+    QOpenGLFramebufferObject frame(request.pixels, QOpenGLFramebufferObject::CombinedDepthStencil);
+    if (!frame.bind()) return made;
+    stage_.draw(*request.contents, request.camera, frame.handle(), request.pixels, request.pixelRatio,
+                request.smooth);
+    made.image = frame.toImage().convertToFormat(QImage::Format_RGB32);
+    made.image.setDevicePixelRatio(request.pixelRatio);
+    made.milliseconds = 1e-6 * static_cast<double>(clock.nsecsElapsed());
+    return made;
 }
 
 }  // namespace trapwright::scene

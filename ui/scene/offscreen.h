@@ -1,25 +1,31 @@
 #pragma once
 
-#include <QImage>
-#include <memory>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
 
+#include "ui/scene/scene_renderer.h"
 #include "ui/scene/stage.h"
 
 namespace trapwright::scene {
 
-/// A stage with an OpenGL context of its own and no window. GUI thread only.
+/// A stage with an OpenGL context of its own and no window. Belongs to the thread that makes it.
 class Offscreen {
  public:
-    Offscreen();
+    /// What contexts and surfaces must be like.
+    [[nodiscard]] static QSurfaceFormat format();
+
+    /// `surface` lives longer.
+    explicit Offscreen(QOffscreenSurface& surface);
     ~Offscreen();
 
-    /// Null if there is no OpenGL.
-    [[nodiscard]] QImage draw(const SceneContents& contents, const Camera& camera, QSize pixels,
-                              double pixelRatio);
+    [[nodiscard]] Rendering draw(const RenderRequest& request);
 
  private:
-    struct State;
-    std::unique_ptr<State> state_;
+    QOffscreenSurface& surface_;
+    QOpenGLContext context_;
+    Stage stage_;
+    QString problem_;
+    bool inSoftware_ = false;
 };
 
 }  // namespace trapwright::scene

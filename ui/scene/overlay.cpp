@@ -235,18 +235,4 @@ void paintOverlay(QPainter& painter, const std::vector<OverlayItem>& items) {
         item.paint(painter);
 }
 
-void paintOverlayAsPictures(QPainter& painter, const std::vector<OverlayItem>& items, double pixelRatio) {
-    for (const OverlayItem& item : items) {
-        const QRect area = item.area.toAlignedRect();
-        QImage picture(area.size() * pixelRatio, QImage::Format_ARGB32_Premultiplied);
-        picture.setDevicePixelRatio(pixelRatio);
-        picture.fill(Qt::transparent);
-        QPainter onPicture(&picture);
-        onPicture.translate(-area.topLeft());
-        paintOverlay(onPicture, {item});
-        onPicture.end();
-        painter.drawImage(area.topLeft(), picture);
-    }
-}
-
 }  // namespace trapwright::scene

@@ -20,9 +20,6 @@ struct OverlayItem {
 std::vector<OverlayItem> overlayOf(const SceneContents& contents, const Camera& camera, const QSizeF& screen,
                                    std::optional<StandardView> hovered);
 
-/// Paints the items onto a picture.
 void paintOverlay(QPainter& painter, const std::vector<OverlayItem>& items);
-/// The same where OpenGL paints: its lines would be ragged, so each item is painted as a picture first.
-void paintOverlayAsPictures(QPainter& painter, const std::vector<OverlayItem>& items, double pixelRatio);
 
 }  // namespace trapwright::scene

@@ -1,6 +1,5 @@
 #include "ui/scene/picture_maker.h"
 
-#include "ui/scene/offscreen.h"
 #include "ui/scene/subject.h"
 
 namespace trapwright::scene {
@@ -11,38 +10,29 @@ constexpr double kMargin = 0.06;  // a share of the picture on every side
 
 }  // namespace
 
-struct PictureMaker::State {
-    SceneContents contents;
-    Offscreen offscreen;
+PictureMaker::PictureMaker() = default;
 
-    QImage draw(QSize pixels) {
-        const Camera camera = fitted(homeCamera(contents), boxOf(contents), pixels, kMargin);
-        return offscreen.draw(contents, camera, pixels, 1.0);
-    }
-};
-
-PictureMaker::PictureMaker() : state_(std::make_unique<State>()) {
-    state_->contents.marks = TrackMarks::none();
+QFuture<QImage> PictureMaker::trackPicture(std::shared_ptr<const track::Track> track, QSize size,
+                                           double pixelRatio) {
+    auto contents = std::make_shared<SceneContents>();
+    contents->track = std::move(track);
+    return draw(std::move(contents), size, pixelRatio);
 }
 
-PictureMaker::~PictureMaker() = default;
-
-void PictureMaker::setTheme(const SceneTheme& theme) {
-    state_->contents.theme = theme;
+QFuture<QImage> PictureMaker::partPicture(std::shared_ptr<const part::Part> part,
+                                          const base::Quaternion& rotation, QSize size, double pixelRatio) {
+    auto contents = std::make_shared<SceneContents>();
+    contents->part = std::move(part);
+    contents->partPoses = {{rotation, base::Vec3::Zero()}};
+    return draw(std::move(contents), size, pixelRatio);
 }
 
-QImage PictureMaker::trackPicture(std::shared_ptr<const track::Track> track, QSize pixels) {
-    state_->contents.track = std::move(track);
-    state_->contents.part = nullptr;
-    return state_->draw(pixels);
-}
-
-QImage PictureMaker::partPicture(std::shared_ptr<const part::Part> part, const base::Quaternion& rotation,
-                                 QSize pixels) {
-    state_->contents.track = nullptr;
-    state_->contents.part = std::move(part);
-    state_->contents.partPoses = {{rotation, base::Vec3::Zero()}};
-    return state_->draw(pixels);
+QFuture<QImage> PictureMaker::draw(std::shared_ptr<SceneContents> contents, QSize size, double pixelRatio) {
+    contents->theme = theme_;
+    contents->marks = TrackMarks::none();
+    const Camera camera = fitted(homeCamera(*contents), boxOf(*contents), size, kMargin);
+    return renderer_.render({std::move(contents), camera, size * pixelRatio, pixelRatio})
+        .then([](const Rendering& made) { return made.image; });
 }
 
 }  // namespace trapwright::scene

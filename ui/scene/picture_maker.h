@@ -1,30 +1,37 @@
 #pragma once
 
+#include <QFuture>
 #include <QImage>
 #include <QSize>
 #include <memory>
 
 #include "ui/scene/contents.h"
+#include "ui/scene/scene_renderer.h"
 
 namespace trapwright::scene {
 
-/// Small pictures without labels, drawn off-screen: winners for the film strip, stable poses for cards. GUI
-/// thread only; keeps its OpenGL context for the next picture. Pictures are null if there is no OpenGL.
+/// Small pictures without labels, drawn in the background: winners for the film strip, stable poses for
+/// cards. Make and use it in the GUI thread; keeps its OpenGL context for the next picture. Pictures are null
+/// if there is no OpenGL. For whenReady().
 class PictureMaker {
  public:
     PictureMaker();
-    ~PictureMaker();
 
-    void setTheme(const SceneTheme& theme);
+    void setTheme(const SceneTheme& theme) { theme_ = theme; }
 
-    [[nodiscard]] QImage trackPicture(std::shared_ptr<const track::Track> track, QSize pixels);
+    /// Sizes are logical: the picture has so many times the pixels.
+    [[nodiscard]] QFuture<QImage> trackPicture(std::shared_ptr<const track::Track> track, QSize size,
+                                               double pixelRatio = 1.0);
     /// The part in this orientation (part frame to world, z up), on nothing.
-    [[nodiscard]] QImage partPicture(std::shared_ptr<const part::Part> part, const base::Quaternion& rotation,
-                                     QSize pixels);
+    [[nodiscard]] QFuture<QImage> partPicture(std::shared_ptr<const part::Part> part,
+                                              const base::Quaternion& rotation, QSize size,
+                                              double pixelRatio = 1.0);
 
  private:
-    struct State;
-    std::unique_ptr<State> state_;
+    QFuture<QImage> draw(std::shared_ptr<SceneContents> contents, QSize size, double pixelRatio);
+
+    SceneTheme theme_ = SceneTheme::light();
+    SceneRenderer renderer_;
 };
 
 }  // namespace trapwright::scene

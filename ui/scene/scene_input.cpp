@@ -156,7 +156,7 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
             state.moveTo(zoomed(state.camera, 1.0 / kZoomPerNotch, middle, state.screen()));
             return;
         default:
-            QOpenGLWidget::keyPressEvent(event);
+            QWidget::keyPressEvent(event);
             return;
     }
     const bool moves = event->modifiers().testFlag(Qt::ShiftModifier);

@@ -1,12 +1,7 @@
 #include "ui/scene/scene_view.h"
 
-#include <QCoreApplication>
-#include <QElapsedTimer>
-#include <QOpenGLContext>
-#include <QOpenGLFunctions>
+#include <QLinearGradient>
 #include <QPainter>
-#include <QSurfaceFormat>
-#include <QTimer>
 
 #include "ui/scene/overlay.h"
 #include "ui/scene/scene_view_state.h"
@@ -19,14 +14,7 @@ namespace {
 /// What the fitted subject leaves free on every side for its labels: a share of the screen, and at least so
 /// much.
 constexpr double kFitMargin = 0.09;
-constexpr double kLabelHeight = 44.0;   // [px]
-constexpr double kLongestFrame = 40.0;  // that leaves the window quick [ms]
-
-bool drawsInSoftware(QOpenGLContext& context) {
-    const auto* name = reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER));
-    const QString renderer = QString::fromLatin1(name).toLower();
-    return renderer.contains("llvmpipe") || renderer.contains("softpipe") || renderer.contains("software");
-}
+constexpr double kLabelHeight = 44.0;  // [px]
 
 }  // namespace
 
@@ -44,7 +32,7 @@ void SceneView::State::fit() {
     }
     camera = fitted(camera, box, screen(), margin);
     moved = false;
-    view.update();
+    change();
 }
 
 void SceneView::State::setSubject(Subject subject) {
@@ -63,55 +51,31 @@ void SceneView::State::setSubject(Subject subject) {
 
 void SceneView::State::fitUnlessMoved() {
     if (!moved) fit();
-    view.update();
+    change();
 }
 
 void SceneView::State::moveTo(const Camera& wanted) {
     camera = wanted;
     moved = true;
-    view.update();
+    change();
 }
 
-void SceneView::State::weighSmoothness(double milliseconds) {
-    // Four samples take about four times as long; the gap keeps it from changing to and fro.
-    if (smooth && milliseconds > kLongestFrame) smooth = false;
-    if (!smooth && milliseconds < 0.15 * kLongestFrame) smooth = true;
+void SceneView::State::change() {
+    frames.change();
 }
 
-SceneView::SceneView(QWidget* parent) : QOpenGLWidget(parent), state_(std::make_unique<State>(*this)) {
+SceneView::SceneView(QWidget* parent) : QWidget(parent), state_(std::make_unique<State>(*this)) {
+    setAttribute(Qt::WA_OpaquePaintEvent);
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(240, 160);
     setAccessibleName(tr("3D scene"));
     setAccessibleDescription(tr("The track, the part on it, and what is known of its motion"));
     state_->makeActions();
+    connect(&state_->frames, &SceneFrames::failed, this, &SceneView::failed);
 }
 
-SceneView::~SceneView() {
-    if (!isValid()) return;
-    // The context goes after this object is none any more.
-    disconnect(context(), nullptr, this, nullptr);
-    makeCurrent();
-    state_->stage.releaseGraphics();
-    doneCurrent();
-}
-
-void SceneView::prepareApplication() {
-    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    QSurfaceFormat format;
-    format.setRenderableType(QSurfaceFormat::OpenGL);
-    format.setVersion(3, 2);
-    format.setProfile(QSurfaceFormat::CoreProfile);
-    format.setRedBufferSize(8);
-    format.setGreenBufferSize(8);
-    format.setBlueBufferSize(8);
-    format.setAlphaBufferSize(8);
-    format.setDepthBufferSize(24);
-    format.setStencilBufferSize(8);
-    // VTK smooths edges in a framebuffer of its own.
-    format.setSamples(0);
-    QSurfaceFormat::setDefaultFormat(format);
-}
+SceneView::~SceneView() = default;
 
 const SceneContents& SceneView::contents() const {
     return state_->contents;
@@ -123,7 +87,7 @@ const Camera& SceneView::camera() const {
 
 void SceneView::setTheme(const SceneTheme& theme) {
     state_->contents.theme = theme;
-    update();
+    state_->change();
 }
 
 void SceneView::clear() {
@@ -134,7 +98,7 @@ void SceneView::clear() {
     state_->contents = empty;
     state_->closeUp.reset();
     state_->moved = false;
-    update();
+    state_->change();
 }
 
 void SceneView::showTrack(std::shared_ptr<const track::Track> track, const TrackMarks& marks) {
@@ -171,44 +135,44 @@ void SceneView::setPartPoses(std::span<const base::Pose> poses) {
     state_->placed = !poses.empty();
     shown.assign(poses.begin(), poses.end());
     if (state_->closeUp) state_->fitUnlessMoved();
-    update();
+    state_->change();
 }
 
 void SceneView::setPartColours(std::span<const QColor> colours) {
     state_->contents.partColours.assign(colours.begin(), colours.end());
-    update();
+    state_->change();
 }
 
 void SceneView::setTraces(std::vector<Trace> traces) {
     state_->contents.traces = std::move(traces);
-    update();
+    state_->change();
 }
 
 void SceneView::setContacts(std::span<const ContactArrow> contacts) {
     state_->contents.contacts.assign(contacts.begin(), contacts.end());
-    update();
+    state_->change();
 }
 
 void SceneView::setForceLegend(bool on) {
     state_->contents.forceLegend = on;
-    update();
+    state_->change();
 }
 
 void SceneView::setHighlights(std::vector<Highlight> highlights) {
     state_->contents.highlights = std::move(highlights);
-    update();
+    state_->change();
 }
 
 void SceneView::setHeightShading(bool on) {
     state_->contents.heightShading = on;
     state_->heightShading->setChecked(on);
-    update();
+    state_->change();
 }
 
 void SceneView::setEdges(bool on) {
     state_->contents.edges = on;
     state_->edges->setChecked(on);
-    update();
+    state_->change();
 }
 
 void SceneView::setFollow(bool on) {
@@ -232,82 +196,52 @@ void SceneView::setView(StandardView view) {
     state_->camera =
         view == StandardView::home ? homeCamera(state_->contents) : turnedTo(state_->camera, view);
     state_->fit();
-    update();
+    state_->change();
 }
 
 void SceneView::fitView() {
     state_->fit();
 }
 
-void SceneView::setAlwaysSmooth(bool on) {
-    state_->alwaysSmooth = on;
-    state_->smooth = on || !state_->software;
-    update();
-}
-
 QList<QAction*> SceneView::viewActions() const {
     return state_->actions;
 }
 
-QImage SceneView::picture(QSize pixels, double pixelRatio) const {
-    if (!state_->offscreen) state_->offscreen = std::make_unique<Offscreen>();
-    QImage image = state_->offscreen->draw(state_->contents, state_->camera, pixels, pixelRatio);
-    if (image.isNull()) return image;
-    QPainter painter(&image);
-    paintOverlay(painter,
-                 overlayOf(state_->contents, state_->camera, QSizeF(pixels) / pixelRatio, std::nullopt));
-    return image;
+bool SceneView::isSettled() const {
+    return state_->frames.isSettled();
+}
+
+QFuture<QImage> SceneView::picture(QSize pixels, double pixelRatio) {
+    return state_->frames.picture(pixels, pixelRatio);
 }
 
 void SceneView::showEvent(QShowEvent* event) {
-    QOpenGLWidget::showEvent(event);
-    // The context is made after the first showing; without one nothing is ever initialised.
-    QTimer::singleShot(0, this, [this] {
-        if (isVisible() && !isValid())
-            emit failed(
-                tr("The 3D scene cannot be drawn: this display offers no OpenGL. Update its driver, or set "
-                   "LIBGL_ALWAYS_SOFTWARE=1."));
-    });
+    QWidget::showEvent(event);
+    state_->change();
 }
 
-void SceneView::initializeGL() {
-    const auto version = context()->format().version();
-    state_->drawable = version >= std::pair(3, 2);
-    if (!state_->drawable) {
-        emit failed(tr("The 3D scene needs OpenGL 3.2; this display offers %1.%2. Update its driver, or set "
-                       "LIBGL_ALWAYS_SOFTWARE=1 to draw without it.")
-                        .arg(version.first)
-                        .arg(version.second));
+void SceneView::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    if (!state_->moved) state_->fit();
+    state_->change();
+}
+
+void SceneView::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    const Frame* const frame = state_->frames.newest();
+    if (frame == nullptr) {
+        QLinearGradient background(0.0, 0.0, 0.0, height());
+        background.setColorAt(0.0, state_->contents.theme.backgroundTop);
+        background.setColorAt(1.0, state_->contents.theme.backgroundBottom);
+        painter.fillRect(rect(), background);
         return;
     }
-    state_->software = drawsInSoftware(*context());
-    state_->smooth = state_->alwaysSmooth || !state_->software;
-    // Comes when the view moves to another window (docking) as well as at its end.
-    connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
-        makeCurrent();
-        state_->stage.releaseGraphics();
-        doneCurrent();
-    });
-}
-
-void SceneView::resizeGL(int /*width*/, int /*height*/) {
-    if (!state_->moved) state_->fit();
-}
-
-void SceneView::paintGL() {
-    if (!state_->drawable) return;
-    const double ratio = devicePixelRatioF();
-    QElapsedTimer timer;
-    timer.start();
-    state_->stage.draw(state_->contents, state_->camera, defaultFramebufferObject(), size() * ratio, ratio,
-                       state_->smooth);
-    if (state_->software && !state_->alwaysSmooth) {
-        context()->functions()->glFinish();
-        state_->weighSmoothness(1e-6 * static_cast<double>(timer.nsecsElapsed()));
-    }
-    QPainter painter(this);
-    paintOverlayAsPictures(painter, overlayOf(state_->contents, state_->camera, size(), state_->hovered),
-                           ratio);
+    if (frame->pixelRatio != devicePixelRatioF()) state_->change();
+    // Until the picture of a new size is drawn, that of the old one is stretched.
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, frame->screen != QSizeF(size()));
+    painter.scale(width() / frame->screen.width(), height() / frame->screen.height());
+    painter.drawImage(QRectF(QPointF(), frame->screen), frame->image);
+    paintOverlay(painter, overlayOf(*frame->contents, frame->camera, frame->screen, state_->hovered));
 }
 
 }  // namespace trapwright::scene

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <QFuture>
 #include <QImage>
 #include <QList>
-#include <QOpenGLWidget>
+#include <QWidget>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,17 +16,15 @@ class QAction;
 namespace trapwright::scene {
 
 /// The 3D scene: tracks, parts and what is known of their motion. Everything in it is a value set from
-/// outside; VTK stays behind it. GUI thread only. Left drag turns, right or middle drag moves, the wheel
-/// zooms at the cursor; a click picks.
-class SceneView : public QOpenGLWidget {
+/// outside; VTK stays behind it. Pictures are drawn in the background (SceneRenderer): the newest contents
+/// are seen as soon as they are drawn, and nothing waits for them. GUI thread only. Left drag turns, right or
+/// middle drag moves, the wheel zooms at the cursor; a click picks.
+class SceneView : public QWidget {
     Q_OBJECT
 
  public:
     explicit SceneView(QWidget* parent = nullptr);
     ~SceneView() override;
-
-    /// Sets what OpenGL contexts of this program are like. Call once, before the QApplication is made.
-    static void prepareApplication();
 
     [[nodiscard]] const SceneContents& contents() const;
     [[nodiscard]] const Camera& camera() const;
@@ -53,9 +52,6 @@ class SceneView : public QOpenGLWidget {
     void setHeightShading(bool on);  // with a legend in mm
     void setEdges(bool on);          // silhouettes and sharp edges as thin lines
     void setFollow(bool on);         // the camera goes with the first part
-    /// Edges are drawn smooth where that is quick: always with a graphics processor. On: always, for pictures
-    /// of the window.
-    void setAlwaysSmooth(bool on);
     /// The view is fitted to the first part and this much around its centre [m], instead of to the subject.
     void setCloseUp(std::optional<double> radius);
     void setView(StandardView view);
@@ -64,9 +60,11 @@ class SceneView : public QOpenGLWidget {
     /// Standard views, fit, height shading, edges, follow: with names, shortcuts and state, for menus.
     [[nodiscard]] QList<QAction*> viewActions() const;
 
-    /// The scene as it is seen now, drawn off-screen at this size; labels are as large as on a screen of this
-    /// pixel ratio. Null if there is no OpenGL.
-    [[nodiscard]] QImage picture(QSize pixels, double pixelRatio = 1.0) const;
+    /// Whether what is seen is what was set, with smooth edges.
+    [[nodiscard]] bool isSettled() const;
+    /// The scene as it is set now, drawn in the background at this size; labels are as large as on a screen
+    /// of this pixel ratio. Null if there is no OpenGL. For whenReady().
+    [[nodiscard]] QFuture<QImage> picture(QSize pixels, double pixelRatio = 1.0);
 
  signals:
     void trackPicked(int triangle,
@@ -77,9 +75,8 @@ class SceneView : public QOpenGLWidget {
 
  protected:
     void showEvent(QShowEvent* event) override;
-    void initializeGL() override;
-    void resizeGL(int width, int height) override;
-    void paintGL() override;
+    void resizeEvent(QResizeEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void mouseReleaseEvent(QMouseEvent* event) override;

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <QAction>
-#include <QOpenGLContext>
 #include <QPointF>
 #include <optional>
 
-#include "ui/scene/offscreen.h"
+#include "ui/scene/scene_frames.h"
 #include "ui/scene/scene_view.h"
-#include "ui/scene/stage.h"
 
 namespace trapwright::scene {
 
@@ -20,11 +18,7 @@ struct Subject {
 
 /// What a view holds; shared by its drawing (scene_view.cpp) and its input (scene_input.cpp).
 struct SceneView::State {
-    explicit State(SceneView& owner)
-        : view(owner), stage([&owner] {
-              // Making it current once more would bind the widget's framebuffer in the middle of VTK's work.
-              if (QOpenGLContext::currentContext() != owner.context()) owner.makeCurrent();
-          }) {}
+    explicit State(SceneView& owner) : view(owner), frames(owner, contents, camera) {}
 
     SceneView& view;
     SceneContents contents;
@@ -33,12 +27,7 @@ struct SceneView::State {
     bool follow = false;
     std::optional<double> closeUp;  // radius about the first part [m]
     bool placed = false;            // the part, by setPartPoses
-    bool drawable = false;          // the context can do what VTK needs
-    bool software = false;          // OpenGL is done by the processor
-    bool smooth = true;
-    bool alwaysSmooth = false;
-    Stage stage;
-    std::unique_ptr<Offscreen> offscreen;  // made when the first picture is wanted
+    SceneFrames frames;
 
     QPointF pressedAt;
     QPointF lastMouse;
@@ -54,8 +43,8 @@ struct SceneView::State {
     void setSubject(Subject subject);
     void fit();
     void fitUnlessMoved();
-    /// Chooses how the next picture is drawn from how long this one took.
-    void weighSmoothness(double milliseconds);
+    /// Contents or camera are others than before.
+    void change();
     /// A camera that the user chose.
     void moveTo(const Camera& wanted);
     void makeActions();

@@ -98,7 +98,7 @@ void Stage::draw(const SceneContents& contents, const Camera& camera, unsigned f
 
     state.window->SetMultiSamples(smooth ? kSamples : 0);
     state.window->SetSize(pixels.width(), pixels.height());
-    // Qt has used the context in the meantime: what VTK remembers of its state is wrong.
+    // Qt has made a framebuffer in the meantime: what VTK remembers of the state is wrong.
     vtkOpenGLState* gl = state.window->GetState();
     gl->Reset();
     gl->Push();

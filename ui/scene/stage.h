@@ -10,7 +10,7 @@
 namespace trapwright::scene {
 
 /// A scene as VTK draws it, without labels, into whatever OpenGL context is current. One stage serves one
-/// context at a time; GUI thread only.
+/// context at a time and belongs to its thread.
 class Stage {
  public:
     /// VTK asks for its context through `makeCurrent`.

@@ -110,7 +110,6 @@ class CalibrateTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     CalibrateTest test;
     return QTest::qExec(&test, argc, argv);

@@ -44,7 +44,6 @@ void makeTrials(Operator& user, int count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     const QStringList arguments = QCoreApplication::arguments();
     if (arguments.size() != 3) {

@@ -177,7 +177,6 @@ class StoppingTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     StoppingTest test;
     return QTest::qExec(&test, argc, argv);

@@ -204,7 +204,6 @@ class ValidatePageTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     ValidatePageTest test;
     return QTest::qExec(&test, argc, argv);

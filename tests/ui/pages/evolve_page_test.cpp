@@ -381,7 +381,6 @@ class EvolvePageTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     EvolvePageTest test;
     return QTest::qExec(&test, argc, argv);

@@ -268,7 +268,6 @@ int main(int argc, char** argv) {
     // Qt's own file dialog keeps its last folder beside the user's settings and looks into the files there.
     const QTemporaryDir settings;
     qputenv("XDG_CONFIG_HOME", settings.path().toLocal8Bit());
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     ExportPageTest test;
     return QTest::qExec(&test, argc, argv);

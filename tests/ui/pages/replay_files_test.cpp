@@ -94,9 +94,10 @@ class ReplayFilesTest : public QObject {
         QVERIFY(user.waitForReplay());
         user.files().setPictureSize({1920, 1080});
         user.files().savePicture(learned_.file("a.png"));
-        QCOMPARE(QImage(learned_.file("a.png")).size(), QSize(1920, 1080));
+        QTRY_COMPARE_WITH_TIMEOUT(QImage(learned_.file("a.png")).size(), QSize(1920, 1080), kPatience);
         user.files().savePicture(learned_.file("no/such/folder/a.png"));
-        QVERIFY2(user.message().contains("no/such/folder"), qPrintable(user.message()));
+        QTRY_VERIFY2_WITH_TIMEOUT(user.message().contains("no/such/folder"), qPrintable(user.message()),
+                                  kPatience);
     }
 
  private:
@@ -105,7 +106,6 @@ class ReplayFilesTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     ReplayFilesTest test;
     return QTest::qExec(&test, argc, argv);

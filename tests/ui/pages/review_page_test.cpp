@@ -240,7 +240,6 @@ class ReviewPageTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     ReviewPageTest test;
     return QTest::qExec(&test, argc, argv);

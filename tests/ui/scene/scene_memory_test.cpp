@@ -49,8 +49,8 @@ class SceneMemoryTest : public QObject {
         for (int i = 0; i < 220; ++i) {
             const auto track = makeTrack(i);
             view.showTrack(track);
-            QVERIFY(!view.grabFramebuffer().isNull());
-            QVERIFY(!pictures.trackPicture(track, {160, 90}).isNull());
+            QVERIFY(!samples::grabSettled(view).isNull());
+            QVERIFY(!pictures.trackPicture(track, {160, 90}).result().isNull());
             shown.push_back(track);
             if (i == 19) settled = residentMemory();
         }
@@ -70,7 +70,7 @@ class SceneMemoryTest : public QObject {
             view.showTrack(track);
             view.show();
             QVERIFY(QTest::qWaitForWindowExposed(&view));
-            QVERIFY(!view.grabFramebuffer().isNull());
+            QVERIFY(!samples::grabSettled(view).isNull());
             if (i == 9) settled = residentMemory();
         }
         const double grown = residentMemory() - settled;
@@ -80,7 +80,6 @@ class SceneMemoryTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     SceneMemoryTest test;
     return QTest::qExec(&test, argc, argv);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QImage>
+#include <QPixmap>
 #include <QTest>
 #include <cmath>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "core/part/part_builder.h"
 #include "core/study/resource_tracks.h"
 #include "core/track/track_file.h"
+#include "ui/scene/scene_view.h"
 
 namespace trapwright::samples {
 
@@ -24,6 +26,12 @@ inline std::shared_ptr<const part::Part> loadPart(const char* name) {
     const auto mesh = part::importMesh(part::findBundledFile(*part::findBundledPart(name)));
     if (!mesh.ok()) qFatal("%s", mesh.error().message.c_str());
     return std::make_shared<const part::Part>(part::buildPart(mesh->mesh, {})->part);
+}
+
+/// What a view shows when it has drawn what was set. Null if it does not come to that.
+inline QImage grabSettled(scene::SceneView& view) {
+    if (!QTest::qWaitFor([&] { return view.isSettled(); }, 20000)) return {};
+    return view.grab().toImage();
 }
 
 /// The share of pixels that differ by more than `tolerance` in a colour. 1 where the sizes differ.

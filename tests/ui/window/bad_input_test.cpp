@@ -344,7 +344,6 @@ class BadInputTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     BadInputTest test;
     return QTest::qExec(&test, argc, argv);

@@ -164,7 +164,6 @@ class PartImportTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     PartImportTest test;
     return QTest::qExec(&test, argc, argv);

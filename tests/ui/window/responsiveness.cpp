@@ -1,5 +1,6 @@
 // How quick the window is: time to its first frame, how late events are answered while it does nothing and
-// while a study learns on every processor, and the memory that it takes: responsiveness STUDY GENERATIONS.
+// while a study learns on every processor, also while the scene is turned, and the memory that it takes:
+// responsiveness STUDY GENERATIONS.
 // tests/studies/responsiveness.sh calls it.
 
 #include <unistd.h>
@@ -9,6 +10,8 @@
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QThread>
+#include <QTimer>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -52,12 +55,13 @@ double residentMemory() {
     return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-/// Notes which event took the longest to handle.
+/// Notes which of the window's events took the longest to handle.
 class Application : public QApplication {
  public:
     using QApplication::QApplication;
 
     bool notify(QObject* receiver, QEvent* event) override {
+        if (QThread::currentThread() != thread()) return QApplication::notify(receiver, event);
         const QString what = QString("%1 '%2' event %3")
                                  .arg(receiver->metaObject()->className(), receiver->objectName())
                                  .arg(event->type());
@@ -82,11 +86,29 @@ class Application : public QApplication {
     QString what_;
 };
 
-void watch(const char* what, int duration, const session::StudySession& session) {
+/// Counts how often a widget is painted.
+class PaintCount : public QObject {
+ public:
+    explicit PaintCount(QWidget& widget) { widget.installEventFilter(this); }
+    bool eventFilter(QObject* /*watched*/, QEvent* event) override {
+        if (event->type() == QEvent::Paint) ++count_;
+        return false;
+    }
+    int take() { return std::exchange(count_, 0); }
+
+ private:
+    int count_ = 0;
+};
+
+void watch(const char* what, int duration, const session::StudySession& session, PaintCount& scene) {
+    (void)scene.take();
     static_cast<Application*>(qApp)->takeLongest();
     const session::EventDelays delays = session::watchEvents(duration);
-    std::printf("%-24s worst %6.1f ms, 99.9 %% %6.1f ms, %5d events, %3zu generations, %5.0f MiB\n", what,
-                delays.worst, delays.most, delays.events, session.summaries().size(), residentMemory());
+    std::printf(
+        "%-24s worst %6.1f ms, 99.9 %% %6.1f ms, %5d events, scene painted %4.1f times/s, %3zu generations, "
+        "%5.0f MiB\n",
+        what, delays.worst, delays.most, delays.events, 1e3 * scene.take() / duration,
+        session.summaries().size(), residentMemory());
     std::printf("    longest: %s\n", qPrintable(static_cast<Application*>(qApp)->takeLongest()));
     std::fflush(stdout);
 }
@@ -98,7 +120,6 @@ int main(int argc, char** argv) {
     QSettings::setDefaultFormat(QSettings::IniFormat);
     QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, home.path());
     qputenv("XDG_DATA_HOME", home.path().toLocal8Bit());
-    scene::SceneView::prepareApplication();
     const Application application(argc, argv);
     QCoreApplication::setOrganizationName("Trapwright");
     QCoreApplication::setApplicationName("responsiveness");
@@ -120,16 +141,26 @@ int main(int argc, char** argv) {
     if (!QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, kPatience)) return 1;
     session::StudySession& session = *window.desk().session();
     window.showPage("evolve");
+    auto* scene = window.findChild<scene::SceneView*>("scene");
+    PaintCount paints(*scene);
     constexpr int kSettle = 2000;  // [ms]
     QTest::qWait(kSettle);
-    watch("idle", kLook / 2, session);
+    watch("idle", kLook / 2, session, paints);
     const std::size_t before = session.summaries().size();
     session.startLearning();
+    QTimer turning;             // the scene, as with the mouse
+    constexpr int kMouse = 16;  // [ms]
+    turning.setInterval(kMouse);
+    QObject::connect(&turning, &QTimer::timeout, scene, [scene] { QTest::keyClick(scene, Qt::Key_Right); });
     while (session.summaries().size() < before + generations &&
-           session.state() == session::RunState::learning)
-        watch("learning", kLook, session);
+           session.state() == session::RunState::learning) {
+        watch("learning", kLook, session, paints);
+        turning.start();
+        watch("learning, scene turns", kLook, session, paints);
+        turning.stop();
+    }
     session.stopNow();
     (void)QTest::qWaitFor([&] { return session.state() == session::RunState::idle; }, kPatience);
-    watch("idle again", kLook / 2, session);
+    watch("idle again", kLook / 2, session, paints);
     return 0;
 }

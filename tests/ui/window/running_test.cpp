@@ -157,7 +157,6 @@ class RunningTest : public QObject {
 };
 
 int main(int argc, char** argv) {
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     RunningTest test;
     return QTest::qExec(&test, argc, argv);

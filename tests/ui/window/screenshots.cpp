@@ -48,7 +48,6 @@ int main(int argc, char** argv) {
     QSettings::setDefaultFormat(QSettings::IniFormat);
     QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, home.path());
     qputenv("XDG_DATA_HOME", home.path().toLocal8Bit());
-    scene::SceneView::prepareApplication();
     QApplication application(argc, argv);
     QCoreApplication::setOrganizationName("Trapwright");
     QCoreApplication::setApplicationName("screenshots");
@@ -63,8 +62,6 @@ int main(int argc, char** argv) {
 
     window::MainWindow window({app::makeWorkEngine, "trapwright", {}});
     window.resize(size.at(0).toInt(), size.at(1).toInt());
-    // As on a machine with a graphics processor.
-    window.findChild<scene::SceneView*>("scene")->setAlwaysSmooth(true);
     window.show();
     if (!QTest::qWaitForWindowExposed(&window)) return 1;
     camera.take(window, "welcome");
