@@ -169,9 +169,7 @@ void GuideBar::refresh() {
     progress_->setVisible(!progress_->text().isEmpty() && guide_.trouble().isEmpty());
     trouble_->setText(guide_.trouble());
     trouble_->setVisible(!guide_.trouble().isEmpty());
-    QPalette colours = palette();
-    colours.setColor(QPalette::WindowText, look::toneColour(look::Tone::bad, palette()));
-    trouble_->setPalette(colours);
+    look::colourText(*trouble_, look::Tone::bad);
     const bool running = guide_.stage() == Stage::running;
     time_->setVisible(running);
     if (running) {

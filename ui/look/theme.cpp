@@ -1,8 +1,10 @@
 #include "ui/look/theme.h"
 
 #include <QApplication>
+#include <QLabel>
 #include <QStyleFactory>
 #include <QToolButton>
+#include <cmath>
 
 #include "ui/look/system_scheme.h"
 
@@ -23,6 +25,14 @@ const Colours& coloursOf(Scheme scheme) {
     return scheme == Scheme::light ? light : dark;
 }
 
+constexpr double kChosen = 0.16;  // of the accent in the ground of a button that is switched on
+
+QColor mixed(const QColor& ground, const QColor& colour, double share) {
+    const auto mix = [share](int a, int b) { return static_cast<int>(std::lround(a + share * (b - a))); };
+    return {mix(ground.red(), colour.red()), mix(ground.green(), colour.green()),
+            mix(ground.blue(), colour.blue())};
+}
+
 /// What a palette cannot say: flat controls, slim scroll bars, a roomier menu bar. Colours are written out,
 /// because a style sheet's own palette() does not follow a new palette.
 QString makeStyleSheet(Scheme scheme) {
@@ -39,7 +49,8 @@ QToolButton[button="true"] { border: 1px solid $line; border-radius: 4px; paddin
     background: $button; color: $text; }
 QToolButton[button="true"]:hover { border-color: $faint; }
 QToolButton[button="true"]:focus { border-color: $accent; }
-QToolButton[button="true"]:pressed, QToolButton[button="true"]:checked { background: $line; }
+QToolButton[button="true"]:pressed { background: $line; }
+QToolButton[button="true"]:checked { background: $chosen; border-color: $accent; }
 QToolButton[button="true"]:disabled { color: $off; background: $window; border-color: $line; }
 QCheckBox::indicator { width: 14px; height: 14px; border: 1px solid $faint; border-radius: 3px; background: $base; }
 QCheckBox::indicator:hover, QCheckBox::indicator:focus { border-color: $accent; }
@@ -54,7 +65,8 @@ QAbstractSpinBox::up-button { subcontrol-origin: border; subcontrol-position: to
 QAbstractSpinBox::down-button { subcontrol-origin: border; subcontrol-position: bottom right; }
 QAbstractSpinBox::up-arrow { image: url(:/icons/up-on-$scheme.svg); width: 10px; height: 10px; }
 QAbstractSpinBox::down-arrow { image: url(:/icons/down-on-$scheme.svg); width: 10px; height: 10px; }
-QPushButton:pressed, QPushButton:checked { background: $line; }
+QPushButton:pressed { background: $line; }
+QPushButton:checked { background: $chosen; border-color: $accent; }
 QPushButton:flat { border-color: transparent; background: transparent; }
 QPushButton:flat:hover { background: $base; }
 QLineEdit:disabled, QComboBox:disabled, QPushButton:disabled { color: $off; background: $window; border-color: $line; }
@@ -88,6 +100,7 @@ QMainWindow::separator:hover { background: $accent; }
     const std::pair<const char*, QString> values[] = {
         {"$onAccent", c.onAccent.name()},
         {"$accent", c.accent.name()},
+        {"$chosen", mixed(c.base, c.accent, kChosen).name()},
         {"$button", c.button.name()},
         {"$window", c.window.name()},
         {"$faint", c.faint.name()},
@@ -144,6 +157,12 @@ QColor toneColour(Tone tone, const QPalette& palette) {
             return light ? QColor(0xb8430a) : QColor(0xff8a52);
     }
     return palette.color(QPalette::WindowText);
+}
+
+void colourText(QLabel& label, Tone tone) {
+    // Not by a palette: a new style sheet of the program takes that away.
+    const QString sheet = QString("color: %1").arg(toneColour(tone, QApplication::palette()).name());
+    if (label.styleSheet() != sheet) label.setStyleSheet(sheet);
 }
 
 void drawAsButton(QToolButton& button) {

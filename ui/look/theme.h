@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QPalette>
 
+class QLabel;
 class QToolButton;
 
 namespace trapwright::look {
@@ -21,6 +22,9 @@ Scheme schemeOf(const QPalette& palette);
 /// A sign's colour, readable on a window of either scheme. Never the only difference: each has its icon, too.
 enum class Tone { good, warning, bad };
 QColor toneColour(Tone tone, const QPalette& palette);
+
+/// Gives a text the colour of a tone, in the scheme of the program. Call it again when that changes.
+void colourText(QLabel& label, Tone tone);
 
 /// Gives a tool button, which has an action's text, icon and state, the looks of a push button.
 void drawAsButton(QToolButton& button);

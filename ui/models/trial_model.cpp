@@ -21,7 +21,7 @@ std::vector<Column<TrialRow>> TrialModel::makeColumns() {
          [](const Row& r) { return QString::number(r.trial); }},
         {tr("Outcome"), tr("How the trial ended."),
          [](const Row& r) { return QVariant(verdictText(r.verdict)); },
-         [](const Row& r) { return verdictText(r.verdict); }},
+         [](const Row& r) { return verdictWord(r.verdict); }},
         {tr("Start pose"), tr("Stable pose in which the part began, counted from 1."),
          [](const Row& r) { return r.pose < 0 ? QVariant() : QVariant(r.pose + 1); },
          [](const Row& r) { return r.pose < 0 ? tr("any") : QString::number(r.pose + 1); }},

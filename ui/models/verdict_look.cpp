@@ -99,6 +99,10 @@ QString verdictText(TrialVerdict verdict) {
     return {};
 }
 
+QString verdictWord(TrialVerdict verdict) {
+    return verdict == TrialVerdict::wrongOrientation ? Text::tr("wrong") : verdictText(verdict);
+}
+
 QColor verdictColour(TrialVerdict verdict) {
     switch (verdict) {
         case TrialVerdict::finished:

@@ -137,9 +137,7 @@ void PrintFindings::fill() {
 }
 
 void PrintFindings::colour() {
-    QPalette colours;
-    colours.setColor(QPalette::WindowText, look::toneColour(tone_, QPalette()));
-    verdict_->setPalette(colours);
+    look::colourText(*verdict_, tone_);
 }
 
 }  // namespace trapwright::pages

@@ -127,9 +127,7 @@ void PrintRow::showReason() {
     edit_->setBad(!reason.isEmpty());
     reason_->setVisible(!reason.isEmpty());
     reason_->setText(reason);
-    QPalette colours;
-    colours.setColor(QPalette::WindowText, look::toneColour(look::Tone::bad, QPalette()));
-    reason_->setPalette(colours);
+    look::colourText(*reason_, look::Tone::bad);
     edit_->setAccessibleDescription(reason.isEmpty() ? field_.help : reason + " " + field_.help);
 }
 

@@ -183,10 +183,7 @@ void SettingsRow::showReason() {
     if (edit_ != nullptr) edit_->setBad(bad);
     reason_->setVisible(!reason.isEmpty());
     reason_->setText(reason);
-    QPalette colours;
-    colours.setColor(QPalette::WindowText,
-                     look::toneColour(bad ? look::Tone::bad : look::Tone::warning, QPalette()));
-    reason_->setPalette(colours);
+    look::colourText(*reason_, bad ? look::Tone::bad : look::Tone::warning);
     QWidget* editor = edit_ != nullptr ? static_cast<QWidget*>(edit_) : combo_;
     editor->setAccessibleDescription(reason.isEmpty() ? text_.help : reason + " " + text_.help);
 }

@@ -150,7 +150,7 @@ bool TrackChoice::isFinal() const {
 
 void TrackChoice::showFinal() {
     take_->setVisible(winner_.has_value() && !isFinal());
-    final_->setVisible(winner_.has_value());
+    if (!winner_) return final_->setText(tr("No track has been learned yet."));
     const auto chosen = session_ ? session_->chosen() : std::nullopt;
     if (!chosen) return final_->clear();
     final_->setText(isFinal() ? tr("<b>This is the final track.</b> It is the one that is exported.")

@@ -1,6 +1,7 @@
 #include "ui/pages/trial_list.h"
 
 #include <QComboBox>
+#include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -81,6 +82,7 @@ void TrialList::makeTable() {
     table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
     table_->horizontalHeader()->setHighlightSections(false);
     table_->setColumnHidden(TrialModel::Pose, true);
+    table_->viewport()->installEventFilter(this);
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
         if (!restoring_) emit chosenChanged();
     });
@@ -163,7 +165,10 @@ void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {
     restoring_ = true;
     model_.setTrials(std::move(rows));
     stack_->setCurrentIndex(model_.rowCount() == 0 ? 0 : 1);
-    if (!sized && model_.rowCount() > 0) table_->resizeColumnsToContents();
+    if (!sized && model_.rowCount() > 0) {
+        table_->resizeColumnsToContents();
+        fitColumns();
+    }
     if (!before.empty() && before.front() < model_.rowCount()) {
         // The ghosts that only follow are found again by themselves.
         const QModelIndex current = filter_.mapFromSource(model_.index(before.front(), TrialModel::Trial));
@@ -175,12 +180,24 @@ void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {
     if (chosen() != before) emit chosenChanged();
 }
 
+bool TrialList::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Resize) fitColumns();
+    return QWidget::eventFilter(watched, event);
+}
+
+/// The last column is there where it has room: reading sideways costs more than it tells.
+void TrialList::fitColumns() {
+    table_->setColumnHidden(TrialModel::Distance, false);
+    const bool fits = table_->horizontalHeader()->length() <= table_->viewport()->width();
+    table_->setColumnHidden(TrialModel::Distance, !fits);
+}
+
 void TrialList::showCounts(int wanted) {
     for (const work::TrialVerdict verdict : models::kVerdicts) {
         const QString count = QLocale().toString(model_.count(verdict));
         const QString text = tr("%1 %2").arg(count, models::verdictText(verdict));
         QToolButton& chip = *chips_[static_cast<int>(verdict)];
-        chip.setText(verdict == work::TrialVerdict::wrongOrientation ? tr("%1 wrong").arg(count) : text);
+        chip.setText(tr("%1 %2").arg(count, models::verdictWord(verdict)));
         chip.setAccessibleName(text);
         chip.setToolTip(tr("%1: list them").arg(text));
     }

@@ -57,10 +57,14 @@ class TrialList : public QWidget {
     /// A trial was double-clicked or entered.
     void playWanted();
 
+ protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
     QWidget* makeChips();
     QWidget* makeFoot();
     void makeTable();
+    void fitColumns();
     void applyChips();
     void showCounts(int wanted);
 

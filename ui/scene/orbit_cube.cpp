@@ -1,6 +1,7 @@
 #include "ui/scene/orbit_cube.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,8 +11,11 @@ namespace {
 
 using base::Vec3;
 
-constexpr double kSize = 136.0;  // of the area
-constexpr double kMargin = 4.0;  // to the screen's corner
+constexpr double kSize = 136.0;     // of the area on a large screen
+constexpr double kShare = 0.38;     // of a small one
+constexpr double kSmallest = 0.65;  // of its size
+constexpr double kMargin = 4.0;     // to the screen's corner
+constexpr QPointF kCentre(0.5 * kSize, 0.5 * kSize);
 constexpr double kHalfEdge = 27.0;
 
 struct Face {
@@ -92,17 +96,23 @@ void paintAxes(QPainter& painter, const Camera& camera, const SceneTheme& theme,
     }
 }
 
+/// All else is laid out in an area of kSize.
+double scaleOn(const QSizeF& screen) {
+    return std::clamp(kShare * std::min(screen.width(), screen.height()) / kSize, kSmallest, 1.0);
+}
+
 }  // namespace
 
 QRectF orbitCubeArea(const QSizeF& screen) {
-    return {screen.width() - kSize - kMargin, kMargin, kSize, kSize};
+    const double size = kSize * scaleOn(screen);
+    return {screen.width() - size - kMargin, kMargin, size, size};
 }
 
 std::optional<StandardView> orbitCubeFaceAt(const Camera& camera, const QSizeF& screen,
                                             const QPointF& place) {
-    const QPointF centre = orbitCubeArea(screen).center();
+    const QPointF inside = (place - orbitCubeArea(screen).topLeft()) / scaleOn(screen);
     for (const Face& face : faces()) {
-        if (isSeen(face, camera) && cornersOf(face, camera, centre).containsPoint(place, Qt::WindingFill))
+        if (isSeen(face, camera) && cornersOf(face, camera, kCentre).containsPoint(inside, Qt::WindingFill))
             return face.view;
     }
     return std::nullopt;
@@ -110,15 +120,16 @@ std::optional<StandardView> orbitCubeFaceAt(const Camera& camera, const QSizeF& 
 
 void paintOrbitCube(QPainter& painter, const Camera& camera, const SceneTheme& theme, const QSizeF& screen,
                     std::optional<StandardView> hovered) {
-    const QPointF centre = orbitCubeArea(screen).center();
     painter.save();
+    painter.translate(orbitCubeArea(screen).topLeft());
+    painter.scale(scaleOn(screen), scaleOn(screen));
     painter.setRenderHint(QPainter::Antialiasing);
     QFont font = painter.font();
     font.setPixelSize(13);
     font.setWeight(QFont::DemiBold);
     painter.setFont(font);
     const bool fromBelow = camera.elevation < 0.0;
-    if (!fromBelow) paintAxes(painter, camera, theme, centre);
+    if (!fromBelow) paintAxes(painter, camera, theme, kCentre);
     for (const Face& face : faces()) {
         if (!isSeen(face, camera)) continue;
         const double facing = -face.normal.dot(camera.forward());
@@ -127,13 +138,13 @@ void paintOrbitCube(QPainter& painter, const Camera& camera, const SceneTheme& t
         painter.setBrush(fill);
         painter.setPen(
             QPen(mixed(theme.side, theme.text, 0.25), 1.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-        painter.drawPolygon(cornersOf(face, camera, centre));
+        painter.drawPolygon(cornersOf(face, camera, kCentre));
         painter.setPen(theme.text);
         font.setPixelSize(face.view == StandardView::bottom ? 12 : 13);
         painter.setFont(font);
-        paintLabel(painter, face, camera, centre);
+        paintLabel(painter, face, camera, kCentre);
     }
-    if (fromBelow) paintAxes(painter, camera, theme, centre);
+    if (fromBelow) paintAxes(painter, camera, theme, kCentre);
     painter.restore();
 }
 

@@ -113,9 +113,12 @@ void addTrackLabels(std::vector<OverlayItem>& items, const SceneContents& conten
         if (const auto at = camera.project(place, screen))
             items.push_back(makeLabel(name, *at - QPointF(0.0, above), theme.accent, theme));
     };
-    if (contents.marks.startPoint)
-        addMark(QCoreApplication::translate("scene", "Start"), surfacePoint(track, track.start, 0.0),
-                1.6 * metrics.height());
+    if (contents.marks.startPoint) {
+        // Above the part that lies there.
+        const double top = contents.part ? 1.5 * contents.part->boundingRadius : 0.0;
+        addMark(QCoreApplication::translate("scene", "Start"),
+                surfacePoint(track, track.start, 0.0) + top * Vec3::UnitZ(), 1.6 * metrics.height());
+    }
     if (contents.marks.finishLine) {
         const Vec3 inner = lineAcross(track, track.finish).front();
         const Vec3 outer = lineAcross(track, track.finish).back();

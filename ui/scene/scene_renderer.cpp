@@ -29,7 +29,7 @@ SceneRenderer::~SceneRenderer() {
 
 QFuture<Rendering> SceneRenderer::render(RenderRequest request) {
     const auto promise = std::make_shared<QPromise<Rendering>>();
-    const QFuture<Rendering> future = promise->future();
+    QFuture<Rendering> future = promise->future();
     promise->start();
     // The state outlives what was posted: its end waits for it.
     state_->thread->post([state = state_.get(), request = std::move(request), promise] {

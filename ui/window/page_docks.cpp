@@ -2,10 +2,13 @@
 
 #include <QAction>
 #include <QDockWidget>
+#include <QEvent>
 #include <QMainWindow>
 #include <QScrollArea>
 #include <QSettings>
 #include <QStackedWidget>
+#include <QTabBar>
+#include <utility>
 
 #include "ui/pages/page.h"
 #include "ui/window/dock_title.h"
@@ -38,6 +41,7 @@ PageDocks::PageDocks(QMainWindow& window, const std::vector<pages::Page*>& pages
       pages_(pages),
       inspector_(new QDockWidget(tr("Inspector"), &window)),
       stack_(new QStackedWidget(inspector_)) {
+    window.installEventFilter(this);
     window.setDockNestingEnabled(true);
     window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
@@ -98,6 +102,23 @@ QList<QAction*> PageDocks::toggles() const {
     for (const PanelDock& panel : panels_[static_cast<std::size_t>(shown_)])
         toggles.push_back(panel.dock->toggleViewAction());
     return toggles;
+}
+
+bool PageDocks::eventFilter(QObject* watched, QEvent* event) {
+    // After the window has handled it.
+    if ((event->type() == QEvent::LayoutRequest || event->type() == QEvent::ChildPolished) &&
+        !std::exchange(sinking_, true))
+        QMetaObject::invokeMethod(this, &PageDocks::sinkEmptyBars, Qt::QueuedConnection);
+    return QObject::eventFilter(watched, event);
+}
+
+/// The window keeps bars of tabs that it has no use for, and does not hide each of them. Hidden by us they
+/// would stay so when it needs them again; below everything else they are neither seen nor clicked.
+void PageDocks::sinkEmptyBars() {
+    sinking_ = false;
+    for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+        if (bar->count() == 0) bar->lower();
+    }
 }
 
 void PageDocks::arrange() {

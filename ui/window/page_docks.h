@@ -34,6 +34,9 @@ class PageDocks : public QObject {
     /// Actions that show and hide the docks of the page that is shown.
     [[nodiscard]] QList<QAction*> toggles() const;
 
+ protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
     struct PanelDock {
         QDockWidget* dock;
@@ -41,6 +44,7 @@ class PageDocks : public QObject {
     };
 
     void arrange();
+    void sinkEmptyBars();
     [[nodiscard]] QString setting() const;
 
     static constexpr int kNoPage = -1;
@@ -51,6 +55,7 @@ class PageDocks : public QObject {
     QStackedWidget* stack_;
     std::vector<std::vector<PanelDock>> panels_;  // by page
     int shown_ = kNoPage;
+    bool sinking_ = false;  // is on its way
 };
 
 }  // namespace trapwright::window

@@ -85,6 +85,7 @@ void showShortcuts(QWidget* parent, const std::vector<Shortcut>& shortcuts) {
     search->setClearButtonEnabled(true);
 
     auto* tree = new QTreeWidget(dialog);
+    tree->setStyleSheet("QTreeWidget::item { padding: 3px 0px; }");
     tree->setObjectName("shortcuts.list");
     tree->setAccessibleName(dialog->windowTitle());
     tree->setHeaderHidden(true);

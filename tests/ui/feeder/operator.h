@@ -42,27 +42,11 @@ struct Bench {
 };
 
 /// The window with a study in it, and what an operator does at the feeder.
-struct Operator {
+struct Operator : tests::WindowUser {
     Bench& bench;
-    window::MainWindow window;
 
-    Operator(Bench& at, const QString& study) : bench(at), window(at.environment()) {
-        window.resize(1280, 720);
-        window.show();
-        window.activateWindow();
-        (void)QTest::qWaitForWindowActive(&window);
-        window.openFile(study.toStdString());
-        (void)QTest::qWaitFor([&] { return session() != nullptr; }, kPatience);
-        window.showPage("validate");
-    }
-    ~Operator() {
-        window.desk().close(false);
-        window.close();
-    }
-    session::StudySession* session() { return window.desk().session(); }
-    template <class Object>
-    Object* find(const QString& name) {
-        return window.findChild<Object*>(name);
+    Operator(Bench& at, const QString& study) : WindowUser(at.environment()), bench(at) {
+        (void)open(study.toStdString(), "validate");
     }
     ValidatePage& page() { return *window.findChild<ValidatePage*>(); }
     TrialGuide& guide() { return page().guide(); }
@@ -89,7 +73,6 @@ struct Operator {
     [[nodiscard]] const std::vector<study::PhysicalTrial>& trials() {
         return session()->physicalValidations().back().trials;
     }
-    QString text(const QString& label) { return find<QLabel>(label)->text(); }
 };
 
 }  // namespace trapwright::feeder

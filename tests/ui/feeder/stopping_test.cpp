@@ -124,11 +124,7 @@ class StoppingTest : public QObject {
     void aFaultInMidTrial() {
         Bench bench;
         Operator user(bench, study_.copy());
-        QVERIFY(user.reach());
-        user.setSetPoint(60);
-        user.plan(2, false);
-        user.press(Qt::Key_Space);
-        QVERIFY(bench.moves());
+        QVERIFY(isInTrial(user));
         bench.feeder->setTrouble(Trouble::fault);
         QTRY_COMPARE_WITH_TIMEOUT(user.guide().stage(), Stage::placing, kPatience);
         QVERIFY(bench.rests());
@@ -154,11 +150,7 @@ class StoppingTest : public QObject {
     void aCutCableInMidTrial() {
         Bench bench;
         Operator user(bench, study_.copy());
-        QVERIFY(user.reach());
-        user.setSetPoint(60);
-        user.plan(2, false);
-        user.press(Qt::Key_Space);
-        QVERIFY(bench.moves());
+        QVERIFY(isInTrial(user));
         bench.feeder->cut();
         QVERIFY(bench.rests());
         QTRY_COMPARE_WITH_TIMEOUT(user.guide().stage(), Stage::placing, kPatience);
@@ -170,6 +162,14 @@ class StoppingTest : public QObject {
         if (!user.reach()) return false;
         user.setSetPoint(60);
         user.click("feeder.start");
+        return user.bench.moves();
+    }
+
+    static bool isInTrial(Operator& user) {
+        if (!user.reach()) return false;
+        user.setSetPoint(60);
+        user.plan(2, false);
+        user.press(Qt::Key_Space);
         return user.bench.moves();
     }
 

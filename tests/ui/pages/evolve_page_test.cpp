@@ -16,12 +16,11 @@
 
 #include "tests/ui/session/event_loop_probe.h"
 #include "tests/ui/session/session_fixture.h"
+#include "tests/ui/window/window_user.h"
 #include "ui/charts/study_chart.h"
 #include "ui/look/message_bar.h"
 #include "ui/models/roles.h"
 #include "ui/pages/learning_charts.h"
-#include "ui/scene/scene_view.h"
-#include "ui/window/main_window.h"
 
 using namespace trapwright;
 using session::RunState;
@@ -33,37 +32,19 @@ constexpr int kGenerations = 6;
 constexpr int kIndividuals = 8;
 
 /// The window with a study of its own in it, and what a user does there.
-struct User {
-    window::MainWindow window;
+struct User : tests::WindowUser {
+    explicit User(const session::SessionFixture& studies) : WindowUser(studies.environment()) {}
 
-    explicit User(const session::SessionFixture& studies) : window(studies.environment()) {
-        window.resize(1280, 720);
-        window.show();
-        (void)QTest::qWaitForWindowExposed(&window);
-    }
-    ~User() {
-        window.desk().close(false);
-        window.close();
-    }
-    session::StudySession* session() { return window.desk().session(); }
     RunState state() { return session()->state(); }
     int saved() { return static_cast<int>(session()->summaries().size()); }
-    template <class Object>
-    Object* find(const QString& name) {
-        return window.findChild<Object*>(name);
-    }
-    QString text(const QString& label) { return find<QLabel>(label)->text(); }
-    scene::SceneView* scene() { return find<scene::SceneView>("scene"); }
-    std::shared_ptr<const track::Track> track() { return scene()->contents().track; }
+    std::shared_ptr<const track::Track> track() { return scene().track; }
     QAbstractItemModel* rows(const QString& table) { return find<QTableView>(table + ".table")->model(); }
     int winners() { return find<QListView>("filmStrip.list")->model()->rowCount(); }
     charts::StudyChart* chart(const QString& name) { return find<charts::StudyChart>(name); }
 
     bool open(const std::filesystem::path& study) {
-        window.openFile(study);
-        if (!waitUntil([&] { return session() != nullptr; })) return false;
-        window.showPage("evolve");
-        return waitUntil([&] { return find<pages::Page>("page.evolve")->isVisible(); });
+        return WindowUser::open(study, "evolve") &&
+               waitUntil([&] { return find<pages::Page>("page.evolve")->isVisible(); });
     }
     void click(const QString& button) {
         auto* found = find<QAbstractButton>(button);

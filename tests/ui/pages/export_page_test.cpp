@@ -16,10 +16,9 @@
 #include "core/study/track_design.h"
 #include "core/track/print_solid.h"
 #include "tests/ui/session/session_fixture.h"
+#include "tests/ui/window/window_user.h"
 #include "ui/look/message_bar.h"
 #include "ui/pages/value_edit.h"
-#include "ui/scene/scene_view.h"
-#include "ui/window/main_window.h"
 
 using namespace trapwright;
 
@@ -29,31 +28,17 @@ constexpr double kMm = base::kMillimetre;
 constexpr int kPatience = 60000;  // [ms] for what happens in the background, on a busy machine
 
 /// The window with a study open at the Export page, and what a user does there.
-struct User {
-    window::MainWindow window;
-
-    User(const session::SessionFixture& studies, const std::string& name) : window(studies.environment()) {
-        window.resize(1280, 720);
-        window.show();
-        (void)QTest::qWaitForWindowActive(&window);
-        window.openFile(studies.path(name));
-        (void)QTest::qWaitFor([&] { return session() != nullptr; }, kPatience);
-        window.showPage("export");
+struct User : tests::WindowUser {
+    User(const session::SessionFixture& studies, const std::string& name)
+        : WindowUser(studies.environment()) {
+        (void)open(studies.path(name), "export");
     }
-    ~User() { window.close(); }
 
-    session::StudySession* session() { return window.desk().session(); }
-    template <class Object>
-    Object* find(const QString& name) {
-        return window.findChild<Object*>(name);
-    }
-    QAction* action(const QString& name) { return find<QAction>(name); }
     QString state() { return find<QLabel>("export.state")->text(); }
     QString reason(const QString& field) {
         auto* label = find<QLabel>("reason.print." + field);
         return label->isHidden() ? QString() : label->text();
     }
-    const scene::SceneContents& scene() { return find<scene::SceneView>("scene")->contents(); }
     bool waitForSolid() {
         return QTest::qWaitFor([&] { return action("export.stl")->isEnabled(); }, kPatience);
     }

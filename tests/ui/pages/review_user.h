@@ -1,19 +1,15 @@
 #pragma once
 
-#include <QAction>
 #include <QFile>
-#include <QLabel>
 #include <QSettings>
 #include <QTableView>
 #include <QtTest>
 
 #include "sim/native/native_engine.h"
 #include "tests/ui/session/session_fixture.h"
-#include "ui/look/message_bar.h"
+#include "tests/ui/window/window_user.h"
 #include "ui/pages/replay_files.h"
 #include "ui/pages/replay_player.h"
-#include "ui/scene/scene_view.h"
-#include "ui/window/main_window.h"
 
 namespace trapwright::pages {
 
@@ -41,37 +37,18 @@ inline study::Settings lowHills() {
 }
 
 /// The window with the study in it, and what a user does there.
-struct ReviewUser {
-    window::MainWindow window{nativeEnvironment()};
-
-    explicit ReviewUser(const QString& study) {
-        window.resize(1280, 720);
-        window.show();
-        window.activateWindow();
-        (void)QTest::qWaitForWindowActive(&window);
-        window.openFile(study.toStdString());
-        (void)QTest::qWaitFor([&] { return session() != nullptr; }, kPatience);
-        window.showPage("review");
-    }
-    ~ReviewUser() {
-        window.desk().close(false);
-        window.close();
-    }
-    session::StudySession* session() { return window.desk().session(); }
-    template <class Object>
-    Object* find(const QString& name) {
-        return window.findChild<Object*>(name);
+struct ReviewUser : tests::WindowUser {
+    explicit ReviewUser(const QString& study) : WindowUser(nativeEnvironment()) {
+        (void)open(study.toStdString(), "review");
     }
     void trigger(const QString& action) { find<QAction>(action)->trigger(); }
-    void press(int key) { QTest::keyClick(find<scene::SceneView>("scene"), Qt::Key(key)); }
+    void press(int key) { QTest::keyClick(sceneView(), Qt::Key(key)); }
     void click(const QTableView& table, int row, int column) {
         const QRect cell = table.visualRect(table.model()->index(row, column));
         QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, cell.center());
     }
-    QString message() { return find<look::MessageBar>("messageBar")->text(); }
 
     ReplayPlayer& player() { return *window.findChild<ReplayPlayer*>(); }
-    const scene::SceneContents& scene() { return find<scene::SceneView>("scene")->contents(); }
     QTableView& trials() { return *find<QTableView>("trials.table"); }
     QTableView& validation() { return *find<QTableView>("review.validation.table"); }
     QTableView& comparison() { return *find<QTableView>("review.comparison.table"); }

@@ -178,6 +178,23 @@ class MainWindowTest : public QObject {
         QCOMPARE(user.window.dockWidgetArea(inspector), Qt::RightDockWidgetArea);
     }
 
+    // Qt's windows keep bars of tabs that no dock needs any more, and do not hide each of them.
+    void noEmptyBarOfTabsLiesOverADock() {
+        User user;
+        QVERIFY(user.import("cuboid"));
+        for (int round = 0; round < 2; ++round) {
+            for (const pages::Page* page : user.window.findChildren<pages::Page*>()) {
+                QVERIFY(user.show(page->face().name));
+                QTest::qWait(300);  // docks move into their places
+                const auto bars = user.window.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly);
+                for (const QTabBar* bar : bars) {
+                    if (bar->count() > 0 || !user.window.rect().intersects(bar->geometry())) continue;
+                    QVERIFY(user.window.childAt(bar->geometry().center()) != bar);
+                }
+            }
+        }
+    }
+
     // Only one page is shown at a time, and Validate has the scene's digits while it is.
     void everyShortcutIsListedOnce() {
         User user;

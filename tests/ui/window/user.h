@@ -1,18 +1,14 @@
 #pragma once
 
-#include <QAction>
 #include <QApplication>
-#include <QLabel>
 #include <QLineEdit>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QtTest>
 
 #include "core/part/bundled.h"
-#include "ui/look/message_bar.h"
+#include "tests/ui/window/window_user.h"
 #include "ui/pages/page.h"
-#include "ui/scene/scene_view.h"
-#include "ui/window/main_window.h"
 
 /// What the tests of the window share.
 namespace trapwright::tests {
@@ -38,26 +34,8 @@ inline void useFolder(const QTemporaryDir& folder, const QString& program) {
 }
 
 /// The window and what a user does in it.
-struct User {
-    window::MainWindow window{{noEngine, "trapwright test", {}}};
-
-    User() {
-        window.resize(1280, 720);
-        window.show();
-        window.activateWindow();
-        (void)QTest::qWaitForWindowActive(&window);
-    }
-    ~User() {
-        window.desk().close(false);
-        window.close();
-    }
-    session::StudySession* session() { return window.desk().session(); }
-    template <class Object>
-    Object* find(const QString& name) {
-        return window.findChild<Object*>(name);
-    }
-    QAction* action(const QString& name) { return find<QAction>(name); }
-    QString message() { return find<look::MessageBar>("messageBar")->text(); }
+struct User : WindowUser {
+    User() : WindowUser({noEngine, "trapwright test", {}}) {}
 
     bool import(const char* name) {
         window.openFile(bundled(name));
