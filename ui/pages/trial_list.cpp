@@ -165,10 +165,7 @@ void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {
     restoring_ = true;
     model_.setTrials(std::move(rows));
     stack_->setCurrentIndex(model_.rowCount() == 0 ? 0 : 1);
-    if (!sized && model_.rowCount() > 0) {
-        table_->resizeColumnsToContents();
-        fitColumns();
-    }
+    if (!sized && model_.rowCount() > 0) sizeColumns();
     if (!before.empty() && before.front() < model_.rowCount()) {
         // The ghosts that only follow are found again by themselves.
         const QModelIndex current = filter_.mapFromSource(model_.index(before.front(), TrialModel::Trial));
@@ -181,15 +178,25 @@ void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {
 }
 
 bool TrialList::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() == QEvent::Resize) fitColumns();
+    // After the table has taken its new size.
+    if (event->type() == QEvent::Resize)
+        QMetaObject::invokeMethod(this, &TrialList::fitColumns, Qt::QueuedConnection);
     return QWidget::eventFilter(watched, event);
+}
+
+void TrialList::sizeColumns() {
+    QHeaderView& header = *table_->horizontalHeader();
+    header.setSectionResizeMode(TrialModel::Verdict, QHeaderView::Interactive);
+    table_->setColumnHidden(TrialModel::Distance, false);
+    table_->resizeColumnsToContents();
+    columnsNeed_ = header.length();
+    header.setSectionResizeMode(TrialModel::Verdict, QHeaderView::Stretch);
+    fitColumns();
 }
 
 /// The last column is there where it has room: reading sideways costs more than it tells.
 void TrialList::fitColumns() {
-    table_->setColumnHidden(TrialModel::Distance, false);
-    const bool fits = table_->horizontalHeader()->length() <= table_->viewport()->width();
-    table_->setColumnHidden(TrialModel::Distance, !fits);
+    table_->setColumnHidden(TrialModel::Distance, columnsNeed_ > table_->viewport()->width());
 }
 
 void TrialList::showCounts(int wanted) {

@@ -64,6 +64,7 @@ class TrialList : public QWidget {
     QWidget* makeChips();
     QWidget* makeFoot();
     void makeTable();
+    void sizeColumns();
     void fitColumns();
     void applyChips();
     void showCounts(int wanted);
@@ -80,6 +81,7 @@ class TrialList : public QWidget {
     QLabel* busyText_;
     QProgressBar* bar_;
     bool restoring_ = false;
+    int columnsNeed_ = 0;  // to be read without scrolling [px]
 };
 
 }  // namespace trapwright::pages
