@@ -115,6 +115,17 @@ QMainWindow::separator:hover { background: $accent; }
     return sheet;
 }
 
+/// A label asks for the colour of its links only when it is given its text.
+void recolourLinks() {
+    for (QWidget* widget : QApplication::allWidgets()) {
+        auto* label = qobject_cast<QLabel*>(widget);
+        if (label == nullptr || !label->text().contains("<a ")) continue;
+        const QString text = label->text();
+        label->clear();
+        label->setText(text);
+    }
+}
+
 }  // namespace
 
 QPalette makePalette(Scheme scheme) {
@@ -192,6 +203,7 @@ Scheme Theme::scheme() const {
 void Theme::apply() {
     QApplication::setPalette(makePalette(scheme()));
     qApp->setStyleSheet(makeStyleSheet(scheme()));
+    recolourLinks();
     emit schemeChanged(scheme());
 }
 

@@ -1,6 +1,7 @@
 #include "ui/pages/track_page.h"
 
 #include <QComboBox>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
@@ -226,6 +227,11 @@ void TrackPage::refresh() {
         build_.buildLayout(settings.track);
     }
     if (scene_ != nullptr) showTrack();
+}
+
+void TrackPage::changeEvent(QEvent* event) {
+    Page::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && session_) showProblems();
 }
 
 void TrackPage::showProblems() {

@@ -27,6 +27,9 @@ class TrackPage : public Page {
     void activate(scene::SceneView& scene) override;
     void deactivate() override;
 
+ protected:
+    void changeEvent(QEvent* event) override;
+
  private:
     QWidget* makeHead();
     void addContactChoice();

@@ -156,6 +156,25 @@ class MainWindowTest : public QObject {
         QVERIFY(again.action("theme.dark")->isChecked());
     }
 
+    void linksAreReadableInEitherTheme() {
+        User user;
+        QVERIFY(user.import("cuboid"));
+        QVERIFY(user.show("export"));
+        auto* label = user.find<QLabel>("export.empty");
+        for (const char* theme : {"theme.light", "theme.dark", "theme.light"}) {
+            user.action(theme)->trigger();
+            const QColor link =
+                look::makePalette(look::schemeOf(user.window.palette())).color(QPalette::Link);
+            const QImage shown = label->grab().toImage();
+            int found = 0;  // the line under the link
+            for (int y = 0; y < shown.height(); ++y) {
+                for (int x = 0; x < shown.width(); ++x)
+                    found += shown.pixelColor(x, y) == link ? 1 : 0;
+            }
+            QVERIFY2(found > 20, theme);
+        }
+    }
+
     void docksAreMovedClosedAndRemembered() {
         {
             User user;
