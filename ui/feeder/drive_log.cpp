@@ -51,6 +51,7 @@ DriveLog::DriveLog(DriveLink& link, QWidget* parent)
       remark_(new QLineEdit(this)) {
     setObjectName("driveLog");
     list_->setObjectName("driveLog.list");
+    list_->setIconSize({kSign, kSign});
     list_->setAccessibleName(tr("What happened to the drive"));
     list_->setHeaderLabels({tr("Time"), tr("What happened")});
     list_->setRootIsDecorated(false);

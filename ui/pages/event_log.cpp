@@ -38,6 +38,7 @@ EventLog::EventLog(QWidget* parent)
     list_->setObjectName("log.list");
     list_->setAccessibleName(tr("What happened"));
     list_->setColumnCount(2);
+    list_->setIconSize({kSign, kSign});
     list_->setHeaderLabels({tr("Time"), tr("What happened")});
     list_->setRootIsDecorated(false);
     list_->setUniformRowHeights(true);

@@ -41,6 +41,7 @@ PrintFindings::PrintFindings(QWidget* parent)
     verdict_->setWordWrap(true);
     list_->setObjectName("print.flaws");
     list_->setAccessibleName(tr("Thin walls and overhangs"));
+    list_->setIconSize({kSignSize, kSignSize});
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setTextElideMode(Qt::ElideRight);
     connect(list_, &QListWidget::itemSelectionChanged, this, &PrintFindings::highlightsChanged);

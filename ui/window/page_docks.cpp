@@ -117,6 +117,7 @@ bool PageDocks::eventFilter(QObject* watched, QEvent* event) {
 void PageDocks::sinkEmptyBars() {
     sinking_ = false;
     for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+        bar->setDrawBase(bar->count() > 0);
         if (bar->count() == 0) bar->lower();
     }
 }
