@@ -65,6 +65,8 @@ class RunningTest : public QObject {
         const std::size_t before = session->summaries().size();
         action(window, "run.start")->trigger();
         QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::learning, kPatience);
+        // Before its first generation a run has none to wait for.
+        QTRY_VERIFY_WITH_TIMEOUT(session->progress().trials > 0, kPatience);
 
         answer(window, "answer.goOn");
         QTRY_VERIFY(window.findChild<QMessageBox*>("dialog.running") == nullptr);
