@@ -24,6 +24,7 @@ void WinnerPictures::setTracks(const study::TrackSettings& settings) {
     settings_ = settings;
     wanted_.clear();
     build_.cancel();
+    ++order_;
     generation_ = -1;
 }
 
@@ -52,8 +53,8 @@ void WinnerPictures::draw(const std::shared_ptr<const track::Track>& track) {
     if (!maker_) maker_ = std::make_unique<scene::PictureMaker>();
     maker_->setTheme(dark_ ? scene::SceneTheme::dark() : scene::SceneTheme::light());
     scene::whenReady(maker_->trackPicture(track, size_, pixelRatio_), this,
-                     [this, generation = generation_](const QImage& drawn) {
-                         if (generation != generation_) return;  // no longer wanted
+                     [this, order = order_](const QImage& drawn) {
+                         if (order != order_) return;  // of a study that was left
                          model_.setPicture(std::exchange(generation_, -1), QPixmap::fromImage(drawn));
                          next();
                      });

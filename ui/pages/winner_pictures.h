@@ -44,6 +44,7 @@ class WinnerPictures : public QObject {
     double pixelRatio_ = 1.0;
     std::deque<int> wanted_;
     int generation_ = -1;  // that is being made; -1: none
+    int order_ = 0;        // counts the settings of tracks
     session::TrackBuild build_;
     std::unique_ptr<scene::PictureMaker> maker_;  // made for the first picture
 };

@@ -3,7 +3,6 @@
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QOpenGLFramebufferObject>
-#include <QOpenGLFunctions>
 #include <utility>
 
 namespace trapwright::scene {
@@ -11,12 +10,6 @@ namespace trapwright::scene {
 namespace {
 
 constexpr std::pair kVersion(3, 2);  // of OpenGL, that VTK needs
-
-bool drawsInSoftware(QOpenGLContext& context) {
-    const auto* name = reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER));
-    const QString renderer = QString::fromLatin1(name).toLower();
-    return renderer.contains("llvmpipe") || renderer.contains("softpipe") || renderer.contains("software");
-}
 
 QString advice() {
     return QCoreApplication::translate("scene",
@@ -58,9 +51,7 @@ Offscreen::Offscreen(QOffscreenSurface& surface)
                        .arg(version.first)
                        .arg(version.second) +
                    ' ' + advice();
-        return;
     }
-    inSoftware_ = drawsInSoftware(context_);
 }
 
 Offscreen::~Offscreen() {
@@ -72,7 +63,6 @@ Offscreen::~Offscreen() {
 Rendering Offscreen::draw(const RenderRequest& request) {
     Rendering made;
     made.problem = problem_;
-    made.inSoftware = inSoftware_;
     if (!problem_.isEmpty() || request.pixels.isEmpty() || !context_.makeCurrent(&surface_)) return made;
     QElapsedTimer clock;
     clock.start();

@@ -25,7 +25,6 @@ class Offscreen {
     QOpenGLContext context_;
     Stage stage_;
     QString problem_;
-    bool inSoftware_ = false;
 };
 
 }  // namespace trapwright::scene

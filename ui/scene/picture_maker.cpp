@@ -10,8 +10,6 @@ constexpr double kMargin = 0.06;  // a share of the picture on every side
 
 }  // namespace
 
-PictureMaker::PictureMaker() = default;
-
 QFuture<QImage> PictureMaker::trackPicture(std::shared_ptr<const track::Track> track, QSize size,
                                            double pixelRatio) {
     auto contents = std::make_shared<SceneContents>();

@@ -15,8 +15,6 @@ namespace trapwright::scene {
 /// if there is no OpenGL. For whenReady().
 class PictureMaker {
  public:
-    PictureMaker();
-
     void setTheme(const SceneTheme& theme) { theme_ = theme; }
 
     /// Sizes are logical: the picture has so many times the pixels.

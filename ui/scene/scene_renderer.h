@@ -23,7 +23,6 @@ struct Rendering {
     QImage image;               // null if it could not be drawn
     QString problem;            // why there is no OpenGL to draw with
     double milliseconds = 0.0;  // that drawing took
-    bool inSoftware = false;    // OpenGL is done by the processor
 };
 
 /// Draws scenes with VTK in a thread that all renderers share, so that the window never waits for a picture.
