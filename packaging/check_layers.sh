@@ -26,6 +26,7 @@ sim/simbody     core/base core/geometry core/part core/track core/trial sim/cont
 ui              core ui
 ui/charts       core ui/charts ui/look
 ui/feeder       core ui/charts ui/feeder ui/look ui/models ui/pages ui/scene ui/session
+ui/help         core ui/help ui/look
 ui/look         ui/look
 ui/models       core ui/look ui/models
 ui/pages        core ui/charts ui/look ui/models ui/pages ui/scene ui/session

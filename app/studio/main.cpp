@@ -11,6 +11,7 @@
 
 #include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
+#include "ui/pages/field_texts.h"
 #include "ui/scene/scene_view.h"
 #include "ui/transports/make_drive.h"
 #include "ui/transports/virtual_feeder.h"
@@ -40,8 +41,8 @@ bool findDisplay(int count, char** arguments) {
     }
     for (int i = 1; i < count; ++i) {
         const std::string_view argument = arguments[i];
-        if (argument != "--shortcuts" && argument != "--help" && argument != "-h" &&
-            argument != "--version" && argument != "-v") {
+        if (argument != "--shortcuts" && argument != "--settings-page" && argument != "--help" &&
+            argument != "-h" && argument != "--version" && argument != "-v") {
             continue;
         }
         qputenv("QT_QPA_PLATFORM", "offscreen");
@@ -72,9 +73,16 @@ int main(int argc, char** argv) {
     const QCommandLineOption shortcuts("shortcuts",
                                        QApplication::tr("Print the table of keyboard shortcuts and end."));
     parser.addOption(shortcuts);
+    const QCommandLineOption settingsPage("settings-page",
+                                          QApplication::tr("Print the help's page of settings and end."));
+    parser.addOption(settingsPage);
     parser.addPositionalArgument("file", QApplication::tr("A study to open, or a part to import."), "[file]");
     parser.process(application);
 
+    if (parser.isSet(settingsPage)) {
+        std::fputs(pages::settingsReference().toUtf8().constData(), stdout);
+        return 0;
+    }
     const std::filesystem::path data =
         toPath(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
     window::MainWindow window({app::makeWorkEngine,

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <map>
+
+#include "core/study/field_text.h"
 
 namespace trapwright::pages {
 
@@ -88,6 +91,34 @@ QString translated(const char* text) {
     return QCoreApplication::translate("trapwright::pages::FieldTexts", text);
 }
 
+QString toText(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+/// What may be typed there, and what stands there at first.
+QString valuesOf(const study::FieldInfo& field, const FieldText& text) {
+    const QString unit = unitOf(field.key).isEmpty() ? QString() : ' ' + unitOf(field.key);
+    QString first = QString::fromStdString(study::fieldText(study::Settings(), field.key));
+    QStringList lines;
+    if (!text.choices.empty() && text.choices.size() == field.choices.size()) {
+        QStringList names;
+        for (std::size_t i = 0; i < text.choices.size(); ++i)
+            names << QString("*%1* (`%2`)").arg(text.choices[i], QString::fromStdString(field.choices[i]));
+        lines << translated("One of: %1.").arg(names.join(", "));
+    } else if (field.kind == study::FieldKind::number || field.kind == study::FieldKind::count) {
+        lines << translated("%1 to %2%3.")
+                     .arg(QString::number(field.low), QString::number(field.high, 'g', 10), unit);
+    }
+    if (!first.isEmpty()) lines << translated("At first: %1%2.").arg(first, unit);
+    return lines.join(' ');
+}
+
+QString describe(const study::FieldInfo& field) {
+    const FieldText text = findFieldText(field.key);
+    return QString("### %1\n\n%2\n\n")
+        .arg(settingHeading(field.key), (text.help + ' ' + valuesOf(field, text)).trimmed());
+}
+
 }  // namespace
 
 FieldText findFieldText(std::string_view key) {
@@ -151,6 +182,32 @@ std::vector<FieldGroup> trackGroups() {
           "validation.tolerance_deg"},
          true},
     };
+}
+
+QString settingHeading(std::string_view key) {
+    return QString("%1 (`%2`)").arg(findFieldText(key).label, toText(key));
+}
+
+QString settingsReference() {
+    std::map<std::string_view, study::FieldInfo> fields;
+    const std::vector<study::FieldInfo> all = study::listFields();
+    for (const study::FieldInfo& field : all)
+        fields.emplace(field.key, field);
+    QString page = translated(
+        "# Settings\n\nEvery setting of a study, in the order of the [Track](track.md) page. In brackets its "
+        "name in "
+        "files and for `--set` on the [command line](command-line.md).\n\n");
+    for (const FieldGroup& group : trackGroups()) {
+        page += QString("## %1\n\n").arg(group.title);
+        for (const std::string_view key : group.keys) {
+            page += describe(fields.at(key));
+            fields.erase(key);
+        }
+    }
+    page += translated("## On other pages\n\n");
+    for (const study::FieldInfo& field : all)
+        if (fields.count(field.key) > 0) page += describe(field);
+    return page.trimmed() + '\n';
 }
 
 }  // namespace trapwright::pages

@@ -32,4 +32,10 @@ struct FieldGroup {
 /// Table 1 of the paper and the decisions around it, as the Track page shows them.
 std::vector<FieldGroup> trackGroups();
 
+/// The page of the help that lists every setting, in Markdown: label, what it means, unit, range, value at
+/// first, and its key in files. resources/docs/help/settings.md is this text.
+QString settingsReference();
+/// The heading of a setting on that page.
+QString settingHeading(std::string_view key);
+
 }  // namespace trapwright::pages

@@ -22,6 +22,19 @@ class FieldTextsTest : public QObject {
         }
     }
 
+    // Where it differs: trapwright-studio --settings-page > resources/docs/help/settings.md
+    void theHelpListsEverySetting() {
+        QFile page(TRAPWRIGHT_SOURCE_DIR "/resources/docs/help/settings.md");
+        QVERIFY(page.open(QIODevice::ReadOnly));
+        const QStringList stored = QString::fromUtf8(page.readAll()).split('\n');
+        const QStringList wanted = pages::settingsReference().split('\n');
+        for (const QString& line : wanted)
+            QVERIFY2(stored.contains(line), qPrintable("not in settings.md: " + line));
+        QCOMPARE(stored.size(), wanted.size());
+        for (const study::FieldInfo& field : study::listFields())
+            QVERIFY2(stored.contains("### " + pages::settingHeading(field.key)), field.key.c_str());
+    }
+
     // Two fields of one form that are called alike could not be told apart.
     void labelsOfTheTrackPageDiffer() {
         std::set<QString> labels;
