@@ -171,7 +171,7 @@ void addPartCommand(CLI::App& program, Invocation& invocation) {
     command
         .add_option("FILE", options->part.part,
                     "STL, OBJ, PLY, OFF, 3MF, glTF, STEP or IGES file, or a bundled part: cuboid, cone, "
-                    "bracket, pin, cup")
+                    "bracket, pin, cup, bolt")
         ->required();
     addPartOptions(command, options->part);
     command

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "core/base/resources.h"
 #include "core/part/shapes.h"
@@ -14,13 +15,14 @@ namespace {
 using base::Vec2;
 using base::Vec3;
 
-constexpr std::array<BundledPart, 5> kParts = {{
+constexpr std::array<BundledPart, 6> kParts = {{
     {"cuboid", "cuboid.stl", "ABS", "the paper's cube, 4 x 8 x 12 mm"},
     {"cone", "cone.stl", "brass",
      "a cone-like turned part with four stable poses, after the paper's second part"},
     {"bracket", "bracket.stl", "aluminium", "an L bracket, 12 x 10 x 8 mm, 2.5 mm thick"},
     {"pin", "pin.stl", "steel", "a stepped pin, 13 mm long"},
     {"cup", "cup.stl", "PP", "a cup, 12 mm wide and 9 mm high"},
+    {"bolt", "bolt.stl", "steel", "a hexagon bolt M4 x 12 (ISO 4017), without its thread"},
 }};
 
 constexpr int kFacets = 32;
@@ -36,6 +38,48 @@ geometry::TriangleMesh turnMillimetres(std::array<Vec2, N> profile) {
     for (Vec2& point : profile)
         point *= kMm;
     return makeTurned(profile, kFacets);
+}
+
+/// A hexagon head that stands on the x-y plane, with a round shank on it.
+geometry::TriangleMesh makeBolt(double acrossFlats, double headHeight, double diameter, double length) {
+    constexpr int kSides = 6;
+    constexpr int kShankFacets = 48;  // a multiple of the sides, so that the bolt maps onto itself
+    constexpr int kPerSide = kShankFacets / kSides;
+    geometry::TriangleMesh mesh;
+    const auto addRing = [&](int corners, double radius, double z) {
+        const int first = static_cast<int>(mesh.vertices.size());
+        for (int k = 0; k < corners; ++k) {
+            const double angle = 2.0 * base::kPi * k / corners;
+            mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+        }
+        return [first, corners](int k) { return first + k % corners; };
+    };
+    const double cornerRadius = acrossFlats / std::sqrt(3.0);
+    const auto under = addRing(kSides, cornerRadius, 0.0);
+    const auto head = addRing(kSides, cornerRadius, headHeight);
+    const auto neck = addRing(kShankFacets, 0.5 * diameter, headHeight);
+    const auto tip = addRing(kShankFacets, 0.5 * diameter, headHeight + length);
+    const int bottom = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.emplace_back(0.0, 0.0, 0.0);
+    mesh.vertices.emplace_back(0.0, 0.0, headHeight + length);
+    for (int side = 0; side < kSides; ++side) {
+        mesh.triangles.push_back({bottom, under(side + 1), under(side)});
+        mesh.triangles.push_back({under(side), under(side + 1), head(side + 1)});
+        mesh.triangles.push_back({under(side), head(side + 1), head(side)});
+        // Round the neck: the first half of a side's facets sees its first corner, the rest its second.
+        for (int k = 0; k < kPerSide; ++k) {
+            const int facet = side * kPerSide + k;
+            mesh.triangles.push_back(
+                {head(2 * k < kPerSide ? side : side + 1), neck(facet + 1), neck(facet)});
+        }
+        mesh.triangles.push_back({head(side), head(side + 1), neck(side * kPerSide + kPerSide / 2)});
+    }
+    for (int k = 0; k < kShankFacets; ++k) {
+        mesh.triangles.push_back({neck(k), neck(k + 1), tip(k + 1)});
+        mesh.triangles.push_back({neck(k), tip(k + 1), tip(k)});
+        mesh.triangles.push_back({bottom + 1, tip(k), tip(k + 1)});
+    }
+    return mesh;
 }
 
 }  // namespace
@@ -69,6 +113,7 @@ geometry::TriangleMesh makeBundledShape(std::string_view name) {
         return turnMillimetres<6>(
             {Vec2(0.0, 0.0), Vec2(5.0, 0.0), Vec2(6.0, 9.0), Vec2(4.7, 9.0), Vec2(3.8, 1.5), Vec2(0.0, 1.5)});
     }
+    if (name == "bolt") return makeBolt(7.0 * kMm, 2.8 * kMm, 4.0 * kMm, 12.0 * kMm);
     return {};
 }
 

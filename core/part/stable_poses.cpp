@@ -85,22 +85,30 @@ double calcLift(const ConvexPolytope& hull, const PolytopeEdge& edge) {
                           hull.faces[static_cast<std::size_t>(edge.right)].offset);
 }
 
-bool alikeUnder(const SymmetryGroup& symmetry, const ConvexPolytope& hull, std::size_t a, std::size_t b,
-                double radius, bool mergeAlike) {
-    const geometry::PolytopeFace& first = hull.faces[a];
-    const geometry::PolytopeFace& second = hull.faces[b];
+/// A plane that the part may rest on, in the part frame.
+struct RestingPlane {
+    Vec3 normal;          // outward
+    double offset = 0.0;  // from the centre of mass [m]
+};
+
+/// Whether the symmetry maps one plane onto the other. With `facetsOnly` only facets of one surface round a
+/// continuous group's axis count.
+bool areAlike(const SymmetryGroup& symmetry, const RestingPlane& first, const RestingPlane& second,
+              double radius, bool facetsOnly) {
     if (symmetry.sphere) return true;
     if (std::abs(first.offset - second.offset) > kAlikeHeight * radius) return false;
     if (symmetry.continuous) {
         const double angleA = std::acos(std::clamp(first.normal.dot(symmetry.axis), -1.0, 1.0));
         const double angleB = std::acos(std::clamp(second.normal.dot(symmetry.axis), -1.0, 1.0));
         if (std::abs(angleA - angleB) < kAlikeAngle) return true;
-        return mergeAlike && symmetry.flip && std::abs(angleA - (kPi - angleB)) < kAlikeAngle;
+        return !facetsOnly && symmetry.flip && std::abs(angleA - (kPi - angleB)) < kAlikeAngle;
     }
-    if (!mergeAlike) return false;
-    return std::any_of(symmetry.rotations.begin(), symmetry.rotations.end(), [&](const Quaternion& rotation) {
-        return (rotation * first.normal).dot(second.normal) > std::cos(kAlikeAngle);
-    });
+    if (facetsOnly || symmetry.rotations.empty()) return false;
+    // The identity comes first and makes nothing alike but a plane and itself.
+    return std::any_of(symmetry.rotations.begin() + 1, symmetry.rotations.end(),
+                       [&](const Quaternion& rotation) {
+                           return (rotation * first.normal).dot(second.normal) > std::cos(kAlikeAngle);
+                       });
 }
 
 /// The shortest turn that brings the face down.
@@ -153,10 +161,14 @@ std::vector<StablePose> computeStablePoses(const ConvexPolytope& hull, const Sym
         if (cosine > std::cos(kFacetAngle) && calcLift(hull, edge) < kFacetLift * height)
             facets.join(left, right);
     }
+    const auto planeOf = [&](std::size_t face) {
+        return RestingPlane{hull.faces[face].normal, hull.faces[face].offset};
+    };
     for (std::size_t a = 0; a < count; ++a) {
         if (!stable(a)) continue;
         for (std::size_t b = a + 1; b < count; ++b) {
-            if (stable(b) && alikeUnder(symmetry, hull, a, b, radius, mergeAlike)) facets.join(a, b);
+            if (stable(b) && areAlike(symmetry, planeOf(a), planeOf(b), radius, !mergeAlike))
+                facets.join(a, b);
         }
     }
 
@@ -187,6 +199,61 @@ std::vector<StablePose> computeStablePoses(const ConvexPolytope& hull, const Sym
         poses.push_back({turnDown(face.normal), face.offset, cluster.probability, cluster.multiplicity});
     }
     return poses;
+}
+
+std::vector<PoseGroup> findPoseGroups(const Part& part) {
+    const std::size_t count = part.stablePoses.size();
+    double radius = part.boundingRadius;
+    for (const StablePose& pose : part.stablePoses)
+        radius = std::max(radius, pose.height);
+    const auto planeOf = [&](std::size_t pose) {
+        const StablePose& stable = part.stablePoses[pose];
+        return RestingPlane{stable.rotation.conjugate() * -Vec3::UnitZ(), stable.height};
+    };
+    Union alike(count);
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = a + 1; b < count; ++b) {
+            if (areAlike(part.symmetry, planeOf(a), planeOf(b), radius, false)) alike.join(a, b);
+        }
+    }
+    std::vector<PoseGroup> groups;
+    std::vector<std::size_t> groupOf(count, count);
+    for (std::size_t pose = 0; pose < count; ++pose) {
+        const std::size_t root = alike.find(pose);
+        if (groupOf[root] == count) {
+            groupOf[root] = groups.size();
+            groups.emplace_back();
+        }
+        PoseGroup& group = groups[groupOf[root]];
+        group.poses.push_back(static_cast<int>(pose));
+        group.probability += part.stablePoses[pose].probability;
+    }
+    const auto rank = [](const PoseGroup& group) { return std::llround(group.probability * 1e9); };
+    std::stable_sort(groups.begin(), groups.end(),
+                     [&](const PoseGroup& a, const PoseGroup& b) { return rank(a) > rank(b); });
+    return groups;
+}
+
+int findPoseGroup(const std::vector<PoseGroup>& groups, int pose) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const std::vector<int>& poses = groups[i].poses;
+        if (std::find(poses.begin(), poses.end(), pose) != poses.end()) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+std::string namePoses(std::span<const int> poses) {
+    std::string text;
+    for (std::size_t first = 0; first < poses.size();) {
+        std::size_t last = first;
+        while (last + 1 < poses.size() && poses[last + 1] == poses[last] + 1)
+            ++last;
+        if (!text.empty()) text += ", ";
+        text += std::to_string(poses[first] + 1);
+        if (last > first) text += "-" + std::to_string(poses[last] + 1);
+        first = last + 1;
+    }
+    return text;
 }
 
 NearestPose findStablePose(const Part& part, const Quaternion& orientation) {

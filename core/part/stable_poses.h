@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/part/part.h"
@@ -23,6 +25,22 @@ double calcSolidAngleShare(const geometry::ConvexPolytope& hull, std::size_t fac
 /// multiplicity counts them.
 std::vector<StablePose> computeStablePoses(const geometry::ConvexPolytope& hull,
                                            const SymmetryGroup& symmetry, bool mergeAlike);
+
+/// Stable poses that nobody can tell apart, because the part's symmetry maps them onto each other.
+struct PoseGroup {
+    std::vector<int> poses;    // indices into Part::stablePoses, rising
+    double probability = 0.0;  // of landing in any of them
+};
+
+/// The part's stable poses as groups of alike ones, most probable group first; every pose is in one group.
+/// With Part::symmetry switched off each pose is a group of its own.
+std::vector<PoseGroup> findPoseGroups(const Part& part);
+
+/// The group that has the pose; -1 if none has.
+int findPoseGroup(const std::vector<PoseGroup>& groups, int pose);
+
+/// What people read for poses, counted from 1: "7", "1-6", "1-3, 5". The indices rise.
+std::string namePoses(std::span<const int> poses);
 
 /// A stable pose and how far from it an orientation is.
 struct NearestPose {

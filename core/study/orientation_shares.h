@@ -17,7 +17,8 @@ struct PoseShare {
 
 /// How parts lie at the start and at the finish of their trials.
 struct OrientationShares {
-    /// By the stable pose that is nearest; in the order of their first poses.
+    /// By the stable pose that is nearest; alike poses together, the most probable ones first
+    /// (part::findPoseGroups).
     std::vector<PoseShare> poses;
     /// Angles to the expected orientation modulo the part's symmetry, rising. [rad]
     std::vector<double> startAngles;

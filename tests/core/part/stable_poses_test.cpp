@@ -1,6 +1,7 @@
 #include "core/part/stable_poses.h"
 
 #include <QTest>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -189,6 +190,79 @@ class StablePosesTest : public QObject {
                 QVERIFY(near.angle < 5.1 * base::kDegree);
             }
         }
+    }
+
+    /// Groups of alike poses: how many poses each has, most probable group first.
+    void alikePosesAreOneGroup_data() {
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<QList<int>>("sizes");
+        QTest::newRow("cuboid, opposite faces") << "cuboid" << QList<int>{2, 2, 2};
+        QTest::newRow("bolt: lying, on its head, on its tip") << "bolt" << QList<int>{6, 1, 1};
+        QTest::newRow("cone") << "cone" << QList<int>{1, 1, 1, 1};
+    }
+
+    void alikePosesAreOneGroup() {
+        QFETCH(QString, name);
+        QFETCH(QList<int>, sizes);
+        part::Part part = partOf(CentredSolid(part::makeBundledShape(name.toStdString())));
+        const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
+        QCOMPARE(static_cast<qsizetype>(groups.size()), sizes.size());
+        double sum = 0.0;
+        std::vector<bool> seen(part.stablePoses.size(), false);
+        for (std::size_t i = 0; i < groups.size(); ++i) {
+            QCOMPARE(static_cast<int>(groups[i].poses.size()), sizes[static_cast<qsizetype>(i)]);
+            if (i > 0) QVERIFY(groups[i].probability <= groups[i - 1].probability);
+            double own = 0.0;
+            for (const int pose : groups[i].poses) {
+                QVERIFY(!seen[static_cast<std::size_t>(pose)]);
+                seen[static_cast<std::size_t>(pose)] = true;
+                own += part.stablePoses[static_cast<std::size_t>(pose)].probability;
+                QCOMPARE(part::findPoseGroup(groups, pose), static_cast<int>(i));
+            }
+            QVERIFY(std::abs(own - groups[i].probability) < 1e-12);
+            sum += groups[i].probability;
+        }
+        QVERIFY(std::abs(sum - 1.0) < 1e-9);
+        QVERIFY(std::find(seen.begin(), seen.end(), false) == seen.end());
+
+        // Without symmetry every pose stands for itself.
+        part.symmetry = {};
+        QCOMPARE(part::findPoseGroups(part).size(), part.stablePoses.size());
+    }
+
+    void bracketHasNoAlikePosesWithoutSymmetry() {
+        part::Part part = partOf(CentredSolid(part::makeBundledShape("bracket")));
+        part.symmetry = {};
+        QVERIFY(part.stablePoses.size() > 4);
+        QCOMPARE(part::findPoseGroups(part).size(), part.stablePoses.size());
+    }
+
+    /// Both ends of a cylinder are one pose, and its round side is another.
+    void endsOfACylinderAreAlike() {
+        const std::array<Vec2, 4> profile = {Vec2(0, 0), Vec2(3e-3, 0), Vec2(3e-3, 10e-3), Vec2(0, 10e-3)};
+        const part::Part part = partOf(CentredSolid(part::makeTurned(profile, 32)));
+        QCOMPARE(part.stablePoses.size(), std::size_t{3});
+        const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
+        QCOMPARE(groups.size(), std::size_t{2});
+        QCOMPARE(groups[0].poses.size(), std::size_t{1});
+        QCOMPARE(groups[1].poses.size(), std::size_t{2});
+    }
+
+    void posesHaveNames_data() {
+        QTest::addColumn<QList<int>>("poses");
+        QTest::addColumn<QString>("name");
+        QTest::newRow("one") << QList<int>{6} << "7";
+        QTest::newRow("two") << QList<int>{0, 1} << "1-2";
+        QTest::newRow("the bolt's sides") << QList<int>{0, 1, 2, 3, 4, 5} << "1-6";
+        QTest::newRow("with gaps") << QList<int>{0, 1, 2, 4, 7} << "1-3, 5, 8";
+        QTest::newRow("none") << QList<int>{} << "";
+    }
+
+    void posesHaveNames() {
+        QFETCH(QList<int>, poses);
+        QFETCH(QString, name);
+        const std::vector<int> indices(poses.begin(), poses.end());
+        QCOMPARE(QString::fromStdString(part::namePoses(indices)), name);
     }
 };
 
