@@ -27,6 +27,11 @@ Json scoreToJson(const study::EngineScore& score, int trials) {
     return json;
 }
 
+/// Null where success is not known.
+Json successToJson(const std::optional<stats::Count>& success) {
+    return success ? shareToJson(success->successes, success->trials) : Json();
+}
+
 }  // namespace
 
 Json toJson(const base::Quaternion& rotation) {
@@ -50,7 +55,8 @@ Json toJson(const study::IndividualRecord& record) {
                  {"trials", record.trials},
                  {"finished", record.finished},
                  {"fell_off", record.fellOff},
-                 {"stuck", record.stuck}});
+                 {"stuck", record.stuck},
+                 {"success", successToJson(record.success())}});
     return json;
 }
 
@@ -58,6 +64,8 @@ Json toJson(const study::GenerationSummary& summary) {
     const study::GenerationStatistics& statistics = summary.statistics;
     return {{"generation", summary.index},
             {"winner", summary.winner},
+            {"success", successToJson(statistics.success)},
+            {"top_30_percent_success", statistics.topSuccess ? Json(*statistics.topSuccess) : Json()},
             {"best", toJson(statistics.best)},
             {"top_30_percent_mean", toJson(statistics.topMean)},
             {"p_x", statistics.topStrategy.crossover},
@@ -121,7 +129,8 @@ Json shareToJson(int count, int trials) {
     return {{"count", count},
             {"share", trials > 0 ? Json(static_cast<double>(count) / trials) : Json()},
             {"low", bounds.low},
-            {"high", bounds.high}};
+            {"high", bounds.high},
+            {"bounds", "95 % Clopper-Pearson"}};
 }
 
 }  // namespace trapwright::app

@@ -8,8 +8,7 @@
 
 namespace trapwright::app {
 
-/// Records as --json shows them. Angles in degrees, quaternions [w, x, y, z]; shares with their 95 % bounds
-/// after Clopper and Pearson.
+/// Records as --json shows them. Angles in degrees, quaternions [w, x, y, z]; shares with their bounds.
 nlohmann::ordered_json toJson(const base::Quaternion& rotation);
 nlohmann::ordered_json toJson(const base::Vec3& vector, double scale);
 nlohmann::ordered_json toJson(const trial::Fitness& fitness);
@@ -19,7 +18,7 @@ nlohmann::ordered_json toJson(const study::GenerationSummary& summary);
 nlohmann::ordered_json toJson(const std::vector<study::CheckRecord>& records);
 nlohmann::ordered_json toJson(const study::SelectionRecord& record);
 nlohmann::ordered_json toJson(const study::ValidationRecord& record, const part::Part& part);
-/// {"count", "share", "low", "high"} of `count` successes in `trials`.
+/// {"count", "share", "low", "high", "bounds"} of `count` successes in `trials`; "bounds" names the interval.
 nlohmann::ordered_json shareToJson(int count, int trials);
 
 }  // namespace trapwright::app

@@ -8,6 +8,7 @@
 #include "app/trapwright/engines.h"
 #include "app/trapwright/work_display.h"
 #include "app/trapwright/work_failure.h"
+#include "core/stats/binomial.h"
 #include "core/work/learning.h"
 
 namespace trapwright::app {
@@ -15,6 +16,8 @@ namespace trapwright::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kPercent = 100.0;
 
 double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -25,6 +28,11 @@ class Situation {
  public:
     Situation(int generations, base::RunControl control)
         : generations_(generations), control_(std::move(control)) {}
+
+    void setSuccess(const std::optional<stats::Count>& success) {
+        const std::lock_guard lock(mutex_);
+        success_ = success;
+    }
 
     void setPlan(const study::GenerationPlan& plan) {
         const std::lock_guard lock(mutex_);
@@ -42,8 +50,10 @@ class Situation {
         // What matters least is last, where a narrow terminal cuts.
         const std::string left =
             progress.secondsLeft > 0.0 ? formatDuration(progress.secondsLeft) + " left, " : "";
-        return fmt::format("Generation {}/{} {} {}{:.0f}/s, {}/{} individuals, {}/{} trials",
-                           plan_->generation + 1, generations_, formatBar(share), left,
+        const std::string success =
+            success_ ? fmt::format("success {:.1f} %, ", kPercent * success_->share()) : "";
+        return fmt::format("Generation {}/{} {} {}{}{:.0f}/s, {}/{} individuals, {}/{} trials",
+                           plan_->generation + 1, generations_, formatBar(share), success, left,
                            progress.trialsPerSecond, progress.individualsDone, plan_->individuals, trials,
                            plan_->trials);
     }
@@ -53,7 +63,16 @@ class Situation {
     int generations_;
     base::RunControl control_;
     std::optional<study::GenerationPlan> plan_;
+    std::optional<stats::Count> success_;  // of the newest winner
 };
+
+/// "85.0   62.1 ... 96.8", in percent.
+std::string describeSuccess(const std::optional<stats::Count>& success) {
+    if (!success) return fmt::format("{:>7}   {:>15}", "-", "-");
+    const stats::Interval bounds = stats::calcClopperPearson(success->successes, success->trials);
+    return fmt::format("{:>7.1f}   {:>5.1f} ... {:>5.1f}", kPercent * success->share(), kPercent * bounds.low,
+                       kPercent * bounds.high);
+}
 
 // Adding 0 makes the -0 of a track without overlaps a 0.
 std::string describeGeneration(const study::GenerationRecord& record) {
@@ -61,13 +80,15 @@ std::string describeGeneration(const study::GenerationRecord& record) {
     const trial::Fitness& top = record.statistics.topMean;
     const evolution::StrategyValues& strategy = record.statistics.topStrategy;
     const study::IndividualRecord& winner = record.individuals[static_cast<std::size_t>(record.winner)];
+    const std::optional<double>& topSuccess = record.statistics.topSuccess;
     return fmt::format(
-        "{:>10} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>9} {:>9.3f} {:>6.1f} {:>7.3f} {:>7.3f} {:>7.4f} "
-        "{:>7.4f} {:>7.4f} "
-        "{:>7.1f}\n",
-        record.index, best.total(), best.collision + 0.0, best.distance, best.orientation,
-        fmt::format("{}/{}", winner.finished, winner.trials), top.total(), top.collision, top.distance,
-        top.orientation, strategy.crossover, strategy.mutation, strategy.smoothing, record.seconds);
+        "{:>10} {} {:>9} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>8} {:>8.3f} {:>6.1f} {:>7.3f} {:>7.3f} "
+        "{:>7.4f} {:>7.4f} {:>7.4f} {:>7.1f}\n",
+        record.index, describeSuccess(record.statistics.success),
+        fmt::format("{}/{}", winner.finished, winner.trials), best.total(), best.collision + 0.0,
+        best.distance, best.orientation, topSuccess ? fmt::format("{:.1f}", kPercent * *topSuccess) : "-",
+        top.total(), top.collision, top.distance, top.orientation, strategy.crossover, strategy.mutation,
+        strategy.smoothing, record.seconds);
 }
 
 /// The reference's scores below those of the generation's line, and how they differ from the learning
@@ -75,16 +96,16 @@ std::string describeGeneration(const study::GenerationRecord& record) {
 std::string describeCheck(const study::CheckRecord& record) {
     const study::EngineScore& reference = record.reference;
     const study::EngineScore& learning = record.learning;
-    const double percent = 100.0 / record.trials;
     return fmt::format(
-        "{:>10} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>9}   {} less {}: F_D {:+.3f}, F_O {:+.3f}, success "
-        "{:.0f} % less {:.0f} %\n",
-        fmt::format("check {}", record.generation), reference.fitness.total(),
+        "{:>10} {} {:>9} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f}   {} less {}: success {:.0f} % less {:.0f} %, "
+        "F_D {:+.3f}, F_O {:+.3f}\n",
+        fmt::format("check {}", record.generation),
+        describeSuccess(stats::Count{reference.oriented, record.trials}),
+        fmt::format("{}/{}", reference.finished, record.trials), reference.fitness.total(),
         reference.fitness.collision + 0.0, reference.fitness.distance, reference.fitness.orientation,
-        fmt::format("{}/{}", reference.finished, record.trials), reference.engine, learning.engine,
-        reference.fitness.distance - learning.fitness.distance,
-        reference.fitness.orientation - learning.fitness.orientation, percent * reference.oriented,
-        percent * learning.oriented);
+        reference.engine, learning.engine, kPercent * reference.oriented / record.trials,
+        kPercent * learning.oriented / record.trials, reference.fitness.distance - learning.fitness.distance,
+        reference.fitness.orientation - learning.fitness.orientation);
 }
 
 WorkWatch watchLearning(const Situation& situation, Clock::time_point begin, study::LearningControl control,
@@ -120,11 +141,10 @@ Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inp
 }  // namespace
 
 const char* const kLearningHeading =
-    "           best                                       mean of the top 30 %             geometric mean "
-    "of these\n"
-    "Generation        F    F_C     F_D     F_O  finished         F    F_C     F_D     F_O     p_x    p_dm   "
-    "  p_s "
-    "seconds\n";
+    "               [%]          95 % [%]  the generation's winner                       [%]    m"
+    "ean of the top 30 %           geometric mean of these\n"
+    "Generation success   Clopper-Pearson  finished        F    F_C     F_D     F_O  success     "
+    "   F    F_C     F_D     F_O     p_x    p_dm     p_s seconds\n";
 
 Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
                                     const Console& console, std::optional<double> timeLimit) {
@@ -137,6 +157,7 @@ Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyIn
         work::LearnEvents events;
         events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
         events.saved = [&](const study::GenerationRecord& record) {
+            situation.setSuccess(record.statistics.success);
             display.print(describeGeneration(record));
             if (timeLimit && secondsSince(begin) + record.seconds > *timeLimit) {
                 timeOver = true;

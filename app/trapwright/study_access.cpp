@@ -65,7 +65,8 @@ void addIndividualOptions(CLI::App& command, IndividualChoice& choice) {
         .add_option(
             "--individual", choice.individual,
             "Its number in the generation, from 0 (default: the winner). Without both: the final track that "
-            "was chosen in the studio, or else the first of the last selection, or the fittest winner")
+            "was chosen in the studio, or else the first of the last selection, or the winner with the "
+            "greatest success")
         ->needs(generation);
 }
 
@@ -116,7 +117,7 @@ Attempt<study::Winner> findIndividual(const store::StudyFile& file, const Indivi
     }
     auto winners = file.loadWinners();
     if (!winners) return Failure{ExitCode::badInput, winners.error().message};
-    return study::rankWinners(std::move(*winners), 1).front();
+    return *study::findBestWinner(*winners);
 }
 
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,

@@ -40,7 +40,8 @@ struct IndividualChoice {
 void addIndividualOptions(CLI::App& command, IndividualChoice& choice);
 
 /// The individual that is meant: the one named; a generation's winner; otherwise the final track that was
-/// chosen in the studio, or the first of the last selection, or without any the fittest winner.
+/// chosen in the studio, or the first of the last selection, or without any the best winner
+/// (study::findBestWinner).
 Attempt<study::Winner> findIndividual(const store::StudyFile& file, const IndividualChoice& choice);
 
 /// The engine for this use that the study's setting, or the one named, means; made for these threads (0:

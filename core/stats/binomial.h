@@ -8,6 +8,17 @@ struct Interval {
     double high = 1.0;
 };
 
+/// How often something succeeded.
+struct Count {
+    int successes = 0;
+    int trials = 0;  // at least successes
+
+    /// successes / trials; there must be trials.
+    [[nodiscard]] double share() const { return static_cast<double>(successes) / trials; }
+
+    friend bool operator==(const Count&, const Count&) = default;
+};
+
 /// Wilson's score interval (Wilson 1927): near the stated coverage on average, never outside [0, 1].
 /// 0 <= successes <= trials; no trials give [0, 1]. confidence in (0, 1), two-sided.
 Interval calcWilson(int successes, int trials, double confidence = 0.95);

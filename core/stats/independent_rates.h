@@ -2,13 +2,10 @@
 
 #include <span>
 
+#include "core/stats/binomial.h"
+
 /// Comparing success rates on trials of their own.
 namespace trapwright::stats {
-
-struct Count {
-    int successes = 0;
-    int trials = 0;  // at least successes
-};
 
 /// Two rates that are compared.
 struct RatePair {

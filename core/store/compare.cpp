@@ -40,7 +40,19 @@ std::string lineOf(int generation, std::size_t number, const study::IndividualRe
     for (const int count : {record.overlaps, record.trials, record.finished, record.fellOff, record.stuck}) {
         line += " " + std::to_string(count);
     }
-    return line + "\n";
+    return line + " " + (record.oriented ? std::to_string(*record.oriented) : "-") + "\n";
+}
+
+/// Whether genes and scores are the same; success as far as both have counted it.
+bool areAlike(const study::IndividualRecord& a, study::IndividualRecord b) {
+    if (!a.oriented || !b.oriented) b.oriented = a.oriented;
+    return a == b;
+}
+
+bool areAlike(const study::GenerationStatistics& a, study::GenerationStatistics b) {
+    if (!a.success || !b.success) b.success = a.success;
+    if (!a.topSuccess || !b.topSuccess) b.topSuccess = a.topSuccess;
+    return a == b;
 }
 
 }  // namespace
@@ -98,13 +110,13 @@ base::Result<std::string> findDifference(const StudyFile& a, const StudyFile& b)
                    std::to_string(individualsB.size()) + " in the other";
         }
         for (std::size_t i = 0; i < individualsA.size(); ++i) {
-            if (individualsA[i] == individualsB[i]) continue;
+            if (areAlike(individualsA[i], individualsB[i])) continue;
             const bool sameGenes = individualsA[i].chromosome == individualsB[i].chromosome;
             return place + ", individual " + std::to_string(i) + ": " +
                    (sameGenes ? "the scores differ" : "the genes differ");
         }
         if (generationA->winner != generationB->winner ||
-            !(generationA->statistics == generationB->statistics)) {
+            !areAlike(generationA->statistics, generationB->statistics)) {
             return place + ": the winner or the statistics differ";
         }
     }

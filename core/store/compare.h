@@ -10,8 +10,9 @@
 namespace trapwright::store {
 
 /// Genes and scores of every individual as text, one line each, for `diff`: generation, individual, the three
-/// genes in hexadecimal, F_C, F_D, F_O to the last bit, overlaps, trials, finished, fell off, stuck. Two runs
-/// of the same study give the same lines. Each call of `write` gets the lines of one generation.
+/// genes in hexadecimal, F_C, F_D, F_O to the last bit, overlaps, trials, finished, fell off, stuck, oriented
+/// ("-": not counted). Two runs of the same study give the same lines. Each call of `write` gets the lines of
+/// one generation.
 base::Status dumpGenes(const StudyFile& study, const std::function<void(std::string_view lines)>& write);
 
 /// The checks of winners as text, one line each: generation, individual, trials; then of the learning engine
@@ -19,7 +20,7 @@ base::Status dumpGenes(const StudyFile& study, const std::function<void(std::str
 base::Result<std::string> dumpChecks(const StudyFile& study);
 
 /// Where the genes and scores of two studies first differ, in words; empty if they are the same. Wall times
-/// and checks of winners do not count.
+/// and checks of winners do not count, nor does success where only one of them has counted it.
 base::Result<std::string> findDifference(const StudyFile& a, const StudyFile& b);
 
 }  // namespace trapwright::store

@@ -164,8 +164,14 @@ ALTER TABLE part ADD COLUMN symmetry_counts INTEGER NOT NULL DEFAULT 1;     -- 0
 UPDATE study SET settings = json_set(settings, '$.part.symmetry', 'found');
 )sql";
 
-constexpr std::array<Migration, 4> kMigrations = {
-    {{1, kVersion1}, {2, kVersion2}, {3, kVersion3}, {4, kVersion4}}};
+// Success while learning. NULL: not known.
+constexpr const char* kVersion5 = R"sql(
+ALTER TABLE individual ADD COLUMN oriented INTEGER;
+ALTER TABLE generation ADD COLUMN top_success REAL;     -- mean share of the top 30 %
+)sql";
+
+constexpr std::array<Migration, 5> kMigrations = {
+    {{1, kVersion1}, {2, kVersion2}, {3, kVersion3}, {4, kVersion4}, {5, kVersion5}}};
 
 }  // namespace
 

@@ -13,10 +13,19 @@ namespace {
 
 constexpr const char* kIndividualColumns =
     "points, lengths, strategy, collision, distance, orientation, overlaps, trials, finished, fell_off, "
-    "stuck";
+    "stuck, oriented";
 
 void bindBlob(SQLite::Statement& statement, int index, const std::string& blob) {
     statement.bind(index, blob.data(), static_cast<int>(blob.size()));
+}
+
+template <class T>
+void bindOptional(SQLite::Statement& statement, int index, const std::optional<T>& value) {
+    if (value) {
+        statement.bind(index, *value);
+    } else {
+        statement.bind(index);  // NULL
+    }
 }
 
 void insertIndividual(SQLite::Statement& statement, int generation, int number,
@@ -35,6 +44,7 @@ void insertIndividual(SQLite::Statement& statement, int generation, int number,
     statement.bind(11, record.finished);
     statement.bind(12, record.fellOff);
     statement.bind(13, record.stuck);
+    bindOptional(statement, 14, record.oriented);
     statement.exec();
 }
 
@@ -52,14 +62,19 @@ std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& q
     record.finished = query.getColumn(first + 8).getInt();
     record.fellOff = query.getColumn(first + 9).getInt();
     record.stuck = query.getColumn(first + 10).getInt();
+    const auto oriented = query.getColumn(first + 11);
+    if (!oriented.isNull()) record.oriented = oriented.getInt();
     return record;
 }
 
 constexpr const char* kSummaryQuery =
-    "SELECT number, winner, seconds, best_collision, best_distance, best_orientation, top_collision, "
+    "SELECT generation.number, winner, seconds, best_collision, best_distance, best_orientation, "
+    "top_collision, "
     "top_distance, "
     "top_orientation, top_crossover, top_mutation, top_smoothing, "
-    "(SELECT sum(trials) FROM individual WHERE individual.generation = generation.number) FROM generation ";
+    "(SELECT sum(trials) FROM individual WHERE individual.generation = generation.number), best.oriented, "
+    "best.trials, top_success FROM generation LEFT JOIN individual AS best "
+    "ON best.generation = generation.number AND best.number = generation.winner ";
 
 study::GenerationSummary readSummary(const SQLite::Statement& query) {
     study::GenerationSummary summary;
@@ -71,6 +86,11 @@ study::GenerationSummary readSummary(const SQLite::Statement& query) {
     summary.statistics.topStrategy = {query.getColumn(9).getDouble(), query.getColumn(10).getDouble(),
                                       query.getColumn(11).getDouble()};
     summary.trials = query.getColumn(12).getInt64();
+    const auto oriented = query.getColumn(13);
+    const int trials = query.getColumn(14).getInt();
+    if (!oriented.isNull() && trials > 0) summary.statistics.success = {oriented.getInt(), trials};
+    const auto topSuccess = query.getColumn(15);
+    if (!topSuccess.isNull()) summary.statistics.topSuccess = topSuccess.getDouble();
     return summary;
 }
 
@@ -110,16 +130,17 @@ base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
             return base::Error{doing + ": the study " + path().string() + " has " + std::to_string(count) +
                                " generations, and the next one must have that number."};
         }
-        SQLite::Statement generation(database,
-                                     "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        SQLite::Statement generation(
+            database, "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         const study::GenerationStatistics& s = record.statistics;
         SQLite::bind(generation, record.index, state_->program, record.winner, s.best.collision,
                      s.best.distance, s.best.orientation, s.topMean.collision, s.topMean.distance,
                      s.topMean.orientation, s.topStrategy.crossover, s.topStrategy.mutation,
                      s.topStrategy.smoothing, record.seconds);
+        bindOptional(generation, 14, s.topSuccess);
         generation.exec();
-        SQLite::Statement individual(database,
-                                     "INSERT INTO individual VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        SQLite::Statement individual(
+            database, "INSERT INTO individual VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         for (std::size_t i = 0; i < record.individuals.size(); ++i) {
             insertIndividual(individual, record.index, static_cast<int>(i), record.individuals[i]);
         }
@@ -136,7 +157,7 @@ base::Result<int> StudyFile::generationCount() const {
 base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const {
     const std::string doing = "Generation " + std::to_string(index) + " could not be read";
     return guarded(path(), doing, [&]() -> base::Result<study::GenerationRecord> {
-        SQLite::Statement head(*state_->database, std::string(kSummaryQuery) + "WHERE number = ?");
+        SQLite::Statement head(*state_->database, std::string(kSummaryQuery) + "WHERE generation.number = ?");
         head.bind(1, index);
         if (!head.executeStep()) {
             return base::Error{doing + ": the study " + path().string() + " has " +
@@ -189,8 +210,9 @@ base::Result<study::IndividualRecord> StudyFile::loadIndividual(int generation, 
 base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int first) const {
     return guarded(path(), "The generations could not be read",
                    [&]() -> base::Result<std::vector<study::GenerationSummary>> {
-                       SQLite::Statement query(*state_->database, std::string(kSummaryQuery) +
-                                                                      "WHERE number >= ? ORDER BY number");
+                       SQLite::Statement query(*state_->database,
+                                               std::string(kSummaryQuery) +
+                                                   "WHERE generation.number >= ? ORDER BY generation.number");
                        query.bind(1, first);
                        std::vector<study::GenerationSummary> summaries;
                        while (query.executeStep())

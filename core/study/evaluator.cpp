@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/evolution/racing.h"
 #include "core/geometry/self_overlap.h"
+#include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 
@@ -190,6 +191,16 @@ base::Result<std::vector<IndividualRecord>> evaluateGeneration(
         if (const auto ran = race.run(round, control); !ran) return ran.error();
         round = race.findNextRound();
     } while (!round.empty());
+
+    // Nothing of learning looks at success, so it is counted once, when all trials are known.
+    base::parallelFor(candidates.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
+        const std::vector<trial::Outcome>& outcomes = candidates[i].outcomes;
+        const part::SymmetryGroup& symmetry = inputs.part->symmetry;
+        const double tolerance = inputs.settings.validation.tolerance;
+        const base::Quaternion expected =
+            trial::findModalOrientation(finalOrientations(outcomes), symmetry, tolerance);
+        candidates[i].record.oriented = countOriented(outcomes, expected, symmetry, tolerance);
+    });
 
     std::vector<IndividualRecord> records;
     records.reserve(candidates.size());

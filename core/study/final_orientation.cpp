@@ -1,5 +1,7 @@
 #include "core/study/final_orientation.h"
 
+#include <algorithm>
+
 #include "core/trial/fitness.h"
 
 namespace trapwright::study {
@@ -17,6 +19,13 @@ bool isOriented(const trial::Outcome& outcome, const base::Quaternion& expected,
     return outcome.ending == trial::Ending::finished &&
            trial::calcOrientationAngle(outcome.farthest.rotation, expected, symmetry,
                                        trial::OrientationDistance::symmetric) <= tolerance;
+}
+
+int countOriented(std::span<const trial::Outcome> outcomes, const base::Quaternion& expected,
+                  const part::SymmetryGroup& symmetry, double tolerance) {
+    return static_cast<int>(std::count_if(
+        outcomes.begin(), outcomes.end(),
+        [&](const trial::Outcome& outcome) { return isOriented(outcome, expected, symmetry, tolerance); }));
 }
 
 }  // namespace trapwright::study

@@ -16,4 +16,8 @@ std::vector<base::Quaternion> finalOrientations(std::span<const trial::Outcome> 
 bool isOriented(const trial::Outcome& outcome, const base::Quaternion& expected,
                 const part::SymmetryGroup& symmetry, double tolerance);
 
+/// How many of these succeeded.
+int countOriented(std::span<const trial::Outcome> outcomes, const base::Quaternion& expected,
+                  const part::SymmetryGroup& symmetry, double tolerance);
+
 }  // namespace trapwright::study

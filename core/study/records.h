@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/evolution/chromosome.h"
+#include "core/stats/binomial.h"
 #include "core/trial/fitness.h"
 #include "core/trial/outcome.h"
 
@@ -19,15 +21,27 @@ struct IndividualRecord {
     int finished = 0;
     int fellOff = 0;
     int stuck = 0;  // stuck or timed out
+    /// Success (decision 11): finished within the tolerance of the mode of its own final orientations. None:
+    /// learned by a program that did not count it.
+    std::optional<int> oriented{};
+
+    /// Of all its trials. None: not simulated, or not counted.
+    [[nodiscard]] std::optional<stats::Count> success() const {
+        if (!oriented || trials == 0) return std::nullopt;
+        return stats::Count{*oriented, trials};
+    }
 
     friend bool operator==(const IndividualRecord&, const IndividualRecord&) = default;
 };
 
-/// The curves of Figures 6 and 7 (decision 9).
+/// The curves of Figures 6 and 7 (decision 9), and success.
 struct GenerationStatistics {
     trial::Fitness best;                    // of the winner
     trial::Fitness topMean;                 // arithmetic mean of the top 30 %
     evolution::StrategyValues topStrategy;  // geometric mean of the top 30 %
+    std::optional<stats::Count> success{};  // of the winner; none: not simulated, or not counted
+    /// Mean share of those of the top 30 % that were simulated. None: there are none, or it was not counted.
+    std::optional<double> topSuccess{};
 
     friend bool operator==(const GenerationStatistics&, const GenerationStatistics&) = default;
 };

@@ -21,9 +21,7 @@ EngineScore scoreOf(const StudyInputs& inputs, const trial::Engine& engine, cons
                                        inputs.settings.evolution.orientationDistance);
     score.finished = static_cast<int>(finalOrientations(outcomes).size());
     score.oriented =
-        static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(), [&](const trial::Outcome& outcome) {
-            return isOriented(outcome, expected, inputs.part->symmetry, inputs.settings.validation.tolerance);
-        }));
+        countOriented(outcomes, expected, inputs.part->symmetry, inputs.settings.validation.tolerance);
     return score;
 }
 

@@ -40,6 +40,8 @@ GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> ind
     const evolution::TransitionParameters bounds = generationParameters(settings).transition;
     std::vector<evolution::StrategyValues> strategies;
     trial::Fitness& mean = record.statistics.topMean;
+    double successes = 0.0;
+    int simulated = 0;
     for (const std::size_t i : top) {
         const IndividualRecord& individual = record.individuals[i];
         mean.collision += individual.fitness.collision;
@@ -47,12 +49,18 @@ GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> ind
         mean.orientation += individual.fitness.orientation;
         strategies.push_back(
             evolution::limitStrategy(evolution::decodeStrategy(individual.chromosome.strategy), bounds));
+        if (const auto success = individual.success()) {
+            successes += success->share();
+            ++simulated;
+        }
     }
     const auto count = static_cast<double>(top.size());
     mean = {mean.collision / count, mean.distance / count, mean.orientation / count};
     record.winner = static_cast<int>(top.front());
     record.statistics.best = record.individuals[top.front()].fitness;
     record.statistics.topStrategy = evolution::calcGeometricMean(strategies);
+    record.statistics.success = record.individuals[top.front()].success();
+    if (simulated > 0) record.statistics.topSuccess = successes / simulated;
     return record;
 }
 

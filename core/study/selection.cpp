@@ -34,6 +34,17 @@ std::vector<Winner> rankWinners(std::vector<Winner> winners, int count) {
     return ranked;
 }
 
+const Winner* findBestWinner(std::span<const Winner> winners) {
+    const auto worth = [](const Winner& winner) {
+        const auto success = winner.record.success();
+        return std::make_pair(success ? success->share() : -1.0, winner.record.fitness.total());
+    };
+    // The first of the greatest ones.
+    const auto best = std::max_element(winners.begin(), winners.end(),
+                                       [&](const Winner& a, const Winner& b) { return worth(a) < worth(b); });
+    return best == winners.end() ? nullptr : &*best;
+}
+
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
                                             base::RunControl control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
@@ -68,10 +79,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         entry.modalOrientation =
             trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
         entry.oriented =
-            static_cast<int>(std::count_if(own.begin(), own.end(), [&](const trial::Outcome& outcome) {
-                return isOriented(outcome, entry.modalOrientation, inputs.part->symmetry,
-                                  settings.validation.tolerance);
-            }));
+            countOriented(own, entry.modalOrientation, inputs.part->symmetry, settings.validation.tolerance);
         record.entries.push_back(entry);
     }
     std::sort(record.entries.begin(), record.entries.end(), isBetter);

@@ -14,6 +14,11 @@ namespace trapwright::study {
 /// among equals the earlier generation is first).
 std::vector<Winner> rankWinners(std::vector<Winner> winners, int count);
 
+/// The winner that is best by what was counted while learning: the greatest success, then the highest
+/// fitness, then the earliest generation. A success that is not known is below any. Null if there are no
+/// winners.
+const Winner* findBestWinner(std::span<const Winner> winners);
+
 /// Selecting the final solution (paper, section 6.1.1; decision 11): the highest of all generations' winners
 /// are re-simulated with many fresh trials each. Best first: by the number of parts that finish within the
 /// tolerance of that track's modal orientation, then by fitness, then the earlier generation. Errors:

@@ -1,6 +1,7 @@
 #include <signal.h>
 
 #include <QElapsedTimer>
+#include <QJsonArray>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -135,6 +136,23 @@ class LearningTest : public QObject {
         const Ran ran = learn({"evolve", "longer.trap", "--resume", "--generations", "3", "--json"});
         QVERIFY2(ran.code == 0, ran.all());
         QCOMPARE(ran.json()["end"].toString(), "completed");
+        // Each generation tells its winner's success, which the dump has of everybody.
+        const QList<QByteArray> dump = dumpOf("longer.trap").split('\n');
+        const QJsonArray generations = ran.json()["generations"].toArray();
+        QCOMPARE(generations.size(), 3);
+        for (const QJsonValue& value : generations) {
+            const QJsonObject generation = value.toObject();
+            const qsizetype line = 8 * generation["generation"].toInt() + generation["winner"].toInt();
+            const QList<QByteArray> fields = dump[line].split(' ');
+            QCOMPARE(fields.size(), 14);
+            const QJsonObject success = generation["success"].toObject();
+            QCOMPARE(success["count"].toInt(-1), fields[13].toInt());
+            QCOMPARE(success["share"].toDouble(-1.0), fields[13].toDouble() / fields[9].toDouble());
+            QVERIFY(success["low"].toDouble() <= success["share"].toDouble());
+            QCOMPARE(success["bounds"].toString(), "95 % Clopper-Pearson");
+            const double top = generation["top_30_percent_success"].toDouble(-1.0);
+            QVERIFY(top >= 0.0 && top <= 1.0);
+        }
         QCOMPARE(dumpOf("longer.trap"), dumpOf("whole.trap"));
         const Ran changed = learn({"evolve", "longer.trap", "--resume", "--trials", "7"});
         QVERIFY2(changed.code == 2 && changed.errors.contains("Only evolution.generations"), changed.all());

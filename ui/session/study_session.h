@@ -87,7 +87,8 @@ class StudySession : public QObject {
     [[nodiscard]] base::Result<study::Winner> loadWinner(int generation, int individual) const;
 
     /// The track that is exported and printed in the end: the user's choice, which is kept in the study, else
-    /// the best of the last selection, else the highest winner. None without generations.
+    /// the best of the last selection, else the best winner (study::findBestWinner). None without
+    /// generations.
     [[nodiscard]] std::optional<study::Winner> chosen() const;
     void choose(const study::Winner& individual);
 

@@ -9,9 +9,8 @@ std::optional<study::Winner> StudySession::chosen() const {
         const study::SelectionEntry& best = state_->selections.back().entries.front();
         if (auto winner = loadWinner(best.generation, best.individual)) return *winner;
     }
-    std::vector<study::Winner> ranked = study::rankWinners(state_->winners, 1);
-    if (ranked.empty()) return std::nullopt;
-    return ranked.front();
+    if (const study::Winner* best = study::findBestWinner(state_->winners)) return *best;
+    return std::nullopt;
 }
 
 void StudySession::choose(const study::Winner& individual) {

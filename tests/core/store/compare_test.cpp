@@ -38,6 +38,9 @@ class CompareTest : public QObject {
             "a count", [](study::GenerationRecord& g) { ++g.individuals[5].stuck; },
             "generation 1, individual 5: the scores differ");
         row(
+            "success", [](study::GenerationRecord& g) { g.individuals[3].oriented = 99; },
+            "generation 1, individual 3: the scores differ");
+        row(
             "the winner", [](study::GenerationRecord& g) { g.winner = (g.winner + 1) % 6; },
             "generation 1: the winner or the statistics differ");
         row(
@@ -70,6 +73,25 @@ class CompareTest : public QObject {
         VERIFY_OK(store::dumpGenes(*b, [&](std::string_view lines) { dumpB += lines; }));
         QCOMPARE(std::count(dumpA.begin(), dumpA.end(), '\n'), 18);
         QCOMPARE(dumpA == dumpB, expected.isEmpty() || expected.contains("winner"));
+    }
+
+    /// A study that was begun before success was counted is still the same study.
+    void successCountsWhereBothHaveIt() {
+        const QTemporaryDir folder;
+        const std::filesystem::path path = folder.path().toStdString();
+        sample::write(path / "a.trap", 2);
+        auto b = StudyFile::create(path / "b.trap", sample::settings(), sample::part(), sample::kProgram);
+        VERIFY_OK(b);
+        VERIFY_OK(b->saveGeneration(sample::generationWithoutSuccess(0)));
+        VERIFY_OK(b->saveGeneration(sample::generation(1)));
+        const auto a = StudyFile::openReadOnly(path / "a.trap");
+        VERIFY_OK(a);
+        QCOMPARE(store::findDifference(*a, *b).value(), std::string());
+        QCOMPARE(store::findDifference(*b, *a).value(), std::string());
+        std::string dump;
+        VERIFY_OK(store::dumpGenes(*b, [&](std::string_view lines) { dump += lines; }));
+        QVERIFY(dump.substr(0, dump.find('\n')).ends_with(" -"));
+        QVERIFY(!dump.ends_with(" -\n"));
     }
 
     void oneMayBeLonger() {

@@ -19,6 +19,10 @@ namespace trapwright::sample {
 
 inline const std::string kProgram = "trapwright 0.0-test";
 
+/// What schema version 5 added.
+inline constexpr const char* kDropVersion5 =
+    "ALTER TABLE individual DROP COLUMN oriented; ALTER TABLE generation DROP COLUMN top_success;";
+
 /// What schema version 4 added.
 inline constexpr const char* kDropVersion4 =
     "DROP TABLE calibration_reading; DROP TABLE calibration; DROP TABLE drive_log; DROP TABLE "
@@ -64,12 +68,32 @@ inline study::GenerationRecord generation(int index, int individuals = 6) {
     study::GenerationRecord record;
     record.index = index;
     for (int i = 0; i < individuals; ++i) {
-        record.individuals.push_back(
-            {{bits(800), bits(50), bits(60)}, fitness(), count(9), count(9), count(9), count(9), count(9)});
+        record.individuals.push_back({{bits(800), bits(50), bits(60)},
+                                      fitness(),
+                                      count(9),
+                                      count(9),
+                                      count(9),
+                                      count(9),
+                                      count(9),
+                                      count(9)});
     }
     record.winner = count(static_cast<std::uint32_t>(individuals));
-    record.statistics = {fitness(), fitness(), {random.uniform(), random.uniform(), random.uniform()}};
+    record.statistics = {fitness(),
+                         fitness(),
+                         {random.uniform(), random.uniform(), random.uniform()},
+                         record.individuals[static_cast<std::size_t>(record.winner)].success(),
+                         random.uniform()};
     record.seconds = random.uniform();
+    return record;
+}
+
+/// As a program that did not count success would have left it.
+inline study::GenerationRecord generationWithoutSuccess(int index) {
+    study::GenerationRecord record = generation(index);
+    for (study::IndividualRecord& individual : record.individuals)
+        individual.oriented.reset();
+    record.statistics.success.reset();
+    record.statistics.topSuccess.reset();
     return record;
 }
 

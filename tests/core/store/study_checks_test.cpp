@@ -30,6 +30,7 @@ study::GenerationRecord generationOf(int index, int winnersTrials) {
 /// The study as a program of schema version 1 would have left it.
 void makeOld(const std::filesystem::path& path) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    database.exec(sample::kDropVersion5);
     database.exec(sample::kDropVersion4);
     database.exec("DROP TABLE winner_check");
     database.exec(
@@ -110,7 +111,10 @@ class StudyChecksTest : public QObject {
             auto study = StudyFile::open(path_, sample::kProgram);
             VERIFY_OK(study);
             QCOMPARE(study->generationCount().value(), 2);
-            QVERIFY(sample::equal(study->loadGeneration(1).value(), sample::generation(1)));
+            QVERIFY(sample::equal(study->loadGeneration(1).value(), sample::generationWithoutSuccess(1)));
+            const auto summaries = study->loadSummaries();
+            VERIFY_OK(summaries);
+            QVERIFY(summaries->at(1).statistics == sample::generationWithoutSuccess(1).statistics);
             QVERIFY(study->loadChecks().value().empty());
             VERIFY_OK(study->saveCheck(sampleCheck(1)));
         }

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "core/study/final_orientation.h"
 #include "core/study/runner.h"
 #include "fake_engine.h"
 
@@ -113,6 +114,49 @@ class EvaluatorTest : public QObject {
         };
         VERIFY_OK(study::evolve(racingInputs(), std::nullopt, events, control));
         QVERIFY(plans.size() >= 5 * 3);  // three stages at least
+    }
+
+    /// An individual's success is that of the selection: of all its trials, whether it raced or not. The law
+    /// lays the parts of each trial as its number says.
+    void successIsCountedOfAllTrials_data() {
+        QTest::addColumn<int>("racingTrials");
+        QTest::newRow("all at once") << 0;
+        QTest::newRow("in a race") << 4;
+    }
+    void successIsCountedOfAllTrials() {
+        QFETCH(int, racingTrials);
+        study::StudyInputs inputs = racingInputs(3);
+        inputs.settings.evolution.racingTrials = racingTrials;
+        inputs.settings.evolution.generations = 1;
+        inputs.engine = std::make_shared<fake::FakeEngine>(
+            [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                trial::Outcome outcome = fake::waveLaw(batch, spec);
+                // Of 8 trials 3 end alike (one of them turned to where the block looks the same), 2 within
+                // the tolerance of each other elsewhere, 1 aside; 2 do not finish, as they lie in the
+                // majority.
+                const double degrees =
+                    std::array{0.0, 180.0, 10.0, 75.0, 80.0, 45.0, 0.0, 0.0}.at(spec.stream.trial % 8);
+                outcome.farthest.rotation = Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitZ());
+                outcome.ending = spec.stream.trial % 8 < 6 ? trial::Ending::finished : trial::Ending::stuck;
+                return outcome;
+            });
+        std::vector<GenerationRecord> saved;
+        VERIFY_OK(learn(inputs, saved));
+        std::set<int> seen;
+        for (const study::IndividualRecord& individual : saved[0].individuals) {
+            seen.insert(individual.trials);
+            QVERIFY(individual.oriented.has_value());
+            // 3 of the first 4, 3 of 8, 6 of 16.
+            const int expected = individual.trials == 0   ? 0
+                                 : individual.trials == 4 ? 3
+                                                          : 3 * individual.trials / 8;
+            QCOMPARE(*individual.oriented, expected);
+            QCOMPARE(individual.success().has_value(), individual.trials > 0);
+        }
+        QVERIFY(seen.contains(16));
+        QCOMPARE(seen.contains(4) || seen.contains(8), racingTrials == 4);
+        QVERIFY(saved[0].statistics.success == (stats::Count{6, 16}));
+        QVERIFY(qAbs(saved[0].statistics.topSuccess.value() - 6.0 / 16.0) < 1e-12);
     }
 
     void commonRandomNumbersAreAGenerations_data() {

@@ -287,6 +287,30 @@ class RunnerTest : public QObject {
         QVERIFY(qAbs(record.statistics.topStrategy.crossover - 0.5) < 1e-5);
         QVERIFY(qAbs(record.statistics.topStrategy.mutation - 0.25) < 1e-12);
         QVERIFY(qAbs(record.statistics.topStrategy.smoothing - 0.3) < 1e-12);
+        QVERIFY(!record.statistics.success && !record.statistics.topSuccess);  // nobody counted
+    }
+
+    void successOfTheTop30PercentIsOfThoseSimulated() {
+        // Of the three best, 9, 8 and 7, the first was not simulated.
+        std::vector<study::IndividualRecord> individuals(10);
+        for (std::size_t i = 0; i < 10; ++i) {
+            individuals[i].fitness = {0.0, 0.0, double(i)};
+            individuals[i].chromosome.strategy =
+                evolution::encodeGray(std::vector<double>{0.5, 0.0, 1.0}, evolution::kStrategyBits);
+            individuals[i].trials = 10;
+            individuals[i].oriented = 10;
+        }
+        individuals[9].trials = individuals[9].oriented.emplace(0);
+        individuals[8].oriented = 4;
+        individuals[7].trials = 20;
+        individuals[7].oriented = 16;
+        const auto first = study::completeGeneration(0, individuals, {}).statistics;
+        QVERIFY(!first.success);
+        QVERIFY(qAbs(first.topSuccess.value() - 0.6) < 1e-12);
+        individuals[0].fitness.orientation = 20.0;
+        const auto second = study::completeGeneration(1, individuals, {}).statistics;
+        QVERIFY(second.success == (stats::Count{10, 10}));
+        QVERIFY(qAbs(second.topSuccess.value() - 0.7) < 1e-12);  // of 10 of 10 and 4 of 10
     }
 
     void progressIsArithmetic() {

@@ -55,6 +55,28 @@ class ValidationTest : public QObject {
         QCOMPARE(ranked[2].generation, 4);
     }
 
+    void bestWinnerIsTheOneWithTheGreatestSuccess() {
+        const study::StudyInputs inputs = fake::waveInputs();
+        const auto winner = [&](int generation, std::optional<int> oriented, int trials, double fitness) {
+            study::Winner made = winnerOf(inputs, generation, 1, fitness);
+            made.record.oriented = oriented;
+            made.record.trials = trials;
+            return made;
+        };
+        QVERIFY(study::findBestWinner({}) == nullptr);
+        const auto bestOf = [](const std::vector<study::Winner>& winners) {
+            return study::findBestWinner(winners)->generation;
+        };
+        // The share counts, not the number; then fitness; then who was first.
+        QCOMPARE(bestOf({winner(0, 9, 10, -3.0), winner(1, 17, 20, -1.0)}), 0);
+        QCOMPARE(bestOf({winner(0, 9, 10, -3.0), winner(1, 18, 20, -1.0), winner(2, 9, 10, -2.0)}), 1);
+        QCOMPARE(bestOf({winner(0, 9, 10, -1.0), winner(1, 9, 10, -1.0)}), 0);
+        // What is not known, or was not simulated, is not 0 %, but below it.
+        QCOMPARE(bestOf({winner(0, std::nullopt, 10, 5.0), winner(1, 0, 10, -5.0)}), 1);
+        QCOMPARE(bestOf({winner(0, 0, 0, 5.0), winner(1, 0, 10, -5.0)}), 1);
+        QCOMPARE(bestOf({winner(0, std::nullopt, 10, -2.0), winner(1, std::nullopt, 10, -1.0)}), 1);
+    }
+
     void selectionIsByFreshTrials() {
         study::StudyInputs inputs = fake::waveInputs();
         inputs.settings.validation.selectionWinners = 3;
