@@ -33,6 +33,11 @@ nlohmann::ordered_json toJson(const study::PhysicalRow& row) {
     return json;
 }
 
+const char* feederText(const study::FeederCount& feeders) {
+    if (feeders.mixed()) return "virtual feeder and others, mixed";
+    return feeders.virtualFeeder > 0 ? "virtual feeder" : "feeder";
+}
+
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto file = store::StudyFile::openReadOnly(options.study);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
@@ -58,9 +63,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     } else if (options.csv) {
         console.print(study::physicalTableCsv(table));
     } else {
-        console.print(fmt::format(
-            "Validation {} of {} on the feeder, begun {}; generation {}, individual {}\n{}", number, count,
-            one.started, one.generation, one.individual, study::formatPhysical(table)));
+        console.print(fmt::format("Validation {} of {} on the {}, begun {}; generation {}, individual {}\n{}",
+                                  number, count, feederText(table.feeders), one.started, one.generation,
+                                  one.individual, study::formatPhysical(table)));
     }
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const study::PhysicalRow& row : table.rows)
@@ -69,6 +74,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   {"number", number},
                   {"generation", one.generation},
                   {"individual", one.individual},
+                  {"feeder",
+                   {{"real", table.feeders.real},
+                    {"unconnected", table.feeders.unconnected},
+                    {"virtual", table.feeders.virtualFeeder},
+                    {"unknown", table.feeders.unknown}}},
+                  {"notice", table.notice},
                   {"rows", rows},
                   {"total", toJson(table.total)},
                   {"verdict", table.verdict}});

@@ -170,8 +170,15 @@ ALTER TABLE individual ADD COLUMN oriented INTEGER;
 ALTER TABLE generation ADD COLUMN top_success REAL;     -- mean share of the top 30 %
 )sql";
 
-constexpr std::array<Migration, 5> kMigrations = {
-    {{1, kVersion1}, {2, kVersion2}, {3, kVersion3}, {4, kVersion4}, {5, kVersion5}}};
+// What moved the parts.
+constexpr const char* kVersion6 = R"sql(
+ALTER TABLE physical_trial ADD COLUMN feeder TEXT NOT NULL DEFAULT 'unknown';   -- or real, unconnected, virtual
+ALTER TABLE physical_trial ADD COLUMN drive TEXT NOT NULL DEFAULT '';           -- title of its profile
+ALTER TABLE physical_trial ADD COLUMN half_stroke REAL NOT NULL DEFAULT 0;      -- m; 0: not known
+)sql";
+
+constexpr std::array<Migration, 6> kMigrations = {
+    {{1, kVersion1}, {2, kVersion2}, {3, kVersion3}, {4, kVersion4}, {5, kVersion5}, {6, kVersion6}}};
 
 }  // namespace
 

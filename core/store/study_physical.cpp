@@ -28,9 +28,10 @@ bool hasValidation(SQLite::Database& database, int validation) {
 }
 
 void insertTrial(SQLite::Database& database, int validation, const study::PhysicalTrial& trial) {
-    SQLite::Statement row(database, "INSERT INTO physical_trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    SQLite::Statement row(database, "INSERT INTO physical_trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     SQLite::bind(row, validation, trial.number, trial.pose, study::nameOf(trial.outcome), trial.seconds,
-                 trial.setPoint, trial.frequency, trial.note, trial.time);
+                 trial.setPoint, trial.frequency, trial.note, trial.time, study::nameOf(trial.feeder),
+                 trial.drive, trial.halfStroke);
     row.exec();
 }
 
@@ -67,6 +68,11 @@ base::Result<study::PhysicalTrial> readTrial(const std::filesystem::path& path,
     trial.frequency = query.getColumn(5).getDouble();
     trial.note = query.getColumn(6).getString();
     trial.time = query.getColumn(7).getString();
+    const auto feeder = study::feederKindOf(query.getColumn(8).getString());
+    if (!feeder) return damagedValue(path, "the feeder of a trial");
+    trial.feeder = *feeder;
+    trial.drive = query.getColumn(9).getString();
+    trial.halfStroke = query.getColumn(10).getDouble();
     return trial;
 }
 
@@ -172,7 +178,8 @@ base::Result<std::vector<study::PhysicalValidation>> StudyFile::loadPhysicalVali
                                     "SELECT pose FROM physical_pose WHERE validation = ? ORDER BY place");
             SQLite::Statement trials(
                 *state_->database,
-                "SELECT number, pose, outcome, seconds, set_point, frequency, note, time "
+                "SELECT number, pose, outcome, seconds, set_point, frequency, note, time, feeder, drive, "
+                "half_stroke "
                 "FROM physical_trial WHERE validation = ? ORDER BY number");
             std::vector<study::PhysicalValidation> validations;
             while (heads.executeStep()) {

@@ -14,6 +14,7 @@ namespace trapwright::study {
 namespace {
 
 constexpr double kPercent = 100.0;
+constexpr double kMillimetre = 1e3;
 constexpr double kLevel = 0.05;
 
 void fail(SuccessCount& count, int number, PhysicalOutcome outcome) {
@@ -118,13 +119,29 @@ double calcDirection(const PhysicalTable& table) {
     return sum;
 }
 
+/// One word for the column of a file.
+std::string feederWord(const FeederCount& feeders) {
+    std::string word;
+    for (const auto& [count, kind] : {std::pair(feeders.real, FeederKind::real),
+                                      {feeders.unconnected, FeederKind::unconnected},
+                                      {feeders.virtualFeeder, FeederKind::virtualFeeder},
+                                      {feeders.unknown, FeederKind::unknown}}) {
+        if (count == 0) continue;
+        if (!word.empty()) return "mixed";
+        word = nameOf(kind);
+    }
+    return word;
+}
+
 std::string describe(const PhysicalTable& table) {
     const PhysicalRow& total = table.total;
     if (total.physical.trials == 0) return "No part has been placed on the feeder yet.";
-    const std::string feeder = fmt::format(
-        "{} of {} parts were oriented on the feeder ({}; 95 % bounds {:.1f} to {:.1f} %).",
-        total.physical.successes(), total.physical.trials, shareText(total.physical),
-        kPercent * total.physical.clopperPearson.low, kPercent * total.physical.clopperPearson.high);
+    const bool trained = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
+    const std::string feeder =
+        fmt::format("{} of {} parts were oriented on the {} ({}; 95 % bounds {:.1f} to {:.1f} %).",
+                    total.physical.successes(), total.physical.trials, trained ? "virtual feeder" : "feeder",
+                    shareText(total.physical), kPercent * total.physical.clopperPearson.low,
+                    kPercent * total.physical.clopperPearson.high);
     if (!total.p)
         return feeder + " This track has not been validated in simulation, so there is nothing to compare.";
 
@@ -199,6 +216,8 @@ PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalV
     setBounds(table.total.physical);
     testPoses(table.rows);
     testTotal(table);
+    table.feeders = countFeeders(physical);
+    table.notice = feederNotice(physical);
     table.verdict = describe(table);
     return table;
 }
@@ -212,9 +231,25 @@ const ValidationRecord* findSimulated(std::span<const ValidationRecord> validati
     return newest;
 }
 
+std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> validations,
+                                             std::span<const SelectionRecord> selections, int generation,
+                                             int individual) {
+    PhysicalValidation printed;
+    printed.generation = generation;
+    printed.individual = individual;
+    if (const ValidationRecord* found = findSimulated(validations, printed))
+        return found->expectedOrientation;
+    std::optional<base::Quaternion> newest;
+    for (const SelectionRecord& selection : selections)
+        for (const SelectionEntry& entry : selection.entries)
+            if (entry.generation == generation && entry.individual == individual && entry.finished > 0)
+                newest = entry.modalOrientation;
+    return newest;
+}
+
 std::string formatPhysical(const PhysicalTable& table) {
-    std::string text =
-        fmt::format("{:<5} {:^41}   {:^41}   {:^23}\n", "", "Simulation", "Physical", "failed");
+    std::string text = table.notice.empty() ? "" : table.notice + "\n";
+    text += fmt::format("{:<5} {:^41}   {:^41}   {:^23}\n", "", "Simulation", "Physical", "failed");
     fmt::format_to(
         std::back_inserter(text),
         "{:<5} {:>6} {:>5} {:>8}   {:>17}   {:>6} {:>5} {:>8}   {:>17}   {:>6} {:>6} {:>9}   {:>6}\n", "Pose",
@@ -227,10 +262,11 @@ std::string formatPhysical(const PhysicalTable& table) {
 
 std::string physicalTableCsv(const PhysicalTable& table) {
     std::string text =
-        "pose" + sideHeadings("simulated") + sideHeadings("physical") + ",physical_planned,p\n";
+        "pose" + sideHeadings("simulated") + sideHeadings("physical") + ",physical_planned,p,feeder\n";
     const auto append = [&](const std::string& name, const PhysicalRow& row) {
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", name, sideCsv(row.simulated),
-                       sideCsv(row.physical), row.planned, row.p ? fmt::format("{}", *row.p) : "");
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", name, sideCsv(row.simulated),
+                       sideCsv(row.physical), row.planned, row.p ? fmt::format("{}", *row.p) : "",
+                       feederWord(table.feeders));
     };
     for (const PhysicalRow& row : table.rows)
         append(std::to_string(row.pose + 1), row);
@@ -239,11 +275,15 @@ std::string physicalTableCsv(const PhysicalTable& table) {
 }
 
 std::string physicalTrialsCsv(const PhysicalValidation& physical) {
-    std::string text = "trial,pose,outcome,seconds,set_point_percent,frequency_hz,time_utc,note\n";
+    std::string text =
+        "trial,pose,outcome,seconds,set_point_percent,frequency_hz,time_utc,note,feeder,drive,half_stroke_"
+        "mm\n";
     for (const PhysicalTrial& trial : physical.trials) {
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", trial.number + 1,
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", trial.number + 1,
                        trial.pose + 1, nameOf(trial.outcome), trial.seconds, kPercent * trial.setPoint,
-                       trial.frequency, base::csvField(trial.time), base::csvField(trial.note));
+                       trial.frequency, base::csvField(trial.time), base::csvField(trial.note),
+                       nameOf(trial.feeder), base::csvField(trial.drive),
+                       trial.halfStroke > 0.0 ? fmt::format("{}", kMillimetre * trial.halfStroke) : "");
     }
     return text;
 }

@@ -39,6 +39,8 @@ struct PhysicalRow {
 struct PhysicalTable {
     std::vector<PhysicalRow> rows;  // poses of the plan, ascending
     PhysicalRow total;              // simulated: of these poses
+    FeederCount feeders;            // that made the physical trials
+    std::string notice;             // feederNotice: to be said before any number
     std::string verdict;            // whether the two differ, in a sentence or two
 };
 
@@ -49,9 +51,18 @@ PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalV
 const ValidationRecord* findSimulated(std::span<const ValidationRecord> validations,
                                       const PhysicalValidation& physical);
 
-/// As text, poses counted from 1; bounds by Clopper and Pearson. The verdict is the last line.
+/// The orientation in which this track's parts are to end (part frame to the tangent frame at the finish):
+/// what its newest simulated validation counted as success, else the most frequent one of the newest
+/// selection that it was in; none if it was in neither.
+std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> validations,
+                                             std::span<const SelectionRecord> selections, int generation,
+                                             int individual);
+
+/// As text, poses counted from 1; bounds by Clopper and Pearson. The verdict is the last line, the notice, if
+/// there is one, the first.
 std::string formatPhysical(const PhysicalTable& table);
-/// As CSV (RFC 4180, lines end with \n), numbers in full.
+/// As CSV (RFC 4180, lines end with \n), numbers in full. The last column tells the feeder: "real",
+/// "unconnected", "virtual", "unknown", or "mixed".
 std::string physicalTableCsv(const PhysicalTable& table);
 /// Every trial, one line each, as CSV.
 std::string physicalTrialsCsv(const PhysicalValidation& physical);

@@ -1,5 +1,7 @@
 #include "core/study/physical_validation.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -18,6 +20,17 @@ constexpr std::array<std::pair<PhysicalOutcome, const char*>, 4> kNames = {{
     {PhysicalOutcome::fellOff, "fell-off"},
 }};
 
+constexpr std::array<std::pair<FeederKind, const char*>, 4> kFeeders = {{
+    {FeederKind::unknown, "unknown"},
+    {FeederKind::real, "real"},
+    {FeederKind::unconnected, "unconnected"},
+    {FeederKind::virtualFeeder, "virtual"},
+}};
+
+std::string wereText(int count) {
+    return fmt::format("{} trial{}", count, count == 1 ? " was" : "s were");
+}
+
 }  // namespace
 
 std::string nameOf(PhysicalOutcome outcome) {
@@ -30,6 +43,56 @@ std::optional<PhysicalOutcome> physicalOutcomeOf(const std::string& name) {
     for (const auto& [outcome, known] : kNames)
         if (name == known) return outcome;
     return std::nullopt;
+}
+
+std::string nameOf(FeederKind kind) {
+    for (const auto& [known, name] : kFeeders)
+        if (known == kind) return name;
+    return {};
+}
+
+std::optional<FeederKind> feederKindOf(const std::string& name) {
+    for (const auto& [kind, known] : kFeeders)
+        if (name == known) return kind;
+    return std::nullopt;
+}
+
+FeederCount countFeeders(const PhysicalValidation& validation) {
+    FeederCount count;
+    for (const PhysicalTrial& trial : validation.trials) {
+        switch (trial.feeder) {
+            case FeederKind::unknown:
+                ++count.unknown;
+                break;
+            case FeederKind::real:
+                ++count.real;
+                break;
+            case FeederKind::unconnected:
+                ++count.unconnected;
+                break;
+            case FeederKind::virtualFeeder:
+                ++count.virtualFeeder;
+                break;
+        }
+    }
+    return count;
+}
+
+std::string feederNotice(const PhysicalValidation& validation) {
+    const FeederCount count = countFeeders(validation);
+    if (count.virtualFeeder > 0 && !count.mixed())
+        return "Made with the virtual feeder, for training: no real part moved, and these numbers say "
+               "nothing "
+               "about a printed track.";
+    const std::string older =
+        fmt::format("{} made by an older version, which did not note the feeder.", wereText(count.unknown));
+    if (count.virtualFeeder == 0) return count.unknown > 0 ? older : "";
+    std::string text = fmt::format(
+        "Mixed: {} made with the virtual feeder, for training; these numbers say nothing about a printed "
+        "track.",
+        wereText(count.virtualFeeder));
+    if (count.physical() > 0) text += fmt::format(" {} made on a real feeder.", wereText(count.physical()));
+    return count.unknown > 0 ? text + ' ' + older : text;
 }
 
 std::vector<int> orderOfTrials(const PhysicalPlan& plan) {

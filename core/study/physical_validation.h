@@ -14,6 +14,18 @@ enum class PhysicalOutcome { success, wrongOrientation, stuck, fellOff };
 std::string nameOf(PhysicalOutcome outcome);
 std::optional<PhysicalOutcome> physicalOutcomeOf(const std::string& name);
 
+/// What moved the parts in a trial.
+enum class FeederKind {
+    unknown,       // studies of programs that did not note it
+    real,          // a drive that was connected
+    unconnected,   // a feeder that the operator ran by other means
+    virtualFeeder  // the program's own virtual feeder: no part moved
+};
+
+/// "unknown", "real", "unconnected", "virtual": in files.
+std::string nameOf(FeederKind kind);
+std::optional<FeederKind> feederKindOf(const std::string& name);
+
 /// Which poses are placed on the track, how often, and in which order.
 struct PhysicalPlan {
     std::vector<int> poses;  // indices into the part's stable poses, each once
@@ -38,6 +50,9 @@ struct PhysicalTrial {
     double frequency = 0.0;  // [Hz]; 0 where the drive does not tell
     std::string note;
     std::string time;  // UTC, "2026-03-31T12:00:00Z"
+    FeederKind feeder = FeederKind::unknown;
+    std::string drive;        // title of its profile; empty without one
+    double halfStroke = 0.0;  // [m], read from the drive or by calibration or profile; 0: not known
 
     friend bool operator==(const PhysicalTrial&, const PhysicalTrial&) = default;
 };
@@ -57,6 +72,24 @@ struct PhysicalValidation {
 
     friend bool operator==(const PhysicalValidation&, const PhysicalValidation&) = default;
 };
+
+/// How many trials each kind of feeder made.
+struct FeederCount {
+    int unknown = 0;
+    int real = 0;
+    int unconnected = 0;
+    int virtualFeeder = 0;
+
+    /// Trials that count for a printed track, as far as is known.
+    [[nodiscard]] int physical() const { return real + unconnected; }
+    /// Whether trials of the virtual feeder stand beside others.
+    [[nodiscard]] bool mixed() const { return virtualFeeder > 0 && (physical() > 0 || unknown > 0); }
+};
+FeederCount countFeeders(const PhysicalValidation& validation);
+
+/// What whoever reads the numbers must know of the feeder: that it was the virtual one, that two kinds are
+/// mixed, or that older trials do not tell. Empty if all were made on a real feeder. A sentence or two.
+std::string feederNotice(const PhysicalValidation& validation);
 
 /// The pose of the next trial; none if the plan is done.
 std::optional<int> nextPose(const PhysicalValidation& validation);

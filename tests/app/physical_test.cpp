@@ -56,6 +56,58 @@ class PhysicalTest : public QObject {
         QCOMPARE(ask({"physical", "study.trap", "--number", "3"}).code, 2);
     }
 
+    void saysThatTheFeederWasVirtual_data() {
+        QTest::addColumn<QString>("second");
+        QTest::addColumn<QString>("title");
+        QTest::addColumn<QString>("notice");
+        QTest::addColumn<QString>("word");
+        QTest::newRow("virtual") << "virtual"
+                                 << "on the virtual feeder, begun"
+                                 << "Made with the virtual feeder"
+                                 << "virtual";
+        QTest::newRow("mixed") << "real"
+                               << "on the virtual feeder and others, mixed"
+                               << "Mixed: 1 trial was made with the virtual feeder"
+                               << "mixed";
+        QTest::newRow("older") << "unknown"
+                               << "on the virtual feeder and others, mixed"
+                               << "which did not note the feeder"
+                               << "mixed";
+    }
+    void saysThatTheFeederWasVirtual() {
+        QFETCH(QString, second);
+        QFETCH(QString, title);
+        QFETCH(QString, notice);
+        QFETCH(QString, word);
+        {
+            auto study =
+                store::StudyFile::open(folder_->filePath("study.trap").toStdString(), sample::kProgram);
+            VERIFY_OK(study);
+            study::PhysicalValidation physical;
+            physical.plan = {{0, 2}, 2};
+            physical.trials.resize(2);
+            physical.trials[0].feeder = study::FeederKind::virtualFeeder;
+            physical.trials[0].drive = "Virtual feeder, by Modbus";
+            physical.trials[0].halfStroke = 0.6e-3;
+            physical.trials[1].number = 1;
+            physical.trials[1].feeder = study::feederKindOf(second.toStdString()).value();
+            VERIFY_OK(study->addPhysicalValidation(physical));
+        }
+        const QString shown = ask({"physical", "study.trap"}).output;
+        QVERIFY2(shown.contains(title) && shown.contains(notice), qPrintable(shown));
+        const QJsonObject json = ask({"physical", "study.trap", "--json"}).json();
+        QVERIFY(json["notice"].toString().contains(notice));
+        QVERIFY(json["feeder"].toObject()["virtual"].toInt() > 0);
+        const QStringList table =
+            ask({"physical", "study.trap", "--csv"}).output.split('\n', Qt::SkipEmptyParts);
+        QVERIFY(table.front().endsWith(",feeder"));
+        for (int i = 1; i < table.size(); ++i)
+            QVERIFY2(table[i].endsWith(',' + word), qPrintable(table[i]));
+        const QString trials = ask({"physical", "study.trap", "--trials"}).output;
+        QVERIFY2(trials.contains(",virtual,\"Virtual feeder, by Modbus\",0.6\n"), qPrintable(trials));
+        QVERIFY2(trials.contains(',' + second + ','), qPrintable(trials));
+    }
+
     void saysThatThereIsNone() {
         const Ran ran = ask({"physical", "study.trap"});
         QCOMPARE(ran.code, 3);

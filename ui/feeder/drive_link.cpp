@@ -83,6 +83,22 @@ bool DriveLink::moves() const {
     return snapshot_.state == State::ramping || snapshot_.state == State::running;
 }
 
+calibration::DriveSetting DriveLink::setting() const {
+    if (!session_ || !loop_) return {};
+    const drive::Reading& reading = snapshot_.reading;
+    calibration::DriveState state;
+    state.setPoint = target_;
+    state.frequency = reading.frequency ? reading.frequency : profile_.frequency;
+    if (snapshot_.state == State::running) state.halfStroke = reading.halfStroke;
+    state.fullHalfStroke = profile_.fullHalfStroke;
+    return calibration::findDriveSetting(state, session_->calibrations());
+}
+
+calibration::DriveComparison DriveLink::comparison() const {
+    if (!session_ || !loop_) return {};
+    return calibration::compareDrive(setting(), session_->settings().simulation.drive);
+}
+
 void DriveLink::start() {
     if (!loop_) return;
     loop_->setTarget(target_);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/calibration/drive_setting.h"
 #include "core/drive/drive_loop.h"
 #include "ui/session/environment.h"
 
@@ -42,6 +43,12 @@ class DriveLink : public QObject {
     [[nodiscard]] bool moves() const;
     /// Where start() takes the drive, share of full.
     [[nodiscard]] double target() const { return target_; }
+
+    /// What the drive does, or will do, at its set-point: measured while it runs, else by calibration or
+    /// profile.
+    [[nodiscard]] calibration::DriveSetting setting() const;
+    /// The same beside what the study simulates; nothing without a study or a drive.
+    [[nodiscard]] calibration::DriveComparison comparison() const;
 
     void start();
     void stop();

@@ -86,6 +86,24 @@ QString TrialGuide::note() const {
                                                  : QString::fromStdString(now->trials.back().note);
 }
 
+QString TrialGuide::findMixture() const {
+    const study::FeederCount feeders = study::countFeeders(*validation());
+    const bool virtualNow = driven_ && link_.profile().isVirtual;
+    // What is mixed already is told as such, and may go on.
+    if (feeders.mixed()) return {};
+    if (virtualNow && feeders.physical() > 0) {
+        return tr(
+            "This validation was made on a real feeder so far. Plan another one for the virtual "
+            "feeder, or disconnect it.");
+    }
+    if (!virtualNow && feeders.virtualFeeder > 0) {
+        return tr(
+            "This validation was made with the virtual feeder so far. Plan another one for the real "
+            "feeder, or connect the virtual one.");
+    }
+    return {};
+}
+
 QString TrialGuide::findObstacle() const {
     const State state = link_.snapshot().state;
     if (state == State::faulted) return tr("Acknowledge the fault of the drive first.");
@@ -100,6 +118,8 @@ void TrialGuide::start() {
     // Without a drive here the operator moves the feeder by other means.
     driven_ = link_.linked();
     moved_ = false;
+    const QString mixture = findMixture();
+    if (!mixture.isEmpty()) return settle(stage_, mixture);
     if (driven_) {
         const QString obstacle = findObstacle();
         if (!obstacle.isEmpty()) return settle(stage_, obstacle);
@@ -118,10 +138,14 @@ void TrialGuide::finish(study::PhysicalOutcome outcome) {
     trial.outcome = outcome;
     trial.seconds = seconds();
     trial.note = note_.toStdString();
+    trial.feeder = study::FeederKind::unconnected;
     if (driven_) {
-        const drive::Reading& reading = link_.snapshot().reading;
+        const calibration::DriveSetting setting = link_.setting();
+        trial.feeder = link_.profile().isVirtual ? study::FeederKind::virtualFeeder : study::FeederKind::real;
+        trial.drive = link_.profile().title;
         trial.setPoint = link_.target();
-        trial.frequency = reading.frequency.value_or(link_.profile().frequency.value_or(0.0));
+        trial.frequency = setting.frequency.value_or(0.0);
+        trial.halfStroke = setting.halfStroke.value_or(0.0);
     }
     session_->addPhysicalTrial(*index_, trial);
     settle(nextStage());

@@ -75,6 +75,9 @@ class TrialGuide : public QObject {
     void breakOff(const QString& why);
     void settle(Stage stage, const QString& trouble = {});
     [[nodiscard]] Stage nextStage() const;
+    /// What keeps the feeder that is there now out of this validation; empty if nothing does. Trials of the
+    /// virtual feeder and of a real one are never counted together.
+    [[nodiscard]] QString findMixture() const;
     [[nodiscard]] QString findObstacle() const;
 
     DriveLink& link_;

@@ -19,6 +19,11 @@ namespace trapwright::sample {
 
 inline const std::string kProgram = "trapwright 0.0-test";
 
+/// What schema version 6 added.
+inline constexpr const char* kDropVersion6 =
+    "ALTER TABLE physical_trial DROP COLUMN feeder; ALTER TABLE physical_trial DROP COLUMN drive; "
+    "ALTER TABLE physical_trial DROP COLUMN half_stroke;";
+
 /// What schema version 5 added.
 inline constexpr const char* kDropVersion5 =
     "ALTER TABLE individual DROP COLUMN oriented; ALTER TABLE generation DROP COLUMN top_success;";

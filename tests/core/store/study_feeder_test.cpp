@@ -22,7 +22,10 @@ study::PhysicalTrial trialOf(int number, int pose, study::PhysicalOutcome outcom
             0.65,
             49.9,
             "note " + std::to_string(number),
-            "2026-03-31T12:00:00Z"};
+            "2026-03-31T12:00:00Z",
+            number % 2 == 0 ? study::FeederKind::real : study::FeederKind::virtualFeeder,
+            "REO MFS 268",
+            0.55e-3};
 }
 
 study::PhysicalValidation validation(int number) {
@@ -195,6 +198,7 @@ class StudyFeederTest : public QObject {
     void studyOfVersion3IsBroughtUpToDate() {
         {
             SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+            database.exec(sample::kDropVersion6);
             database.exec(sample::kDropVersion5);
             database.exec(sample::kDropVersion4);
             database.exec("PRAGMA user_version = 3");
@@ -217,6 +221,28 @@ class StudyFeederTest : public QObject {
         QCOMPARE(database.execAndGet("PRAGMA user_version").getInt(), store::currentSchemaVersion());
     }
 
+    // Version 5 did not note what moved the parts: that is not known, and nothing else is lost.
+    void trialsOfVersion5HaveAnUnknownFeeder() {
+        auto trial = trialOf(0, 3, study::PhysicalOutcome::stuck);
+        {
+            auto study = StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(study);
+            VERIFY_OK(study->addPhysicalValidation(validation(0)));
+            VERIFY_OK(study->addPhysicalTrial(0, trial));
+        }
+        {
+            SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+            database.exec(sample::kDropVersion6);
+            database.exec("PRAGMA user_version = 5");
+        }
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        trial.feeder = study::FeederKind::unknown;
+        trial.drive.clear();
+        trial.halfStroke = 0.0;
+        QVERIFY(study->loadPhysicalValidations().value()[0].trials == std::vector{trial});
+    }
+
     // What was written once can be read for ever: the file's own words are part of its format.
     void unknownWordsAreDamage() {
         auto study = StudyFile::open(path_, sample::kProgram);
@@ -228,6 +254,7 @@ class StudyFeederTest : public QObject {
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
         QCOMPARE(database.execAndGet("SELECT outcome FROM physical_trial").getString(),
                  std::string("success"));
+        QCOMPARE(database.execAndGet("SELECT feeder FROM physical_trial").getString(), std::string("real"));
         QCOMPARE(database.execAndGet("SELECT method FROM calibration").getString(),
                  std::string("conveying-speed"));
         QCOMPARE(database.execAndGet("SELECT kind FROM drive_log").getString(), std::string("reading"));
@@ -235,6 +262,8 @@ class StudyFeederTest : public QObject {
             "UPDATE physical_trial SET outcome = 'lost'; UPDATE calibration SET method = 'thumb'; "
             "UPDATE drive_log SET kind = 'song'");
         QVERIFY(sample::messageOf(study->loadPhysicalValidations()).contains("damaged"));
+        database.exec("UPDATE physical_trial SET outcome = 'stuck', feeder = 'imagined'");
+        QVERIFY(sample::messageOf(study->loadPhysicalValidations()).contains("the feeder of a trial"));
         QVERIFY(sample::messageOf(study->loadCalibrations()).contains("damaged"));
         QVERIFY(sample::messageOf(study->loadDriveLog(-kForEver, kForEver)).contains("damaged"));
     }

@@ -170,6 +170,60 @@ class PhysicalTableTest : public QObject {
         QVERIFY(study::findSimulated(records, validation) == nullptr);
     }
 
+    void virtualTrialsAreNamedAsSuch_data() {
+        QTest::addColumn<int>("virtualOnes");
+        QTest::addColumn<int>("real");
+        QTest::addColumn<int>("unknown");
+        QTest::addColumn<QString>("notice");
+        QTest::newRow("real") << 0 << 20 << 0 << "";
+        QTest::newRow("virtual") << 20 << 0 << 0 << "Made with the virtual feeder, for training";
+        QTest::newRow("mixed") << 12 << 8 << 0 << "Mixed: 12 trials were made with the virtual feeder";
+        QTest::newRow("mixed, real") << 19 << 1 << 0 << "1 trial was made on a real feeder.";
+        QTest::newRow("unknown") << 0 << 0 << 20 << "20 trials were made by an older version";
+        QTest::newRow("virtual and unknown") << 1 << 0 << 19 << "Mixed: 1 trial was made with the virtual";
+        QTest::newRow("real and unknown") << 0 << 18 << 2 << "2 trials were made by an older version";
+    }
+    void virtualTrialsAreNamedAsSuch() {
+        QFETCH(int, virtualOnes);
+        QFETCH(int, real);
+        QFETCH(int, unknown);
+        QFETCH(QString, notice);
+        PhysicalValidation validation = physical({0, 0}, 10);
+        for (int i = 0; i < 20; ++i) {
+            validation.trials[static_cast<std::size_t>(i)].feeder =
+                i < virtualOnes          ? study::FeederKind::virtualFeeder
+                : i < virtualOnes + real ? study::FeederKind::real
+                                         : study::FeederKind::unknown;
+        }
+        const study::PhysicalTable table = study::comparePhysical(nullptr, validation);
+        QCOMPARE(table.feeders.unknown, unknown);
+        QCOMPARE(table.notice.empty(), notice.isEmpty());
+        QVERIFY2(contains(table.notice, notice.toUtf8().constData()), table.notice.c_str());
+        QCOMPARE(contains(table.verdict, "on the virtual feeder"), virtualOnes == 20);
+        if (!table.notice.empty()) QCOMPARE(study::formatPhysical(table).find(table.notice), std::size_t{0});
+    }
+
+    void expectedPoseIsOfTheNewestResult() {
+        const base::Quaternion one(Eigen::AngleAxisd(0.5, base::Vec3::UnitX()));
+        const base::Quaternion two(Eigen::AngleAxisd(1.0, base::Vec3::UnitY()));
+        std::vector<study::SelectionRecord> selections(1);
+        selections[0].entries.resize(1);
+        selections[0].entries[0].generation = 3;
+        selections[0].entries[0].individual = 7;
+        selections[0].entries[0].modalOrientation = one;
+        QVERIFY(!study::findExpected({}, {}, 3, 7));
+        // None finished: their most frequent orientation says nothing.
+        QVERIFY(!study::findExpected({}, selections, 3, 7));
+        selections[0].entries[0].finished = 5;
+        QVERIFY(!study::findExpected({}, selections, 3, 8));
+        QVERIFY(study::findExpected({}, selections, 3, 7)->coeffs() == one.coeffs());
+        std::vector<ValidationRecord> validations(2);
+        validations[0].generation = 3;
+        validations[0].individual = 7;
+        validations[0].expectedOrientation = two;
+        QVERIFY(study::findExpected(validations, selections, 3, 7)->coeffs() == two.coeffs());
+    }
+
     void csvCanBeReadAgain() {
         const ValidationRecord record = simulated({3, 4}, 100);
         PhysicalValidation validation = physical({1, 0}, 2);
@@ -187,7 +241,7 @@ class PhysicalTableTest : public QObject {
         const std::string trials = study::physicalTrialsCsv(validation);
         QVERIFY2(contains(trials,
                           "\n1,1,wrong-orientation,0,50,0,2026-03-31T12:00:00Z,\"slow, "
-                          "\"\"humming\"\"\"\n"),
+                          "\"\"humming\"\"\",unknown,,\n"),
                  trials.c_str());
         QCOMPARE(std::count(trials.begin(), trials.end(), '\n'), 5);
     }
