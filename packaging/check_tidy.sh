@@ -47,9 +47,8 @@ while (($# > 0)); do
 done
 
 cd "$root"
-database=$build/compile_commands.json
 command -v clang-tidy-14 > /dev/null || fail "clang-tidy-14 is not installed; packaging/install.sh does it."
-[[ -f $database ]] || fail "there is no $database; packaging/build.sh makes it."
+[[ -f $build/compile_commands.json ]] || fail "there is no $build/compile_commands.json; packaging/build.sh makes it."
 sources=$(packaging/list_sources.sh)
 if ((${#files[@]} == 0)); then
     mapfile -t files < <(grep '\.cpp$' <<< "$sources")
@@ -57,6 +56,10 @@ fi
 mkdir -p "$cache"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+# Without the precompiled headers: they are the compiler's own, and a file must name what it needs itself.
+database=$work/compile_commands.json
+sed -E '/"command":/ s/ (-Winvalid-pch|-fpch-preprocess|-include [^ ]*cmake_pch\.hxx)//g' \
+    "$build/compile_commands.json" > "$database"
 
 # What was changed last comes first, and before it what git does not know yet.
 { git diff --name-only HEAD && git log --format= --name-only; } 2> /dev/null | awk '!seen[$0]++' > "$work/ages" || true
@@ -153,7 +156,7 @@ xargs -r -d '\n' -n 2 -P "$(nproc)" bash -c '
         printf "    %s: failed\n%s\n" "$2" "$(grep -vE "^([0-9]+ (warning|error)|Error while processing|Found compiler error)" <<< "$messages")" >&2
         exit 1
     fi
-' check "$build" < "$work/jobs" || status=1
+' check "$work" < "$work/jobs" || status=1
 
 if ((${#unbuilt[@]} > 0)); then
     printf 'check_tidy: no CMakeLists.txt compiles these files:\n' >&2
