@@ -63,9 +63,14 @@ base::Result<PreparedPart> buildPart(const geometry::TriangleMesh& mesh, const P
         part.boundingRadius = std::max(part.boundingRadius, vertex.norm());
     }
     part.massProperties.centre = Vec3::Zero();
-    result.notes.push_back(
-        fmt::format("moved the origin to the centre of mass, by ({:.4g}, {:.4g}, {:.4g}) mm",
-                    -centre.x() * 1e3, -centre.y() * 1e3, -centre.z() * 1e3));
+    // Less than the rounding of the file's numbers is no move.
+    constexpr double kMoveToTell = 1e-6;  // [m]
+    if (centre.cwiseAbs().maxCoeff() >= kMoveToTell) {
+        // In mm, to a micrometre. Added to zero, it is no "-0".
+        const auto told = [](double coordinate) { return std::round(-coordinate * 1e6) / 1e3 + 0.0; };
+        result.notes.push_back(fmt::format("moved the origin to the centre of mass, by ({}, {}, {}) mm",
+                                           told(centre.x()), told(centre.y()), told(centre.z())));
+    }
 
     base::Result<geometry::ConvexPolytope> hull = geometry::computeConvexHull(part.mesh);
     if (!hull) return hull.error();

@@ -57,6 +57,30 @@ class PartBuilderTest : public QObject {
         QCOMPARE(part.stablePoses.size(), std::size_t{6});
     }
 
+    void aMoveOfTheOriginIsToldInWholeMicrometres_data() {
+        QTest::addColumn<double>("offset");
+        QTest::addColumn<QString>("told");
+        QTest::newRow("none") << 0.0 << "";
+        QTest::newRow("of rounding") << 3.159e-20 << "";
+        QTest::newRow("less than is told") << 0.4e-6 << "";
+        QTest::newRow("far") << 12.3456789e-3
+                             << "moved the origin to the centre of mass, by (-12.346, 0, 0) mm";
+    }
+
+    void aMoveOfTheOriginIsToldInWholeMicrometres() {
+        QFETCH(double, offset);
+        QFETCH(QString, told);
+        geometry::TriangleMesh mesh = part::makeBox(Vec3(4, 8, 12) * kMillimetre);
+        for (Vec3& vertex : mesh.vertices)
+            vertex.x() += offset;
+        const auto built = part::buildPart(mesh, {});
+        QVERIFY2(built.ok(), built ? "" : built.error().message.c_str());
+        QStringList notes;
+        for (const std::string& note : built->notes)
+            notes << QString::fromStdString(note);
+        QCOMPARE(notes.join("; "), told);
+    }
+
     void bundledPartsFromTheirFiles_data() {
         QTest::addColumn<QString>("name");
         QTest::addColumn<QString>("symmetry");
