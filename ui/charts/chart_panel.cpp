@@ -196,16 +196,15 @@ base::Status ChartPanel::saveCsv(const std::filesystem::path& path) const {
 void ChartPanel::askAndSavePicture() {
     const look::FileQuestion question{"chart",    tr("Save picture of %1").arg(title_),
                                       tr("Save"), tr("Pictures (*.png *.svg)"),
-                                      "png",      objectName() + ".png"};
+                                      "png",      objectName()};
     look::askForNewFile(this, question, [this](const std::filesystem::path& path) {
         report(tr("Saving the picture"), savePicture(path), path);
     });
 }
 
 void ChartPanel::askAndSaveCsv() {
-    const look::FileQuestion question{"chart",    tr("Save numbers of %1").arg(title_),
-                                      tr("Save"), tr("Tables (*.csv)"),
-                                      "csv",      objectName() + ".csv"};
+    const look::FileQuestion question{
+        "chart", tr("Save numbers of %1").arg(title_), tr("Save"), tr("Tables (*.csv)"), "csv", objectName()};
     look::askForNewFile(this, question, [this](const std::filesystem::path& path) {
         report(tr("Saving the numbers"), saveCsv(path), path);
     });

@@ -16,6 +16,7 @@
 #include <algorithm>
 
 #include "ui/feeder/drive_link.h"
+#include "ui/look/whole_headers.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::feeder {
@@ -99,6 +100,7 @@ QWidget* CalibratePanel::makeReadings() {
     table_->setRootIsDecorated(false);
     table_->setUniformRowHeights(true);
     table_->setMinimumHeight(60);
+    look::keepHeadersWhole(*table_->header());
     remove_ = new QPushButton(tr("Remove"), box);
     remove_->setObjectName("calibrate.remove");
     remove_->setToolTip(tr("Removes the reading that is selected, or the last one"));
@@ -251,7 +253,7 @@ void CalibratePanel::showResult() {
     keep_->setEnabled(session_ && found && found->ok());
     result_->setText(now.result);
     if (readings().empty()) {
-        detail_->setText(tr("Nothing is read yet."));
+        detail_->setText(tr("No readings yet."));
     } else if (!found) {
         detail_->setText(tr("How quickly the part is conveyed is being simulated..."));
     } else if (!found->ok()) {
@@ -271,10 +273,11 @@ void CalibratePanel::showChanges() {
         text += (text.isEmpty() ? "" : "<br>") + changeText(change).toHtmlEscaped();
     if (changes.empty()) {
         text = session_ && !session_->calibrations().empty()
-                   ? tr("The settings are as measured.")
-                   : tr("What is kept here can be applied to the settings.");
+                   ? tr("The settings are those measured.")
+                   : tr("A measurement that is kept can be applied to the settings.");
     } else if (locked) {
-        text += "<br>" + tr("The study has scores that belong to its settings: a new study takes these.");
+        text +=
+            "<br>" + tr("The tracks of this study were learned with its settings: a new study takes these.");
     }
     changes_->setText(text);
     apply_->setVisible(!changes.empty());

@@ -19,6 +19,7 @@
 #include "ui/look/file_dialog.h"
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
+#include "ui/look/whole_headers.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::feeder {
@@ -58,9 +59,10 @@ DriveLog::DriveLog(DriveLink& link, QWidget* parent)
     list_->setUniformRowHeights(true);
     list_->setFrameShape(QFrame::NoFrame);
     list_->header()->setSectionResizeMode(Time, QHeaderView::ResizeToContents);
+    look::keepHeadersWhole(*list_->header());
     auto* empty =
-        new QLabel(tr("Connect a drive: states, faults and remarks are listed here, and everything that it "
-                      "is told and reads back is saved in the study."),
+        new QLabel(tr("Connect a drive: states, faults and remarks are listed here, and every command and "
+                      "reading is saved in the study."),
                    this);
     empty->setAlignment(Qt::AlignCenter);
     empty->setWordWrap(true);

@@ -77,16 +77,14 @@ Report ReportCard::makeReport() const {
 
 void ReportCard::askAndWrite() {
     if (!session_ || guide_.validation() == nullptr) return;
-    const QString name = tr("%1-validation-%2")
-                             .arg(look::toText(session_->path().stem()))
-                             .arg(guide_.validation()->number + 1);
+    const QString name = tr("validation-%1").arg(guide_.validation()->number + 1);
     look::askForNewFile(this, {"report", tr("Save the report"), tr("Save"), tr("PDF (*.pdf)"), "pdf", name},
                         [this](const std::filesystem::path& file) { write(file); });
 }
 
 void ReportCard::update() {
     save_->setEnabled(guide_.made() > 0);
-    text_->setText(guide_.made() > 0 ? tr("The report tells what is known by now.")
+    text_->setText(guide_.made() > 0 ? tr("The report covers the trials made so far.")
                                      : tr("There is a report as soon as there is a trial."));
 }
 

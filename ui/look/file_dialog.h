@@ -8,14 +8,16 @@ class QWidget;
 
 namespace trapwright::look {
 
-/// A question for a file. The folder is remembered under `name`.
+/// A question for a file. The folder is remembered under `name`; the first time it is that of the study that
+/// the window is about (QWidget::windowFilePath), or else the user's documents. A new file has the study's
+/// name to begin with.
 struct FileQuestion {
     QString name;     // "study"
     QString title;    // "Open study"
     QString accept;   // the button's verb: "Open"
     QString filter;   // "Studies (*.trap)"
     QString suffix;   // added to a name without one
-    QString suggest;  // file name to begin with
+    QString subject;  // what of the study is in a new file: "fitness"; empty: all of it
 };
 
 using FileAnswer = std::function<void(const std::filesystem::path&)>;

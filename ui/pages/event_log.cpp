@@ -15,6 +15,7 @@
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/look/whole_headers.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -45,6 +46,7 @@ EventLog::EventLog(QWidget* parent)
     list_->setFrameShape(QFrame::NoFrame);
     list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     list_->header()->setStretchLastSection(true);
+    look::keepHeadersWhole(*list_->header());
     list_->header()->setSectionResizeMode(Time, QHeaderView::ResizeToContents);
     auto* empty = new QLabel(
         tr("What happens to the study is listed here: generations, checks, stops, failures."), this);
@@ -127,7 +129,7 @@ void EventLog::tellState(RunState state) {
     const QString next = QString::number(session_->summaries().size());
     switch (state) {
         case RunState::learning:
-            add(Kind::info, before == RunState::paused ? tr("Learning goes on")
+            add(Kind::info, before == RunState::paused ? tr("Learning continued")
                                                        : tr("Learning began at generation %1").arg(next));
             break;
         case RunState::paused:

@@ -90,11 +90,11 @@ ExportPage::ExportPage(QWidget* parent)
         if (scene_ != nullptr && shown_) scene_->setHighlights(findings_->highlights());
     });
     connect(&print_, &session::PrintBuild::built, this, &ExportPage::take);
-    connect(&print_, &session::PrintBuild::failed, this,
-            [this](const QString& option, const QString& message) {
-                form_->setProblem(option, message);
-                setState(option.isEmpty() ? message : tr("Mend the marked value, then the solid is built."));
-            });
+    connect(
+        &print_, &session::PrintBuild::failed, this, [this](const QString& option, const QString& message) {
+            form_->setProblem(option, message);
+            setState(option.isEmpty() ? message : tr("Correct the marked value; then the solid is built."));
+        });
     connect(&print_, &session::PrintBuild::written, this, [this](const work::ExportedFile& file) {
         enableExport();
         setState(tr("Wrote %1: %2, %3 cm³. Read back: closed and manifold.")
@@ -120,7 +120,7 @@ QWidget* ExportPage::makeFoot() {
     help_->setTextFormat(Qt::RichText);
     help_->setAlignment(Qt::AlignTop);
     help_->setFixedHeight(kHelpLines * help_->fontMetrics().lineSpacing() + 2);
-    help_->setText(tr("Point at a field, and what it means is told here."));
+    help_->setText(tr("Point at a field to read what it means."));
     state_->setObjectName("export.state");
     state_->setWordWrap(true);
     state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -284,10 +284,9 @@ void ExportPage::enableExport() {
 
 void ExportPage::askForPath(const QString& format) {
     const QString upper = format.toUpper();
-    const QString name = look::toText(session_->path().stem()) + "." + format;
     const look::FileQuestion question{"print",      tr("Export %1").arg(upper),
                                       tr("Export"), tr("%1 files (*.%2)").arg(upper, format),
-                                      format,       name};
+                                      format,       {}};
     look::askForNewFile(this, question, [this, printed = printed_](const std::filesystem::path& file) {
         setState(tr("Writing %1 ...").arg(look::toText(file.filename())));
         print_.write(printed, file);

@@ -11,6 +11,7 @@
 
 #include "core/base/file.h"
 #include "ui/look/file_dialog.h"
+#include "ui/look/whole_headers.h"
 #include "ui/models/csv.h"
 #include "ui/models/roles.h"
 
@@ -48,6 +49,7 @@ RecordTable::RecordTable(const QString& name, const QString& title, const QStrin
     view_->verticalHeader()->hide();
     view_->verticalHeader()->setDefaultSectionSize(view_->fontMetrics().height() + kCellPadding);
     view_->horizontalHeader()->setHighlightSections(false);
+    look::keepHeadersWhole(*view_->horizontalHeader());
     view_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     auto* empty = new QLabel(emptyText, this);
     empty->setAlignment(Qt::AlignCenter);
@@ -60,7 +62,7 @@ RecordTable::RecordTable(const QString& name, const QString& title, const QStrin
     column_->setSpacing(0);
     column_->addLayout(stack_, 1);
 
-    auto* save = new QAction(tr("Save table as CSV ..."), view_);
+    auto* save = new QAction(tr("Save table as CSV..."), view_);
     save->setObjectName(name + ".saveCsv");
     save->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_E));
     save->setShortcutContext(Qt::WidgetShortcut);
@@ -105,7 +107,7 @@ base::Status RecordTable::saveCsv(const std::filesystem::path& path) const {
 void RecordTable::askAndSaveCsv() {
     const look::FileQuestion question{"table",    tr("Save the table of %1").arg(title_),
                                       tr("Save"), tr("Tables (*.csv)"),
-                                      "csv",      objectName() + ".csv"};
+                                      "csv",      objectName()};
     look::askForNewFile(this, question, [this](const std::filesystem::path& path) {
         const base::Status saved = saveCsv(path);
         if (!saved)

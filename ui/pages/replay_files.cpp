@@ -53,8 +53,8 @@ ReplayFiles::ReplayFiles(ReplayPlayer& player, QWidget* parent)
       size_(new QComboBox(this)),
       rate_(new QComboBox(this)),
       length_(new QLabel(this)),
-      savePicture_(new QPushButton(look::icon("picture"), tr("Save picture…"), this)),
-      saveMovie_(new QPushButton(look::icon("film"), tr("Save film…"), this)),
+      savePicture_(new QPushButton(look::icon("picture"), tr("Save picture..."), this)),
+      saveMovie_(new QPushButton(look::icon("film"), tr("Save film..."), this)),
       busy_(makeProgress()) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -75,7 +75,13 @@ ReplayFiles::ReplayFiles(ReplayPlayer& player, QWidget* parent)
     connect(&player_, &ReplayPlayer::speedChanged, this, &ReplayFiles::showLength);
     connect(rate_, &QComboBox::currentIndexChanged, this, &ReplayFiles::showLength);
     connect(&export_, &MovieExport::progressed, this, [this](int frame, int frames) {
-        busyText_->setText(tr("Picture %1 of %2").arg(frame).arg(frames));
+        const double left = 1e-3 * static_cast<double>(clock_.elapsed()) / frame * (frames - frame);
+        busyText_->setText(frame < frames
+                               ? tr("Picture %1 of %2, %3 left")
+                                     .arg(frame)
+                                     .arg(frames)
+                                     .arg(look::durationText(std::ceil(left)))
+                               : tr("All %1 pictures are drawn; the film is being closed").arg(frames));
         bar_->setRange(0, frames);
         bar_->setValue(frame);
     });
@@ -170,8 +176,10 @@ QSize ReplayFiles::pictureSize() const {
 }
 
 int ReplayFiles::countFrames() const {
+    if (player_.duration() <= 0.0) return 0;
     const double seconds = player_.duration() / player_.speed();
-    return static_cast<int>(std::ceil(seconds * rate_->currentData().toInt()));
+    // One more for the end: at many times the speed, a part goes far between two pictures.
+    return static_cast<int>(std::ceil(seconds * rate_->currentData().toInt())) + 1;
 }
 
 void ReplayFiles::showLength() {
@@ -179,10 +187,11 @@ void ReplayFiles::showLength() {
     saveMovie_->setEnabled(scene_ != nullptr && frames > 0 && !export_.busy());
     savePicture_->setEnabled(scene_ != nullptr && !export_.busy());
     if (export_.busy()) return;
-    length_->setText(frames == 0 ? tr("Choose a trial to make a film of it.")
-                                 : tr("The film will take %1 s at %2 ×: %3 pictures.")
-                                       .arg(look::numberText(player_.duration() / player_.speed()),
-                                            look::numberText(player_.speed()), QLocale().toString(frames)));
+    length_->setText(
+        frames == 0 ? tr("Choose a trial to make a film of it.")
+                    : tr("The film will take %1 s at %2 ×: %3 pictures.")
+                          .arg(look::numberText(static_cast<double>(frames) / rate_->currentData().toInt()),
+                               look::numberText(player_.speed()), QLocale().toString(frames)));
 }
 
 void ReplayFiles::savePicture(const QString& file) {
@@ -220,7 +229,10 @@ void ReplayFiles::saveMovie(const QString& file) {
         player_.setTime(between * frame);
         return scene_->picture(size, ratioOf(size));
     };
-    busyText_->setText(tr("The film begins"));
+    busyText_->setText(tr("Picture 1 of %1").arg(movie.frames));
+    bar_->setRange(0, movie.frames);
+    bar_->setValue(0);
+    clock_.start();
     busy_->show();
     export_.start(movie);
     showLength();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QWidget>
 
 #include "ui/pages/movie_export.h"
@@ -25,7 +26,7 @@ class ReplayFiles : public QWidget {
 
     /// Where the pictures come from; null: there are none, and a film that is being made ends.
     void setScene(scene::SceneView* scene);
-    /// Proposed for files, without an ending.
+    /// What of the study is shown, for the names of files.
     void setName(const QString& name) { name_ = name; }
 
     /// The replay at the player's speed, from its beginning to its end.
@@ -50,6 +51,7 @@ class ReplayFiles : public QWidget {
 
     ReplayPlayer& player_;
     MovieExport export_;
+    QElapsedTimer clock_;  // since the film was begun
     scene::SceneView* scene_ = nullptr;
     QString name_;
     QComboBox* size_;

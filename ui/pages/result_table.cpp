@@ -14,6 +14,7 @@
 #include "core/base/file.h"
 #include "ui/look/file_dialog.h"
 #include "ui/look/icon.h"
+#include "ui/look/whole_headers.h"
 #include "ui/models/csv.h"
 #include "ui/models/roles.h"
 
@@ -87,6 +88,7 @@ ResultTable::ResultTable(const QString& name, const QString& title, QAbstractIte
     view_->verticalHeader()->hide();
     view_->verticalHeader()->setDefaultSectionSize(view_->fontMetrics().height() + 8);
     view_->horizontalHeader()->setHighlightSections(false);
+    look::keepHeadersWhole(*view_->horizontalHeader());
     connect(view_, &QTableView::clicked, this, &ResultTable::cellChosen);
     connect(view_, &QTableView::activated, this, &ResultTable::cellChosen);
 
@@ -133,7 +135,8 @@ void ResultTable::showEmpty() {
 
 void ResultTable::askAndSave() {
     look::askForNewFile(
-        this, {"table", tr("Save the table"), tr("Save"), tr("CSV (*.csv)"), "csv", accessibleName()},
+        this,
+        {"table", tr("Save the table"), tr("Save"), tr("CSV (*.csv)"), "csv", objectName().section('.', -1)},
         [this](const std::filesystem::path& file) {
             const base::Status status = base::writeFile(file, models::toCsv(model_).toStdString());
             if (!status)

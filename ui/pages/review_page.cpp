@@ -153,10 +153,8 @@ void ReviewPage::showWinner() {
     judging_->setWinner(choice_->winner());
     review_.setWinner(choice_->winner());
     if (session_ && choice_->winner())
-        files_->setName(QString("%1-%2-%3")
-                            .arg(fromText(session_->part()->name))
-                            .arg(choice_->winner()->generation)
-                            .arg(choice_->winner()->individual));
+        files_->setName(
+            QString("%1-%2").arg(choice_->winner()->generation).arg(choice_->winner()->individual));
     showValidation();
 }
 

@@ -122,14 +122,14 @@ void TransportBar::addPlayerButtons(QHBoxLayout& row) {
               [this] { player_.step(-kStep); });
     play_ = addButton(row, "replay.play", "start", tr("Play"), Qt::Key_Space);
     connectTo(play_, [this] { player_.toggle(); });
-    connectTo(addButton(row, "replay.stepForward", "step-forward", tr("On by 1 ms"), Qt::Key_Right),
+    connectTo(addButton(row, "replay.stepForward", "step-forward", tr("Forward by 1 ms"), Qt::Key_Right),
               [this] { player_.step(kStep); });
     connectTo(addButton(row, "replay.toEnd", "to-end", tr("To the end"), Qt::Key_End),
               [this] { player_.setTime(player_.duration()); });
-    QAction* loop = addSwitch(row, "replay.loop", "loop", tr("Play again and again"), Qt::Key_L, false);
+    QAction* loop = addSwitch(row, "replay.loop", "loop", tr("Repeat"), Qt::Key_L, false);
     connect(loop, &QAction::toggled, &player_, &ReplayPlayer::setLoop);
     addKey("replay.cycleBack", tr("Back by one vibration cycle"), Qt::SHIFT | Qt::Key_Left, -1.0);
-    addKey("replay.cycleForward", tr("On by one vibration cycle"), Qt::SHIFT | Qt::Key_Right, 1.0);
+    addKey("replay.cycleForward", tr("Forward by one vibration cycle"), Qt::SHIFT | Qt::Key_Right, 1.0);
 }
 
 void TransportBar::addKey(const QString& name, const QString& text, const QKeySequence& key, double cycles) {
@@ -143,7 +143,7 @@ void TransportBar::addKey(const QString& name, const QString& text, const QKeySe
 void TransportBar::addSpeed(QHBoxLayout& row) {
     speed_->setObjectName("transport.speed");
     speed_->setAccessibleName(tr("Speed"));
-    speed_->setToolTip(tr("Speed of the replay; 1 is as fast as the part is"));
+    speed_->setToolTip(tr("Speed of the replay; 1 × is real time"));
     for (const double speed : kSpeeds)
         speed_->addItem(tr("%1 ×").arg(QLocale().toString(speed, 'g', 3)), speed);
     const auto show = [this] { speed_->setCurrentIndex(speed_->findData(player_.speed())); };

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "ui/look/theme.h"
+#include "ui/look/whole_headers.h"
 #include "ui/models/verdict_look.h"
 
 namespace trapwright::pages {
@@ -81,6 +82,7 @@ void TrialList::makeTable() {
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
     table_->horizontalHeader()->setHighlightSections(false);
+    look::keepHeadersWhole(*table_->horizontalHeader());
     table_->setColumnHidden(TrialModel::Pose, true);
     table_->viewport()->installEventFilter(this);
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {

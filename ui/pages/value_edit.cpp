@@ -67,8 +67,8 @@ void ValueEdit::keyPressEvent(QKeyEvent* event) {
 }
 
 void ValueEdit::wheelEvent(QWheelEvent* event) {
-    // Without the focus the wheel scrolls the inspector past.
-    if (!hasFocus() || isReadOnly()) return event->ignore();
+    // Only with the focus does it come here (look::WheelFocus).
+    if (isReadOnly()) return event->ignore();
     step(event->angleDelta().y() > 0 ? 1 : -1);
     event->accept();
 }

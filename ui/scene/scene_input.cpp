@@ -22,8 +22,8 @@ constexpr double kZoomPerNotch = 1.15;  // of the wheel
 void SceneView::State::makeActions() {
     const auto add = [this](const QString& text, const QKeySequence& shortcut, auto&& call) {
         auto* action = new QAction(text, &view);
+        // Wherever the focus is: a field in which text is typed keeps its letters to itself.
         action->setShortcut(shortcut);
-        action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
         view.addAction(action);
         actions.append(action);
         connect(action, &QAction::triggered, &view, call);

@@ -81,9 +81,10 @@ void StudySession::startRun(RunState kind, const QString& what, std::function<Fa
 void StudySession::endRun(const Failed& failure) {
     const std::shared_ptr<Run> run = std::exchange(state_->run, nullptr);
     state_->tick.stop();
-    setActivity(RunState::idle);
+    // Before the state: that a run failed is told while the study is at work.
     if (failure && failure->kind != work::FailureKind::cancelled)
         emit failed(run->what, QString::fromStdString(failure->message));
+    setActivity(RunState::idle);
 }
 
 void StudySession::setActivity(RunState activity) {

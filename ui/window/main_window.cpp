@@ -23,6 +23,8 @@
 
 namespace trapwright::window {
 
+using session::RunState;
+
 namespace {
 
 constexpr QSize kFirstSize(1440, 900);
@@ -95,11 +97,10 @@ void MainWindow::openFile(const std::filesystem::path& file) {
 }
 
 void MainWindow::showPage(const QString& name) {
-    for (std::size_t i = 0; i < pages_.size(); ++i) {
-        if (pages_[i]->face().name != name) continue;
-        if (desk_.session() != nullptr) return setPage(i);
+    if (const auto place = findPlace(name)) {
+        if (desk_.session() != nullptr) return setPage(*place);
         // Beside the welcome: an import has something to ask.
-        if (name == kFirstPage) return docks_->show(i);
+        if (name == kFirstPage) return docks_->show(*place);
     }
     if (name.isEmpty() && desk_.session() == nullptr) docks_->hideAll();
 }
@@ -134,7 +135,10 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::connectPage(pages::Page& page) {
-    connect(&page, &pages::Page::failed, this, &MainWindow::fail);
+    connect(&page, &pages::Page::failed, this, [this, &page](const QString& what, const QString& message) {
+        fail(what, message);
+        messageOf_ = &page;
+    });
     connect(&page, &pages::Page::pageWanted, this, &MainWindow::showPage);
     connect(&page, &pages::Page::studyWanted, this, [this](const work::LoadedPart& part) {
         whenClosable([this, part] {
@@ -149,7 +153,7 @@ void MainWindow::connectPage(pages::Page& page) {
 }
 
 void MainWindow::setSession(session::StudySession* session) {
-    if (desk_.session() != nullptr) desk_.session()->disconnect(this);
+    if (desk_.session() != nullptr) leaveSession(*desk_.session());
     for (pages::Page* page : pages_)
         page->setSession(session);
     run_.setSession(session);
@@ -162,13 +166,18 @@ void MainWindow::setSession(session::StudySession* session) {
         docks_->hideAll();
         frame_->showBar({});
         frame_->scene().clear();
+        clearPageMessage();
         page_ = 0;
     } else {
-        connect(session, &session::StudySession::failed, this, &MainWindow::fail);
+        connect(session, &session::StudySession::failed, this, &MainWindow::failSession);
+        connect(session, &session::StudySession::partChanged, this, [this] {
+            clearPageMessage();
+            updateTitle();
+        });
         undo_->addStack(session->undoStack());
         undo_->setActiveStack(session->undoStack());
         frame_->messages().clear();
-        setPage(page_);
+        setPage(findPlace(desk_.recent().page(session->path())).value_or(page_));
     }
     rail_->setVisible(session != nullptr);
     status_->setVisible(session != nullptr);
@@ -176,14 +185,27 @@ void MainWindow::setSession(session::StudySession* session) {
     showDocks();
 }
 
+/// Before another study takes its place, or none does.
+void MainWindow::leaveSession(session::StudySession& session) {
+    session.disconnect(this);
+    // What a page still builds must not appear in the scene of the page that comes next.
+    pages_[page_]->deactivate();
+    if (!desk_.isDiscarded()) desk_.recent().setPage(session.path(), pages_[page_]->face().name);
+}
+
 void MainWindow::updateTitle() {
     const QString program = tr("Trapwright");
+    // Where dialogs for files begin, and the names that they propose.
+    setWindowFilePath(desk_.publicPath());
     setWindowTitle(desk_.session() == nullptr ? program : QString("%1 - %2").arg(desk_.name(), program));
     if (desk_.session() == nullptr) showRecent();
 }
 
 void MainWindow::setPage(std::size_t page) {
-    if (page != page_) pages_[page_]->deactivate();
+    if (page != page_) {
+        clearPageMessage();
+        pages_[page_]->deactivate();
+    }
     page_ = page;
     rail_->setCurrent(page);
     docks_->show(page);
@@ -193,9 +215,14 @@ void MainWindow::setPage(std::size_t page) {
 }
 
 pages::Page* MainWindow::findPage(const QString& name) const {
-    for (pages::Page* page : pages_)
-        if (page->face().name == name) return page;
-    return nullptr;
+    const auto place = findPlace(name);
+    return place ? pages_[*place] : nullptr;
+}
+
+std::optional<std::size_t> MainWindow::findPlace(const QString& name) const {
+    for (std::size_t i = 0; i < pages_.size(); ++i)
+        if (pages_[i]->face().name == name) return i;
+    return std::nullopt;
 }
 
 void MainWindow::report(const QString& what, const base::Status& status) {
@@ -204,6 +231,19 @@ void MainWindow::report(const QString& what, const base::Status& status) {
 
 void MainWindow::fail(const QString& what, const QString& message) {
     frame_->messages().show(look::MessageKind::error, what, message);
+    messageOf_ = nullptr;
+}
+
+/// A run belongs to the study, and what ends it is told on every page; what else was tried was tried on this
+/// one.
+void MainWindow::failSession(const QString& what, const QString& message) {
+    const RunState state = desk_.session()->state();
+    fail(what, message);
+    if (state == RunState::idle || state == RunState::simulating) messageOf_ = pages_[page_];
+}
+
+void MainWindow::clearPageMessage() {
+    if (std::exchange(messageOf_, nullptr) != nullptr) frame_->messages().clear();
 }
 
 }  // namespace trapwright::window

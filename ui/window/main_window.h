@@ -3,9 +3,11 @@
 #include <QMainWindow>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "ui/look/theme.h"
+#include "ui/look/wheel_focus.h"
 #include "ui/pages/run_actions.h"
 #include "ui/window/study_desk.h"
 
@@ -55,9 +57,12 @@ class MainWindow : public QMainWindow {
 
     void connectPage(pages::Page& page);
     void setSession(session::StudySession* session);
+    void leaveSession(session::StudySession& session);
     void updateTitle();
     void setPage(std::size_t page);
     [[nodiscard]] pages::Page* findPage(const QString& name) const;
+    [[nodiscard]] std::optional<std::size_t> findPlace(
+        const QString& name) const;  // in the order of the rail
 
     void askForPart();
     void askForStudy();
@@ -72,13 +77,18 @@ class MainWindow : public QMainWindow {
     void whenSaved(const std::function<void()>& afterwards);
     void report(const QString& what, const base::Status& status);
     void fail(const QString& what, const QString& message);
+    void failSession(const QString& what, const QString& message);
+    /// A message of a page leaves with it.
+    void clearPageMessage();
 
+    look::WheelFocus wheel_;
     look::Theme theme_;
     StudyDesk desk_;
     pages::RunActions run_;
     QUndoGroup* undo_;
     std::vector<pages::Page*> pages_;
     std::size_t page_ = 0;
+    const pages::Page* messageOf_ = nullptr;  // whose message is shown, if it is a page's
     SceneFrame* frame_;
     Rail* rail_;
     PageDocks* docks_;

@@ -12,6 +12,7 @@
 #include "core/part/bundled.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
+#include "ui/pages/page.h"
 #include "ui/window/main_window.h"
 #include "ui/window/page_docks.h"
 #include "ui/window/rail.h"
@@ -50,6 +51,8 @@ QString choiceName(look::ThemeChoice choice) {
 void MainWindow::addFileMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&File"));
     addItem(menu, "file.new", "new", tr("&New study..."), QKeySequence::New, this, &MainWindow::askForPart);
+    // The Part page's own, here for all the others and for the start.
+    menu.addAction(findPage("part")->findChild<QAction*>("part.import"));
     addItem(menu, "file.open", "open", tr("&Open study..."), QKeySequence::Open, this,
             &MainWindow::askForStudy);
     recentMenu_ = menu.addMenu(look::icon("recent"), tr("Open &recent"));
@@ -98,7 +101,8 @@ void MainWindow::addViewMenu() {
     menu.addSeparator();
     QMenu& scene = *menu.addMenu(look::icon("view-iso"), tr("&Scene"));
     scene.addActions(frame_->scene().viewActions());
-    docksMenu_ = menu.addMenu(look::icon("table"), tr("&Docks"));
+    studyActions_ << frame_->scene().viewActions();
+    docksMenu_ = menu.addMenu(look::icon("table"), tr("&Panels"));
     menu.addSeparator();
 
     QMenu& themes = *menu.addMenu(look::icon("theme"), tr("&Theme"));
@@ -181,7 +185,8 @@ void MainWindow::showRecent() {
                 {}, this, [this, study] { openStudy(QFile::encodeName(study).toStdString()); });
     }
     recentMenu_->addSeparator();
-    addItem(*recentMenu_, "recent.clear", {}, tr("&Forget these"), {}, &desk_.recent(), &RecentFiles::clear);
+    addItem(*recentMenu_, "recent.clear", {}, tr("&Clear this list"), {}, &desk_.recent(),
+            &RecentFiles::clear);
     recentMenu_->setEnabled(!studies.isEmpty());
 }
 
@@ -189,7 +194,7 @@ void MainWindow::showDocks() {
     docksMenu_->clear();
     docksMenu_->addActions(docks_->toggles());
     docksMenu_->addSeparator();
-    addItem(*docksMenu_, "docks.reset", "reset", tr("&Put back as at first"), {}, docks_, &PageDocks::reset);
+    addItem(*docksMenu_, "docks.reset", "reset", tr("&Reset the layout"), {}, docks_, &PageDocks::reset);
     docksMenu_->setEnabled(desk_.session() != nullptr);
 }
 

@@ -52,8 +52,7 @@ void MainWindow::askForStudy() {
 }
 
 void MainWindow::askForSaveAs(const std::function<void()>& afterwards) {
-    const QString name = QString::fromStdString(desk_.session()->part()->name) + ".trap";
-    look::askForNewFile(this, {"study", tr("Save the study as"), tr("Save"), studyFilter(), "trap", name},
+    look::askForNewFile(this, {"study", tr("Save the study as"), tr("Save"), studyFilter(), "trap", {}},
                         [this, afterwards](const std::filesystem::path& file) {
                             const base::Status saved = desk_.saveAs(file);
                             report(tr("The study cannot be saved there"), saved);

@@ -4,12 +4,15 @@
 #include <QDockWidget>
 #include <QEvent>
 #include <QMainWindow>
+#include <QMenu>
 #include <QScrollArea>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QTabBar>
+#include <algorithm>
 #include <utility>
 
+#include "ui/look/icon.h"
 #include "ui/pages/page.h"
 #include "ui/window/dock_title.h"
 
@@ -60,6 +63,8 @@ PageDocks::PageDocks(QMainWindow& window, const std::vector<pages::Page*>& pages
             dock->setTitleBarWidget(new DockTitle(*dock));
             dock->setWidget(panel.widget);
             window.addDockWidget(panel.area, dock);
+            connect(dock, &QDockWidget::visibilityChanged, this, &PageDocks::tendTabsLater);
+            connect(dock, &QDockWidget::topLevelChanged, this, &PageDocks::tendTabsLater);
             docks.push_back({dock, panel.area});
         }
         panels_.push_back(std::move(docks));
@@ -106,20 +111,58 @@ QList<QAction*> PageDocks::toggles() const {
 
 bool PageDocks::eventFilter(QObject* watched, QEvent* event) {
     // After the window has handled it.
-    if ((event->type() == QEvent::LayoutRequest || event->type() == QEvent::ChildPolished) &&
-        !std::exchange(sinking_, true))
-        QMetaObject::invokeMethod(this, &PageDocks::sinkEmptyBars, Qt::QueuedConnection);
+    if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::ChildPolished) tendTabsLater();
     return QObject::eventFilter(watched, event);
+}
+
+/// Bars of tabs are made after the docks are shown.
+void PageDocks::tendTabsLater() {
+    if (!std::exchange(tending_, true))
+        QMetaObject::invokeMethod(this, &PageDocks::tendTabs, Qt::QueuedConnection);
 }
 
 /// The window keeps bars of tabs that it has no use for, and does not hide each of them. Hidden by us they
 /// would stay so when it needs them again; below everything else they are neither seen nor clicked.
-void PageDocks::sinkEmptyBars() {
-    sinking_ = false;
+void PageDocks::tendTabs() {
+    tending_ = false;
     for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
         bar->setDrawBase(bar->count() > 0);
         if (bar->count() == 0) bar->lower();
+        if (bar->contextMenuPolicy() == Qt::CustomContextMenu) continue;
+        // What the title bar would offer, which a dock with a tab has not.
+        bar->setContextMenuPolicy(Qt::CustomContextMenu);
+        connect(bar, &QTabBar::customContextMenuRequested, this,
+                [this, bar](const QPoint& place) { showTabMenu(*bar, place); });
+        connect(bar, &QTabBar::tabBarDoubleClicked, this, [this, bar](int tab) {
+            if (QDockWidget* dock = findDock(*bar, tab)) dock->setFloating(true);
+        });
     }
+    for (QDockWidget* dock : window_.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+        const QList<QDockWidget*> others = window_.tabifiedDockWidgets(dock);
+        const bool tabbed =
+            !dock->isFloating() && std::any_of(others.begin(), others.end(), [](const auto* other) {
+                return !other->isHidden() && !other->isFloating();
+            });
+        if (auto* title = qobject_cast<DockTitle*>(dock->titleBarWidget())) title->setTabbed(tabbed);
+    }
+}
+
+QDockWidget* PageDocks::findDock(const QTabBar& bar, int tab) const {
+    if (tab < 0 || shown_ == kNoPage) return nullptr;
+    for (const PanelDock& panel : panels_[static_cast<std::size_t>(shown_)])
+        if (panel.dock->windowTitle() == bar.tabText(tab)) return panel.dock;
+    return inspector_->windowTitle() == bar.tabText(tab) ? inspector_ : nullptr;
+}
+
+void PageDocks::showTabMenu(QTabBar& bar, const QPoint& place) {
+    QDockWidget* dock = findDock(bar, bar.tabAt(place));
+    if (dock == nullptr) return;
+    auto* menu = new QMenu(&bar);
+    menu->setObjectName("panelMenu");
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->addAction(look::icon("float"), tr("Float this panel"), dock, [dock] { dock->setFloating(true); });
+    menu->addAction(look::icon("close"), tr("Close this panel"), dock, &QDockWidget::close);
+    menu->popup(bar.mapToGlobal(place));
 }
 
 void PageDocks::arrange() {

@@ -8,7 +8,9 @@
 class QAction;
 class QDockWidget;
 class QMainWindow;
+class QPoint;
 class QStackedWidget;
+class QTabBar;
 
 namespace trapwright::pages {
 class Page;
@@ -44,7 +46,10 @@ class PageDocks : public QObject {
     };
 
     void arrange();
-    void sinkEmptyBars();
+    void tendTabsLater();
+    void tendTabs();
+    [[nodiscard]] QDockWidget* findDock(const QTabBar& bar, int tab) const;
+    void showTabMenu(QTabBar& bar, const QPoint& place);
     [[nodiscard]] QString setting() const;
 
     static constexpr int kNoPage = -1;
@@ -55,7 +60,7 @@ class PageDocks : public QObject {
     QStackedWidget* stack_;
     std::vector<std::vector<PanelDock>> panels_;  // by page
     int shown_ = kNoPage;
-    bool sinking_ = false;  // is on its way
+    bool tending_ = false;  // to the tabs is on its way
 };
 
 }  // namespace trapwright::window

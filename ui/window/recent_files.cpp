@@ -11,6 +11,7 @@ namespace trapwright::window {
 namespace {
 
 const QString kSetting = QStringLiteral("recentStudies");
+const QString kPages = QStringLiteral("recentPages");
 
 QStringList stored() {
     return QSettings().value(kSetting).toStringList();
@@ -36,6 +37,7 @@ void RecentFiles::remove(const std::filesystem::path& file) {
 
 void RecentFiles::clear() {
     QSettings().remove(kSetting);
+    QSettings().remove(kPages);
     emit changed();
 }
 
@@ -45,6 +47,18 @@ QStringList RecentFiles::list() const {
         std::remove_if(files.begin(), files.end(), [](const QString& file) { return !QFile::exists(file); }),
         files.end());
     return files;
+}
+
+void RecentFiles::setPage(const std::filesystem::path& file, const QString& page) {
+    QVariantMap pages = QSettings().value(kPages).toMap();
+    for (const QString& known : pages.keys())
+        if (!QFile::exists(known)) pages.remove(known);
+    pages.insert(look::toText(file), page);
+    QSettings().setValue(kPages, pages);
+}
+
+QString RecentFiles::page(const std::filesystem::path& file) const {
+    return QSettings().value(kPages).toMap().value(look::toText(file)).toString();
 }
 
 }  // namespace trapwright::window

@@ -6,8 +6,8 @@
 
 namespace trapwright::window {
 
-/// The studies that were open lately, newest first, remembered between starts. Those that are gone are left
-/// out.
+/// The studies that were open recently, newest first, remembered between starts; and which page of each study
+/// was shown last. Those that are gone are left out.
 class RecentFiles : public QObject {
     Q_OBJECT
  public:
@@ -19,6 +19,12 @@ class RecentFiles : public QObject {
     void remove(const std::filesystem::path& file);
     void clear();
     [[nodiscard]] QStringList list() const;
+
+    /// The page that was shown when the study was left, by its name; also of a draft, which is not in the
+    /// list.
+    void setPage(const std::filesystem::path& file, const QString& page);
+    /// Empty if the study was never left.
+    [[nodiscard]] QString page(const std::filesystem::path& file) const;
 
  signals:
     void changed();

@@ -5,9 +5,11 @@
 #include <QProgressBar>
 #include <algorithm>
 
+#include "core/stats/binomial.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/models/numbers.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::window {
@@ -46,6 +48,12 @@ StateFace faceOf(RunState state, bool problems) {
             return {StatusLine::tr("Simulating"), "start", false};
     }
     return {};
+}
+
+/// "simbody" -> "Simbody"
+QString engineName(const std::string& engine) {
+    QString name = QString::fromStdString(engine);
+    return name.replace(0, 1, name.left(1).toUpper());
 }
 
 }  // namespace
@@ -96,6 +104,8 @@ void StatusLine::setSession(session::StudySession* session) {
         connect(session_, &StudySession::settingsChanged, this, &StatusLine::update);
         connect(session_, &StudySession::partChanged, this, &StatusLine::update);
         connect(session_, &StudySession::generationSaved, this, &StatusLine::update);
+        connect(session_, &StudySession::generationSaved, this, &StatusLine::updateEngines);
+        connect(session_, &StudySession::settingsChanged, this, &StatusLine::updateEngines);
         connect(session_, &StudySession::checkSaved, this, &StatusLine::updateEngines);
     }
     update();
@@ -149,23 +159,37 @@ void StatusLine::update() {
 }
 
 void StatusLine::updateEngines() {
-    if (!session_ || session_->checks().empty()) {
-        engines_->clear();
+    engines_->clear();
+    engines_->setToolTip({});
+    if (!session_) return;
+    if (session_->checks().empty()) {
+        // Only this engine has its winners checked.
+        if (session_->settings().simulation.engine != "hybrid" || session_->summaries().empty()) return;
+        engines_->setText(tr("Simbody: not checked yet"));
+        engines_->setToolTip(
+            tr("Each generation's winner is simulated again by Simbody, the reference, in the background"));
         return;
     }
     const study::CheckRecord& check = session_->checks().back();
     if (check.trials <= 0) return;
-    const double difference =
-        100.0 * std::abs(check.learning.oriented - check.reference.oriented) / check.trials;
-    engines_->setText(tr("%1, %2 within %3 %")
-                          .arg(QString::fromStdString(check.learning.engine),
-                               QString::fromStdString(check.reference.engine),
-                               look::numberText(difference, 2)));
+    const int learned = check.learning.oriented;
+    const int checked = check.reference.oriented;
+    const stats::Interval bounds = stats::calcClopperPearson(checked, check.trials);
+    const double share = static_cast<double>(learned) / check.trials;
+    const bool agrees = share >= bounds.low && share <= bounds.high;
+    engines_->setText((agrees ? tr("%1 agrees: %2 % and %3 %") : tr("%1 differs: %2 % and %3 %"))
+                          .arg(engineName(check.reference.engine), models::percent(learned, check.trials),
+                               models::percent(checked, check.trials)));
     engines_->setToolTip(
-        tr("Generation %1's winner on the same %2 trials in both engines: how many parts end oriented "
-           "differs by this much")
+        tr("Parts that end oriented, of the same %1 trials of generation %2's winner: %3 in the "
+           "engine that learns (%4), %5 in %6. They agree if the first share lies within the 95 % "
+           "interval (Clopper-Pearson) of the second.")
+            .arg(check.trials)
             .arg(check.generation)
-            .arg(check.trials));
+            .arg(learned)
+            .arg(engineName(check.learning.engine))
+            .arg(checked)
+            .arg(engineName(check.reference.engine)));
 }
 
 }  // namespace trapwright::window

@@ -55,6 +55,13 @@ QString StudyDesk::name() const {
     return look::toText(session_->path().filename());
 }
 
+QString StudyDesk::publicPath() const {
+    if (!session_) return {};
+    if (!isDraft()) return look::toText(session_->path());
+    return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + '/' +
+           QString::fromStdString(session_->part()->name) + ".trap";
+}
+
 QStringList StudyDesk::forgottenDrafts() const {
     QStringList drafts;
     const QDir folder(look::toText(draftFolder()));

@@ -26,6 +26,9 @@ class StudyDesk : public QObject {
     [[nodiscard]] bool isDraft() const;
     /// For the title: the file's name, or the part's for a draft.
     [[nodiscard]] QString name() const;
+    /// Its file; for a draft the one that it would be saved as, among the user's documents. Empty: none is
+    /// open.
+    [[nodiscard]] QString publicPath() const;
     RecentFiles& recent() { return recent_; }
     /// Drafts that were left behind when the program ended badly.
     [[nodiscard]] QStringList forgottenDrafts() const;

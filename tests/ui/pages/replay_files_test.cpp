@@ -59,9 +59,39 @@ class ReplayFilesTest : public QObject {
         QCOMPARE(film["width"], QString("1280"));
         QCOMPARE(film["height"], QString("720"));
         QCOMPARE(film["r_frame_rate"], QString("25/1"));
-        QCOMPARE(film["nb_frames"].toInt(), static_cast<int>(std::ceil(25 * seconds)));
-        QVERIFY(std::abs(film["duration"].toDouble() - seconds) <= 1.0 / 25);
+        QCOMPARE(film["nb_frames"].toInt(), static_cast<int>(std::ceil(25 * seconds)) + 1);
+        QVERIFY(std::abs(film["duration"].toDouble() - seconds) <= 2.0 / 25);
         QVERIFY(!QFile::exists(file + ".part"));
+    }
+
+    // The last picture is that of the end, however far the part goes between two.
+    void aFilmRunsToTheFinishAtAnySpeed_data() {
+        QTest::addColumn<double>("speed");
+        QTest::newRow("4 x") << 4.0;
+        QTest::newRow("a speed that no number of pictures fits") << 3.7;
+    }
+
+    void aFilmRunsToTheFinishAtAnySpeed() {
+        if (QStandardPaths::findExecutable("ffmpeg").isEmpty()) QSKIP("ffmpeg is not installed");
+        QFETCH(double, speed);
+        ReviewUser user(study_);
+        QVERIFY(user.waitForReplay());
+        user.player().setSpeed(speed);
+        user.files().setFramesPerSecond(25);
+        user.files().setPictureSize({1280, 720});
+        double last = 0.0;
+        connect(&user.player(), &ReplayPlayer::timeChanged, [&](double time) { last = time; });
+        QStringList told;
+        connect(&user.files().movie(), &MovieExport::progressed, [&] {
+            for (const QLabel* label : user.files().findChildren<QLabel*>())
+                if (label->text().startsWith("Picture")) told << label->text();
+        });
+        user.files().saveMovie(learned_.file("fast.mp4"));
+        QTRY_VERIFY_WITH_TIMEOUT(!user.files().movie().busy(), 3 * kPatience);
+        QVERIFY2(user.message().isEmpty(), qPrintable(user.message()));
+        QCOMPARE(last, user.player().duration());
+        QVERIFY2(told.join('\n').contains(QRegularExpression("Picture \\d+ of \\d+, \\d+ (s|min) left")),
+                 qPrintable(told.join('\n')));
     }
 
     void aCancelledFilmLeavesNothing() {

@@ -3,6 +3,8 @@
 #include <QSignalSpy>
 #include <QtTest>
 
+#include "ui/look/wheel_focus.h"
+
 using namespace trapwright;
 
 class ValueEditTest : public QObject {
@@ -46,6 +48,7 @@ class ValueEditTest : public QObject {
 
     // An inspector is scrolled with the wheel: a field in its way must not change.
     void theWheelNeedsTheFocus() {
+        const look::WheelFocus wheelFocus;
         pages::ValueEdit edit("mm", 0.0, 100.0, false);
         edit.setText("60");
         QWheelEvent wheel({5, 5}, {5, 5}, {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase,

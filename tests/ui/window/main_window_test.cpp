@@ -1,8 +1,10 @@
 #include "ui/window/main_window.h"
 
 #include <QDockWidget>
+#include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QTabBar>
 #include <QTreeWidget>
 #include <array>
 
@@ -212,6 +214,49 @@ class MainWindowTest : public QObject {
                 }
             }
         }
+    }
+
+    // A tab names its panel; a bar without a name would only be a band between them.
+    void aPanelHasATabOrATitle() {
+        User user;
+        QVERIFY(user.import("cuboid") && user.show("evolve"));
+        auto* log = user.find<QDockWidget>("dock.evolve.log");
+        QTRY_COMPARE(log->titleBarWidget()->sizeHint().height(), 0);
+        log->raise();
+        QTRY_COMPARE(log->widget()->y(), 0);
+        log->setFloating(true);
+        QTRY_VERIFY(log->titleBarWidget()->height() > 10);
+        QTRY_VERIFY(log->titleBarWidget()->findChild<QLabel*>()->isVisible());
+        log->setFloating(false);
+        QTRY_COMPARE(log->titleBarWidget()->sizeHint().height(), 0);
+        // The last one that is left has no tab any more.
+        for (QDockWidget* dock : user.window.findChildren<QDockWidget*>())
+            if (dock->objectName().startsWith("dock.evolve.") && dock != log) dock->close();
+        QTRY_VERIFY(log->titleBarWidget()->height() > 10);
+        QCOMPARE(log->titleBarWidget()->findChild<QLabel*>()->text(), log->windowTitle());
+    }
+
+    void aTabFloatsAndClosesItsPanel() {
+        User user;
+        QVERIFY(user.import("cuboid") && user.show("evolve"));
+        auto* log = user.find<QDockWidget>("dock.evolve.log");
+        QTabBar* tabs = nullptr;
+        int tab = -1;
+        QTRY_VERIFY(([&] {
+            for (QTabBar* bar : user.window.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly))
+                for (int i = 0; i < bar->count(); ++i)
+                    if (bar->tabText(i) == log->windowTitle()) tabs = bar, tab = i;
+            return tabs != nullptr;
+        })());
+        QTRY_COMPARE(tabs->contextMenuPolicy(), Qt::CustomContextMenu);
+        emit tabs->customContextMenuRequested(tabs->tabRect(tab).center());
+        auto* menu = tabs->findChild<QMenu*>("panelMenu");
+        QVERIFY(menu != nullptr && menu->actions().size() == 2);
+        menu->actions().back()->trigger();
+        QVERIFY(log->isHidden());
+        menu->close();
+        log->toggleViewAction()->trigger();
+        QTRY_VERIFY(!log->isHidden());
     }
 
     // Only one page is shown at a time, and Validate has the scene's digits while it is.
