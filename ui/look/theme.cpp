@@ -43,22 +43,25 @@ QLineEdit, QComboBox, QPushButton {
     selection-background-color: $accent; selection-color: $onAccent; }
 QPushButton { background: $button; padding: 4px 12px; }
 QLineEdit:hover, QComboBox:hover, QPushButton:hover { border-color: $faint; }
-QLineEdit:focus, QComboBox:focus, QPushButton:focus { border-color: $accent; }
 QPushButton:default { border-color: $accent; }
+QPushButton, QComboBox, QAbstractSpinBox, QCheckBox, QToolButton[button="true"] { outline: none; }
+QLineEdit:focus, QComboBox:focus { border: 2px solid $accent; padding: 2px 5px; }
+QPushButton:focus { border: 2px solid $accent; padding: 3px 11px; }
 QToolButton[button="true"] { border: 1px solid $line; border-radius: 4px; padding: 3px 8px; min-height: 18px;
     background: $button; color: $text; }
 QToolButton[button="true"]:hover { border-color: $faint; }
-QToolButton[button="true"]:focus { border-color: $accent; }
+QToolButton[button="true"]:focus { border: 2px solid $accent; padding: 2px 7px; }
 QToolButton[button="true"]:pressed { background: $line; }
 QToolButton[button="true"]:checked { background: $chosen; border-color: $accent; }
 QToolButton[button="true"]:disabled { color: $off; background: $window; border-color: $line; }
 QCheckBox::indicator { width: 14px; height: 14px; border: 1px solid $faint; border-radius: 3px; background: $base; }
-QCheckBox::indicator:hover, QCheckBox::indicator:focus { border-color: $accent; }
+QCheckBox::indicator:hover { border-color: $accent; }
+QCheckBox::indicator:focus { border: 2px solid $accent; width: 12px; height: 12px; }
 QCheckBox::indicator:checked { background: $accent; border-color: $accent; image: url(:/icons/check-on-$scheme.svg); }
 QCheckBox::indicator:disabled { background: $window; border-color: $line; }
 QAbstractSpinBox { border: 1px solid $line; border-radius: 4px; padding: 3px 6px; min-height: 18px; background: $base; }
 QAbstractSpinBox:hover { border-color: $faint; }
-QAbstractSpinBox:focus { border-color: $accent; }
+QAbstractSpinBox:focus { border: 2px solid $accent; padding: 2px 5px; }
 QAbstractSpinBox:disabled { color: $off; background: $window; border-color: $line; }
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { border: none; background: transparent; width: 16px; }
 QAbstractSpinBox::up-button { subcontrol-origin: border; subcontrol-position: top right; }
@@ -70,7 +73,8 @@ QPushButton:checked { background: $chosen; border-color: $accent; }
 QPushButton:flat { border-color: transparent; background: transparent; }
 QPushButton:flat:hover { background: $base; }
 QLineEdit:disabled, QComboBox:disabled, QPushButton:disabled { color: $off; background: $window; border-color: $line; }
-QAbstractSpinBox QLineEdit, QComboBox QLineEdit { border: none; padding: 0px; min-height: 0px; background: transparent; }
+QAbstractSpinBox QLineEdit, QComboBox QLineEdit, QAbstractSpinBox QLineEdit:focus, QComboBox QLineEdit:focus {
+    border: none; padding: 0px; min-height: 0px; background: transparent; }
 QComboBox::drop-down { border: none; width: 18px; }
 QComboBox::down-arrow { image: url(:/icons/down-on-$scheme.svg); width: 12px; height: 12px; }
 QComboBox QAbstractItemView { border: 1px solid $line; background: $base; color: $text; outline: none;
