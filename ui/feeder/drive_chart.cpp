@@ -26,7 +26,7 @@ const CurveStyle kAcceleration{SeriesColour::third, Qt::SolidLine};
 
 DriveChart::DriveChart(DriveLink& link, QWidget* parent)
     : CurveChart("drive", tr("Drive"), parent), link_(link) {
-    setEmptyText(tr("Connect a drive: what it is told and what it does in the last minute is drawn here."));
+    setEmptyText(tr("Connect a drive: its set-point and its motion in the last minute are drawn here."));
     delay_.setSingleShot(true);
     delay_.setInterval(kRedraw);
     connect(&delay_, &QTimer::timeout, this, &DriveChart::draw);
@@ -49,7 +49,7 @@ void DriveChart::add(const std::vector<LogEntry>& entries) {
 }
 
 void DriveChart::draw() {
-    Curve told{tr("Told"), tr("Set-point told [%]"), {"told"}, kTold, {}};
+    Curve told{tr("Set-point"), tr("Set-point [%]"), {"told"}, kTold, {}};
     Curve readBack{tr("Read back"), tr("Set-point read back [%]"), {"readBack"}, kReadBack, {}};
     Curve acceleration{tr("Acceleration"), tr("Acceleration [m/s²]"), {"acceleration"}, kAcceleration, {}};
     for (const LogEntry& entry : entries_) {
@@ -78,7 +78,7 @@ void DriveChart::draw() {
 
     ChartSheet sheet;
     sheet.xColumn = tr("Time [s]");
-    sheet.legend = {{"told", tr("Told"), tr("The set-point that the drive was told."), kTold},
+    sheet.legend = {{"told", tr("Set-point"), tr("The set-point that was sent to the drive."), kTold},
                     {"readBack", tr("Read back"), tr("The set-point as the drive has it."), kReadBack},
                     {"acceleration", tr("Acceleration"), tr("Peak acceleration that the drive measures."),
                      kAcceleration}};

@@ -132,7 +132,7 @@ QWidget* DrivePanel::makeReadings() {
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setVerticalSpacing(2);
     grid->setColumnStretch(1, 1);
-    const std::pair<QString, QString> names[] = {{"told", tr("Set-point told")},
+    const std::pair<QString, QString> names[] = {{"told", tr("Set-point sent")},
                                                  {"readBack", tr("Read back")},
                                                  {"acceleration", tr("Acceleration, peak")},
                                                  {"halfStroke", tr("Half-stroke")},
@@ -170,9 +170,9 @@ QWidget* DrivePanel::makeFault() {
 QWidget* DrivePanel::makeLimits() {
     auto* box = new QWidget(this);
     highest_ = makePercent("feeder.highest", tr("Highest set-point"),
-                           tr("The drive is never told more; as a share of full"), 1, kPercent, "%", box);
+                           tr("The set-point never goes above this share of full"), 1, kPercent, "%", box);
     ramp_ = makePercent("feeder.ramp", tr("Ramp"),
-                        tr("How quickly the set-point changes while it runs; a stop knows no ramp"), 5, 1000,
+                        tr("How quickly the set-point changes while it runs; a stop is at once"), 5, 1000,
                         tr("%/s"), box);
     auto* grid = new QGridLayout(box);
     grid->setContentsMargins(0, 0, 0, 0);

@@ -60,9 +60,9 @@ QString entryText(const drive::LogEntry& entry) {
         case drive::LogKind::disconnected:
             return text.isEmpty() ? Texts::tr("Disconnected") : Texts::tr("Disconnected: %1").arg(text);
         case drive::LogKind::command:
-            return Texts::tr("Told %1").arg(shareText(entry.setPoint));
+            return Texts::tr("Set-point %1").arg(shareText(entry.setPoint));
         case drive::LogKind::reading:
-            return Texts::tr("Read %1").arg(shareText(entry.setPoint));
+            return Texts::tr("Read back %1").arg(shareText(entry.setPoint));
         case drive::LogKind::state: {
             for (const drive::State state :
                  {drive::State::disconnected, drive::State::idle, drive::State::ramping,

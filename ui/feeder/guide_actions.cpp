@@ -20,7 +20,7 @@ GuideActions::GuideActions(TrialGuide& guide, DriveLink& link, QObject* parent)
                tr("The part is at the end in the right orientation"));
     addOutcome(PhysicalOutcome::wrongOrientation, "wrong", tr("Wrong orientation"), Qt::Key_1,
                tr("The part is at the end in another orientation"));
-    addOutcome(PhysicalOutcome::stuck, "stuck", tr("Stuck"), Qt::Key_2, tr("The part moves on no more"));
+    addOutcome(PhysicalOutcome::stuck, "stuck", tr("Stuck"), Qt::Key_2, tr("The part does not move on"));
     addOutcome(PhysicalOutcome::fellOff, "fell", tr("Fell off"), Qt::Key_3,
                tr("The part fell off the track"));
     undo_ = make("feeder.trial.undo", "undo", tr("Take the last trial back"), Qt::Key_U,
@@ -28,7 +28,7 @@ GuideActions::GuideActions(TrialGuide& guide, DriveLink& link, QObject* parent)
     note_ = make("feeder.trial.note", "note", tr("Note"), Qt::Key_N,
                  tr("A remark on the trial that runs, or else on the last one"));
     pause_ = make("feeder.trial.pause", "pause", tr("Pause"), Qt::Key_P,
-                  tr("Lets the drive rest; go on when you like, also days later"));
+                  tr("Stops the drive; continue when you like, even days later"));
     stop_ = make("feeder.stop", "stop", tr("Stop the drive"), Qt::Key_Escape,
                  tr("Set-point zero and enable off, at once, on every page. By software: no emergency stop"));
     start_->setIconText(tr("Start"));

@@ -166,8 +166,9 @@ void PlanCards::update() {
         } else {
             const double chance = 100.0 * part_->stablePoses[i].probability;
             card.count->setText(tr("%1 %").arg(look::numberText(chance)));
-            card.frame->setToolTip(tr("A part dropped anyhow comes to rest in this pose in %1 of 100 cases.")
-                                       .arg(look::numberText(chance)));
+            card.frame->setToolTip(
+                tr("A part dropped at random comes to rest in this pose in %1 of 100 cases.")
+                    .arg(look::numberText(chance)));
         }
         card.frame->setAccessibleName(tr("Pose %1: %2").arg(pose + 1).arg(card.count->text()));
     }

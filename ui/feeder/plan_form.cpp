@@ -45,9 +45,9 @@ PlanForm::PlanForm(QWidget* parent)
         widget->setToolTip(tip);
     };
     name(track_, "plan.track", tr("Track"), tr("The track that was printed"));
-    name(repetitions_, "plan.repetitions", tr("Trials per pose"), tr("The paper has 100"));
+    name(repetitions_, "plan.repetitions", tr("Trials per pose"), tr("The paper made 100"));
     name(order_, "plan.order", tr("Order"),
-         tr("Shuffled, a drift of the feeder falls on all poses alike; by pose there is less to think of"));
+         tr("Shuffled, a drift of the feeder affects all poses alike; pose after pose is simpler to do"));
     name(operator_, "plan.operator", tr("Operator"), tr("Is named in the report"));
     name(note_, "plan.note", tr("Printed"), tr("Printer, material, finish; is named in the report"));
     total_->setObjectName("plan.total");

@@ -79,7 +79,7 @@ QWidget* PlanPanel::makeOverview() {
     list_ = new QComboBox(page);
     list_->setObjectName("plan.list");
     list_->setAccessibleName(tr("Validation"));
-    list_->setToolTip(tr("The validation that is gone on with"));
+    list_->setToolTip(tr("The validation that is continued"));
     list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     auto* add = new QPushButton(look::icon("add"), tr("New validation..."), page);
     add->setObjectName("plan.new");
@@ -155,7 +155,7 @@ void PlanPanel::showProgress() {
             session_ && session_->winners().empty()
                 ? tr("Learn a track, print it, mount it: then it can be validated here.")
                 : tr("The printed track is validated on the real feeder: the part is placed in each stable "
-                     "pose many times, and what becomes of it is counted. Plan that first."));
+                     "pose many times, and how each trial ends is counted. Plan that first."));
     }
     const QString who = inHtml(now->operatorName);
     const QString track = tr("generation %1, individual %2").arg(now->generation).arg(now->individual);

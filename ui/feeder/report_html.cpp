@@ -66,7 +66,7 @@ QString setPointText(const study::PhysicalValidation& physical) {
         low = std::min(low, trial.setPoint);
         high = std::max(high, trial.setPoint);
     }
-    if (high == 0.0) return Texts::tr("not told: driven by other means");
+    if (high == 0.0) return Texts::tr("unknown: driven by other means");
     if (low == high) return shareText(low);
     return Texts::tr("%1 to %2").arg(shareText(low), shareText(high));
 }
@@ -78,7 +78,7 @@ QString secondsText(const study::PhysicalValidation& physical) {
             times.push_back(trial.seconds);
     if (times.empty()) return {};
     std::sort(times.begin(), times.end());
-    return Texts::tr("%1 s in the middle, %2 to %3 s")
+    return Texts::tr("median %1 s, %2 to %3 s")
         .arg(look::numberText(times[times.size() / 2]), look::numberText(times.front()),
              look::numberText(times.back()));
 }

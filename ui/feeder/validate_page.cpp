@@ -26,7 +26,7 @@ using session::StudySession;
 
 ValidatePage::ValidatePage(const session::Environment& environment, QWidget* parent)
     : Page({"validate", tr("Validate"), "validate",
-            tr("Drive the real feeder, place parts on the printed track, count what becomes of them")},
+            tr("Drive the real feeder, place parts on the printed track, count how the trials end")},
            parent),
       link_(environment.drives, this),
       guide_(link_, this),
@@ -84,7 +84,7 @@ void ValidatePage::addInspector(const session::Environment& environment) {
 
 void ValidatePage::addPanels() {
     table_->setEmptyText(
-        tr("Plan a validation at the left: what is counted appears here, beside what was simulated."));
+        tr("Plan a validation at the left: its results appear here, beside the simulated ones."));
     connect(table_, &pages::ResultTable::failed, this, &Page::failed);
     connect(chart_, &DriveChart::failed, this, &Page::failed);
     connect(log_, &DriveLog::failed, this, &Page::failed);

@@ -19,7 +19,7 @@ std::vector<Column<PoseRow>> PoseModel::makeColumns() {
         {tr("Pose"), tr("Most probable first, counted from 1."),
          [](const Row& r) { return QVariant(r.pose + 1); },
          [](const Row& r) { return QString::number(r.pose + 1); }},
-        {tr("Probability [%]"), tr("Of resting like this when dropped anyhow on a flat."),
+        {tr("Probability [%]"), tr("Of resting like this when dropped at random on a flat."),
          [](const Row& r) { return QVariant(kPercent * r.stable.probability); },
          [](const Row& r) { return fixed(kPercent * r.stable.probability, 1); }},
         {tr("Alike"), tr("Ways to rest that look the same because the part is symmetric."),

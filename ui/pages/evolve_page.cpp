@@ -40,7 +40,7 @@ constexpr auto kThreadsSetting = "threads";
 }  // namespace
 
 EvolvePage::EvolvePage(RunActions& run, QWidget* parent)
-    : Page({"evolve", tr("Evolve"), "evolve", tr("Tracks are learned; watch, stop, look at what came out")},
+    : Page({"evolve", tr("Evolve"), "evolve", tr("Learn tracks, watch, stop, and look at what was learned")},
            parent),
       estimateDelay_(new QTimer(this)),
       followAction_(new QAction(look::icon("to-end"), tr("Follow the best"), this)),
@@ -135,7 +135,7 @@ QWidget* EvolvePage::makeComparison() {
     const auto show = [this] {
         const QString name = charts_->comparedName();
         compared_->setText(name.isEmpty() ? tr("No other study is in the charts.")
-                                          : tr("The charts show <b>%1</b>, too.").arg(name.toHtmlEscaped()));
+                                          : tr("The charts also show <b>%1</b>.").arg(name.toHtmlEscaped()));
         endComparison_->setVisible(!name.isEmpty());
     };
     connect(charts_, &LearningCharts::comparisonChanged, this, show);

@@ -13,7 +13,7 @@ Facts meshFacts(const geometry::MeshReport& report, std::size_t triangles) {
     Facts facts = {{FactList::tr("Triangles"), QLocale().toString(static_cast<qulonglong>(triangles))},
                    {FactList::tr("Bodies"), QString::number(report.shells)},
                    {FactList::tr("Surface"),
-                    report.isSolid() ? FactList::tr("closed, faces outward") : FactList::tr("mended")}};
+                    report.isSolid() ? FactList::tr("closed, faces outward") : FactList::tr("repaired")}};
     // Not the double vertices: every STL file has them.
     const std::pair<int, QString> defects[] = {
         {report.openEdges, FactList::tr("Open edges")},

@@ -70,7 +70,7 @@ void PoseCards::rebuild() {
         chance->setFont(bold);
         chance->setAlignment(Qt::AlignHCenter);
         card->setAccessibleName(tr("Stable pose %1: %2").arg(index + 1).arg(chance->text()));
-        card->setToolTip(tr("A part dropped anyhow comes to rest in this pose in %1 of 100 cases.")
+        card->setToolTip(tr("A part dropped at random comes to rest in this pose in %1 of 100 cases.")
                              .arg(look::numberText(100.0 * pose.probability)));
 
         auto* layout = new QVBoxLayout(card);

@@ -54,7 +54,7 @@ PrintForm::PrintForm(QWidget* parent) : QWidget(parent) {
               tr("Diameter of the holes: 3.4 for M3, 4.5 for M4, 5.5 for M5; 0 for none."), 0, 30},
              choice_.options.boltDiameter);
     addMount({"boltSpacing", tr("Bolt spacing"), tr("mm"),
-              tr("Between the centres of the holes; as many as fit, in the middle of the length."), 1, 500},
+              tr("Between the centres of the holes; as many as fit, centred along the length."), 1, 500},
              choice_.options.boltSpacing);
     addMount({"boltEdgeDistance", tr("Distance from edge"), tr("mm"),
               tr("From the centres of the holes to the flange's edge. The flange is twice as wide."), 1, 100},

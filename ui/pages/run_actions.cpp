@@ -23,7 +23,7 @@ QAction* makeAction(QObject* parent, const QString& name, const QString& icon, c
 RunActions::RunActions(QObject* parent)
     : QObject(parent),
       start_(makeAction(this, "run.start", "start", tr("&Start learning"), Qt::Key_F5,
-                        tr("Learn from the last saved generation on"))),
+                        tr("Continue from the last saved generation"))),
       pause_(makeAction(this, "run.pause", "pause", tr("&Pause"), Qt::Key_F6,
                         tr("Wait in the middle of the generation; nothing is lost"))),
       stopAfterGeneration_(makeAction(this, "run.stopAfterGeneration", "stop-after",
@@ -75,14 +75,14 @@ void RunActions::update() {
     if (!session_) {
         obstacle = tr("Import a part or open a study first");
     } else if (!session_->problems().empty()) {
-        obstacle = tr("Mend what is marked on the Track page first");
+        obstacle = tr("Correct what is marked on the Track page first");
     } else if (idle && complete) {
-        obstacle = tr("All generations are there; raise their number to learn on");
+        obstacle = tr("All generations are learned; raise their number to continue");
     }
     start_->setText(paused            ? tr("Re&sume learning")
                     : generations > 0 ? tr("Go on &learning")
                                       : tr("&Start learning"));
-    start_->setToolTip(obstacle.isEmpty() ? tr("Learn from the last saved generation on") : obstacle);
+    start_->setToolTip(obstacle.isEmpty() ? tr("Continue from the last saved generation") : obstacle);
     start_->setEnabled(paused || (idle && obstacle.isEmpty()));
     pause_->setEnabled(state == RunState::learning);
     stopAfterGeneration_->setEnabled(state == RunState::learning || paused);

@@ -121,12 +121,12 @@ void RunCard::showIdle() {
     const int wanted = session_->settings().evolution.generations;
     if (!session_->problems().empty()) {
         title_->setText(tr("Not ready to learn"));
-        detail_->setText(tr("Mend what is marked on the <a href=\"track\">Track page</a> first."));
+        detail_->setText(tr("Correct what is marked on the <a href=\"track\">Track page</a> first."));
         return;
     }
     if (known >= wanted) {
         title_->setText(tr("All %1 generations learned").arg(known));
-        detail_->setText(tr("Raise their number below to learn on."));
+        detail_->setText(tr("Raise their number below to continue."));
         return;
     }
     title_->setText(known == 0 ? tr("Ready to learn")
@@ -134,7 +134,7 @@ void RunCard::showIdle() {
     const double seconds = session_->estimatedSeconds();
     const QString work = workText();
     if (seconds <= 0.0) {
-        detail_->setText(known == 0 ? tr("%1 to go.").arg(work) : tr("%1 left.").arg(work));
+        detail_->setText(known == 0 ? tr("%1 in all.").arg(work) : tr("%1 left.").arg(work));
     } else {
         detail_->setText(tr("About <b>%1</b> for %2.").arg(look::durationText(std::max(seconds, 1.0)), work));
     }

@@ -89,7 +89,9 @@ void SettingsForm::setProblems(const std::vector<std::string>& problems,
             row->setProblem(found ? reason->second.first : QString(), found && reason->second.second);
             if (found && !reason->second.second) ++bad;
         }
-        group.widget->setSummary(bad > 0 ? tr("%1 to mend").arg(bad) : QString());
+        group.widget->setSummary(bad == 0   ? QString()
+                                 : bad == 1 ? tr("1 problem")
+                                            : tr("%1 problems").arg(bad));
     }
 }
 

@@ -120,7 +120,7 @@ QWidget* TrackPage::makeHead() {
 
     locked_ = new QWidget(head);
     locked_->setObjectName("track.locked");
-    auto* reason = new QLabel(tr("The study has scores that belong to these settings."), locked_);
+    auto* reason = new QLabel(tr("The tracks of this study were learned with these settings."), locked_);
     reason->setWordWrap(true);
     auto* fork = new QPushButton(tr("Change in a new study"), locked_);
     fork->setObjectName("track.fork");
@@ -207,7 +207,7 @@ void TrackPage::refresh() {
     form_->QWidget::setVisible(session_ != nullptr);
     locked_->setVisible(session_ && session_->locked());
     problems_->hide();
-    help_->setText(tr("Point at a field, and what it means is told here."));
+    help_->setText(tr("Point at a field to read what it means."));
     if (!session_) return;
 
     const study::Settings& settings = session_->settings();
@@ -240,8 +240,10 @@ void TrackPage::showProblems() {
     problems_->setVisible(!problems.empty());
     if (problems.empty()) return;
     const QColor colour = look::toneColour(look::Tone::bad, palette());
-    const QString text = problems.size() == 1 ? tr("One value to mend before learning")
-                                              : tr("%1 values to mend before learning").arg(problems.size());
+    const QString text =
+        problems.size() == 1
+            ? tr("1 problem: a value has to be corrected before learning")
+            : tr("%1 problems: values have to be corrected before learning").arg(problems.size());
     problems_->setText(QString("<a href=\"#\" style=\"color: %1\">%2</a>").arg(colour.name(), text));
 }
 
