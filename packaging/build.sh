@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Configures and builds one preset of CMakePresets.json (release unless named) into build/<preset>.
+# Configures and builds one preset of CMakePresets.json (release unless named) into build/<preset>; all of it, or the
+# targets named after the preset.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -12,4 +13,4 @@ jobs=$((byMemory < cores ? byMemory : cores))
 
 cd "$root"
 cmake --preset "$preset"
-cmake --build --preset "$preset" --parallel "$jobs"
+cmake --build --preset "$preset" --parallel "$jobs" ${2:+--target "${@:2}"}

@@ -22,19 +22,22 @@ packages=(
     qt6-serialbus-dev qt6-serialport-dev
     # tests, those with windows on a screen of their own; a Modbus device and client of somebody else
     python3-pymodbus python3-serial python3-serial-asyncio xauth xvfb
+    # bare systems to try the first command in (try_bare.sh)
+    mmdebstrap uidmap
 )
 # other simulators that tests/peers measures against
 peers=(libmujoco-dev libode-dev)
 
 usage() {
     cat <<USAGE
-Usage: packaging/install.sh [--peers]
+Usage: packaging/install.sh [--peers] [--list]
 
 Installs, as root or through sudo, the Debian 12 packages that Trapwright is built, run and tested with.
 Does nothing when all of them are there. The packages:
 
 $(printf '%s\n' "${packages[@]}" | sort | fmt -w 100)
 
+  --list       prints the names of the packages, one a line, and installs nothing
   --peers      also those for the comparison with other simulators (tests/peers): ${peers[*]}
   -h, --help   this text
 USAGE
@@ -45,16 +48,23 @@ fail() {
     exit 1
 }
 
+list=false
 for argument in "$@"; do
     case "$argument" in
         -h | --help)
             usage
             exit 0
             ;;
+        --list) list=true ;;
         --peers) packages+=("${peers[@]}") ;;
         *) fail "unknown option '$argument'. See packaging/install.sh --help." ;;
     esac
 done
+
+if $list; then
+    printf '%s\n' "${packages[@]}"
+    exit 0
+fi
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
     fail "this system has no apt. Install what packaging/install.sh --help lists with your own package manager," \

@@ -50,7 +50,7 @@ while (($# > 0)); do
 done
 
 "$root/packaging/install.sh"
-"$root/packaging/build.sh" release
+"$root/packaging/build.sh" release trapwright trapwright-studio
 
 if $windows; then
     exec "$studio"

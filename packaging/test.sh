@@ -8,7 +8,8 @@ usage() {
     cat << 'USAGE'
 Usage: packaging/test.sh [CTEST-OPTION...]
 
-Installs what is missing, builds the release preset, checks format, layers and clang-tidy, and runs every test.
+Installs what is missing, builds the release preset, checks format, layers and clang-tidy, and runs every test. With
+CI=true it also installs and configures in a bare Debian 12 (packaging/try_bare.sh).
 Options go to ctest, for instance: packaging/test.sh -R core_track
 USAGE
 }
@@ -30,6 +31,13 @@ for check in check_format check_layers "check_tidy --minutes 20"; do
     read -ra words <<< "$check"
     "$root/packaging/${words[0]}.sh" "${words[@]:1}" || failed+=("${words[0]}")
 done
+# What is installed on this machine proves nothing for others.
+if [[ ${CI:-} == true ]]; then
+    bare=0
+    "$root/packaging/try_bare.sh" || bare=$?
+    # 77: no bare system can be made here, which it has said.
+    ((bare == 0 || bare == 77)) || failed+=(try_bare)
+fi
 # The tests are run last so that their summary ends the output.
 cd "$root"
 ctest --preset release --parallel "$(nproc)" --no-tests=error "$@" || failed+=(ctest)
