@@ -12,6 +12,7 @@
 
 #include "ui/feeder/connection_card.h"
 #include "ui/feeder/drive_link.h"
+#include "ui/feeder/drive_match.h"
 #include "ui/feeder/drive_texts.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/theme.h"
@@ -49,6 +50,7 @@ DrivePanel::DrivePanel(DriveLink& link, QWidget* parent)
     : QWidget(parent),
       link_(link),
       connection_(new ConnectionCard(link, this)),
+      match_(new DriveMatch(link, this)),
       state_(new QLabel(this)),
       motion_(new QWidget(this)) {
     state_->setObjectName("feeder.state");
@@ -63,6 +65,7 @@ DrivePanel::DrivePanel(DriveLink& link, QWidget* parent)
     motion->setSpacing(8);
     motion->addWidget(makeFault());
     motion->addWidget(makeSetPoint());
+    motion->addWidget(match_);
     motion->addWidget(makeReadings());
 
     auto* column = new QVBoxLayout(this);
@@ -132,7 +135,7 @@ QWidget* DrivePanel::makeReadings() {
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setVerticalSpacing(2);
     grid->setColumnStretch(1, 1);
-    const std::pair<QString, QString> names[] = {{"told", tr("Set-point sent")},
+    const std::pair<QString, QString> names[] = {{"told", tr("Set-point")},
                                                  {"readBack", tr("Read back")},
                                                  {"acceleration", tr("Acceleration, peak")},
                                                  {"halfStroke", tr("Half-stroke")},
@@ -172,7 +175,7 @@ QWidget* DrivePanel::makeLimits() {
     highest_ = makePercent("feeder.highest", tr("Highest set-point"),
                            tr("The set-point never goes above this share of full"), 1, kPercent, "%", box);
     ramp_ = makePercent("feeder.ramp", tr("Ramp"),
-                        tr("How quickly the set-point changes while it runs; a stop is at once"), 5, 1000,
+                        tr("How quickly the set-point changes while it runs; a stop is immediate"), 5, 1000,
                         tr("%/s"), box);
     auto* grid = new QGridLayout(box);
     grid->setContentsMargins(0, 0, 0, 0);
@@ -188,6 +191,7 @@ QWidget* DrivePanel::makeLimits() {
 void DrivePanel::setSession(StudySession* session) {
     if (session_) session_->disconnect(this);
     session_ = session;
+    match_->setSession(session);
     setEnabled(session_ != nullptr);
     if (!session_) return;
     connect(session_, &StudySession::settingsChanged, this, &DrivePanel::showSettings);

@@ -18,6 +18,7 @@ namespace trapwright::feeder {
 
 class ConnectionCard;
 class DriveLink;
+class DriveMatch;
 
 /// The drive in the inspector: state, fault, set-point, what it measures, connection, limits.
 class DrivePanel : public QWidget {
@@ -45,6 +46,7 @@ class DrivePanel : public QWidget {
     DriveLink& link_;
     QPointer<session::StudySession> session_;
     ConnectionCard* connection_;
+    DriveMatch* match_;
     QLabel* state_;
     QWidget* motion_;  // all that needs a drive
     QSlider* slider_ = nullptr;

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QEvent>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -11,6 +12,7 @@
 #include <algorithm>
 
 #include "core/stats/binomial.h"
+#include "ui/feeder/expected_pose.h"
 #include "ui/feeder/guide_actions.h"
 #include "ui/feeder/trial_guide.h"
 #include "ui/look/theme.h"
@@ -24,6 +26,10 @@ constexpr int kTick = 100;         // [ms]
 constexpr double kSentence = 2.0;  // times the font of the window
 constexpr double kTime = 2.2;
 constexpr int kLargeIcon = 26;
+// Of the picture of a success: a part of it is judged from a metre away.
+constexpr double kExpectedShare = 0.34;
+constexpr int kLeastExpected = 200;
+constexpr int kMostExpected = 400;
 
 void enlarge(QLabel& label, double factor) {
     QFont font = label.font();
@@ -48,6 +54,7 @@ int countSuccesses(const study::PhysicalValidation& validation) {
 
 GuideBar::GuideBar(TrialGuide& guide, GuideActions& actions)
     : guide_(guide),
+      expected_(new ExpectedPose("guide.expected", this)),
       sentence_(new QLabel(this)),
       progress_(new QLabel(this)),
       time_(new QLabel(this)),
@@ -67,6 +74,7 @@ GuideBar::GuideBar(TrialGuide& guide, GuideActions& actions)
     sentence_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     progress_->setObjectName("guide.progress");
     progress_->setWordWrap(true);
+    progress_->setToolTip(tr("Confidence interval of Clopper and Pearson, 95 %"));
     progress_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     time_->setObjectName("guide.time");
     time_->setAccessibleName(tr("Time of the trial"));
@@ -85,12 +93,21 @@ GuideBar::GuideBar(TrialGuide& guide, GuideActions& actions)
     texts->addWidget(progress_);
     head->addLayout(texts, 1);
     head->addWidget(time_, 0, Qt::AlignTop);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(12, 8, 12, 8);
+    auto* whole = new QVBoxLayout(this);
+    whole->setContentsMargins(12, 8, 12, 8);
+    whole->setSpacing(6);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(12);
+    whole->addLayout(row, 1);
+    whole->addLayout(makeOthers(actions));
+    auto* column = new QVBoxLayout;
     column->setSpacing(6);
     column->addLayout(head);
     column->addWidget(noteRow_);
+    column->addStretch(1);
     addKeys(*column, actions);
+    row->addWidget(expected_);
+    row->addLayout(column, 1);
 
     connect(actions.note(), &QAction::triggered, this, &GuideBar::askForNote);
     connect(&guide_, &TrialGuide::changed, this, &GuideBar::refresh);
@@ -105,7 +122,7 @@ QToolButton* GuideBar::makeButton(QAction* action, bool large) {
     button->setDefaultAction(action);
     look::drawAsButton(*button);
     // In a small window there is room for the icons of the large ones only.
-    button->setToolButtonStyle(large ? Qt::ToolButtonTextUnderIcon : Qt::ToolButtonTextOnly);
+    button->setToolButtonStyle(large ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonTextOnly);
     if (large) button->setIconSize({kLargeIcon, kLargeIcon});
     // They must not widen the window's middle.
     button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -136,16 +153,23 @@ QWidget* GuideBar::makeNote() {
 }
 
 void GuideBar::addKeys(QBoxLayout& column, GuideActions& actions) {
-    auto* outcomes = new QHBoxLayout;
+    // Two by two: beside the picture there is room for whole words.
+    auto* outcomes = new QGridLayout;
     outcomes->setSpacing(6);
-    for (QAction* outcome : actions.outcomes())
-        outcomes->addWidget(makeButton(outcome, true), stretchFor(*outcome));
+    int place = 0;
+    for (QAction* outcome : actions.outcomes()) {
+        outcomes->addWidget(makeButton(outcome, true), place / 2, place % 2);
+        ++place;
+    }
+    column.addLayout(outcomes);
+}
+
+QHBoxLayout* GuideBar::makeOthers(GuideActions& actions) {
     auto* others = new QHBoxLayout;
     others->setSpacing(6);
     for (QAction* action : {actions.start(), actions.undo(), actions.note(), actions.pause(), actions.stop()})
         others->addWidget(makeButton(action, false), stretchFor(*action));
-    column.addLayout(outcomes);
-    column.addLayout(others);
+    return others;
 }
 
 void GuideBar::changeEvent(QEvent* event) {
@@ -159,6 +183,8 @@ void GuideBar::resizeEvent(QResizeEvent* event) {
 }
 
 void GuideBar::claimHeight() {
+    const int wide = std::clamp(static_cast<int>(kExpectedShare * width()), kLeastExpected, kMostExpected);
+    if (expected_->width() != wide) expected_->setFixedWidth(wide);
     // The window's layout asks for no height for a width, and would cut the words.
     setMinimumHeight(layout()->heightForWidth(width()));
 }
@@ -213,7 +239,7 @@ QString GuideBar::progress() const {
         .arg(successes)
         .arg(trials)
         .arg(models::percent(successes, trials),
-             models::boundsText(stats::calcWilson(successes, trials), trials));
+             models::boundsText(stats::calcClopperPearson(successes, trials), trials));
 }
 
 void GuideBar::askForNote() {

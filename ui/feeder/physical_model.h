@@ -6,7 +6,7 @@
 namespace trapwright::feeder {
 
 /// The paper's Tables 2 and 3, simulated and real feeder side by side: a row for each stable pose, last the
-/// total. Bounds are Wilson's, as trials are still being counted.
+/// total. Bounds are those of Clopper and Pearson, as in the report.
 class PhysicalModel : public models::RecordModel<study::PhysicalRow> {
     Q_OBJECT
  public:

@@ -1,5 +1,6 @@
 #include "ui/feeder/placing_scene.h"
 
+#include "core/study/physical_table.h"
 #include "core/trial/start.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_session.h"
@@ -25,6 +26,7 @@ PlacingScene::PlacingScene(QObject* parent) : QObject(parent), build_(this) {
             [this](const std::shared_ptr<const track::Track>& track) {
                 track_ = track;
                 draw();
+                emit built();
             });
     connect(&build_, &session::TrackBuild::failed, this,
             [this](const QString& message) { emit failed(tr("The track cannot be shown"), message); });
@@ -36,6 +38,13 @@ void PlacingScene::setSession(session::StudySession* session) {
     printed_.reset();
     placing_.reset();
     track_.reset();
+}
+
+ExpectedExit PlacingScene::expected() const {
+    if (!session_ || !printed_ || printed_->generation < 0) return {};
+    return {track_, session_->part(),
+            study::findExpected(session_->validations(), session_->selections(), printed_->generation,
+                                printed_->individual)};
 }
 
 void PlacingScene::setScene(scene::SceneView* scene) {

@@ -7,6 +7,7 @@
 
 #include "core/study/physical_validation.h"
 #include "core/track/track.h"
+#include "ui/feeder/expected_pose.h"
 #include "ui/session/track_build.h"
 
 namespace trapwright::scene {
@@ -36,8 +37,11 @@ class PlacingScene : public QObject {
     void show(const study::PhysicalValidation* validation);
     /// Of the validation that is shown; null until it is built.
     [[nodiscard]] std::shared_ptr<const track::Track> track() const { return track_; }
+    /// How its parts are to leave, as far as is known; without a part if no track is shown.
+    [[nodiscard]] ExpectedExit expected() const;
 
  signals:
+    void built();
     void failed(const QString& what, const QString& message);
 
  private:

@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "ui/feeder/drive_link.h"
+#include "ui/feeder/expected_pose.h"
 #include "ui/feeder/plan_cards.h"
 #include "ui/feeder/plan_form.h"
 #include "ui/feeder/trial_guide.h"
@@ -26,6 +27,7 @@ using session::StudySession;
 
 namespace {
 
+constexpr int kExpectedHeight = 220;  // of the picture of a success, with its words
 constexpr auto kRestSetting = "feeder/restBetween";
 
 QString dateText(const std::string& utc) {
@@ -88,6 +90,8 @@ QWidget* PlanPanel::makeOverview() {
     facts_->setWordWrap(true);
     facts_->setForegroundRole(QPalette::PlaceholderText);
     cards_ = new PlanCards(page);
+    expected_ = new ExpectedPose("plan.expected", page);
+    expected_->setMinimumHeight(kExpectedHeight);
     auto* rest = new QCheckBox(tr("Rest while parts are placed"), page);
     rest->setObjectName("plan.restBetween");
     rest->setToolTip(tr("The drive stops after each trial and starts with the next one"));
@@ -102,6 +106,7 @@ QWidget* PlanPanel::makeOverview() {
     column->addWidget(list_);
     column->addWidget(facts_);
     column->addWidget(cards_);
+    column->addWidget(expected_);
     column->addWidget(rest);
     column->addWidget(add);
     column->addStretch(1);
@@ -150,6 +155,7 @@ void PlanPanel::listValidations() {
 void PlanPanel::showProgress() {
     const study::PhysicalValidation* now = guide_.validation();
     cards_->setVisible(now != nullptr);
+    expected_->setVisible(now != nullptr);
     if (now == nullptr) {
         return facts_->setText(
             session_ && session_->winners().empty()

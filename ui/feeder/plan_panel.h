@@ -14,6 +14,7 @@ class StudySession;
 namespace trapwright::feeder {
 
 class DriveLink;
+class ExpectedPose;
 class PlanCards;
 class PlanForm;
 class TrialGuide;
@@ -27,6 +28,8 @@ class PlanPanel : public QWidget {
     void setSession(session::StudySession* session);
     /// What can be planned may have changed.
     void refresh();
+    /// Below the plan: what success looks like.
+    [[nodiscard]] ExpectedPose* expected() const { return expected_; }
 
  private:
     QWidget* makeOverview();
@@ -39,6 +42,7 @@ class PlanPanel : public QWidget {
     QComboBox* list_ = nullptr;
     QLabel* facts_ = nullptr;
     PlanCards* cards_ = nullptr;
+    ExpectedPose* expected_ = nullptr;
     PlanForm* form_ = nullptr;
     QStackedWidget* stack_;
 };

@@ -10,6 +10,7 @@
 #include "ui/feeder/drive_chart.h"
 #include "ui/feeder/drive_log.h"
 #include "ui/feeder/drive_panel.h"
+#include "ui/feeder/expected_pose.h"
 #include "ui/feeder/guide_bar.h"
 #include "ui/feeder/plan_panel.h"
 #include "ui/feeder/report_card.h"
@@ -48,6 +49,7 @@ ValidatePage::ValidatePage(const session::Environment& environment, QWidget* par
     connect(&guide_, &TrialGuide::changed, this, &ValidatePage::showTrial);
     connect(&guide_, &TrialGuide::chosen, this, &ValidatePage::showTrial);
     connect(&placing_, &PlacingScene::failed, this, &Page::failed);
+    connect(&placing_, &PlacingScene::built, this, &ValidatePage::showExpected);
     ValidatePage::setSession(nullptr);
 }
 
@@ -116,6 +118,8 @@ void ValidatePage::setSession(StudySession* session) {
     guide_.setSession(session);
     if (session_) {
         connect(session_, &StudySession::validationSaved, this, &ValidatePage::showTable);
+        connect(session_, &StudySession::validationSaved, this, &ValidatePage::showExpected);
+        connect(session_, &StudySession::selectionSaved, this, &ValidatePage::showExpected);
         connect(session_, &StudySession::partChanged, this, &ValidatePage::showTrial);
         connect(session_, &StudySession::settingsChanged, this, &ValidatePage::showTrial);
     }
@@ -157,7 +161,14 @@ void ValidatePage::giveSceneKeysBack() {
 
 void ValidatePage::showTrial() {
     placing_.show(guide_.validation());
+    showExpected();
     showTable();
+}
+
+void ValidatePage::showExpected() {
+    const ExpectedExit expected = placing_.expected();
+    bar_->expected()->show(expected);
+    plan_->expected()->show(expected);
 }
 
 void ValidatePage::showTable() {
@@ -168,7 +179,10 @@ void ValidatePage::showTable() {
     }
     const study::PhysicalTable table =
         study::comparePhysical(study::findSimulated(session_->validations(), *physical), *physical);
-    table_->setHead(QString::fromStdString(table.verdict));
+    // The verdict names the virtual feeder already; there is little room for more.
+    const bool training = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
+    const QString notice = training ? tr("For training.") : QString::fromStdString(table.notice);
+    table_->setHead(QString("%1 %2").arg(notice, QString::fromStdString(table.verdict)).trimmed());
     model_.setTable(table);
 }
 

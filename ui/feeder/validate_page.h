@@ -50,6 +50,7 @@ class ValidatePage : public pages::Page {
     void takeSceneKeys(const QList<QAction*>& actions);
     void giveSceneKeysBack();
     void showTrial();
+    void showExpected();
     void showTable();
     void applyCalibration();
     void goOnWithFork();

@@ -1,5 +1,6 @@
 #include "ui/scene/picture_maker.h"
 
+#include "ui/scene/exit_view.h"
 #include "ui/scene/subject.h"
 
 namespace trapwright::scene {
@@ -23,6 +24,25 @@ QFuture<QImage> PictureMaker::partPicture(std::shared_ptr<const part::Part> part
     contents->part = std::move(part);
     contents->partPoses = {{rotation, base::Vec3::Zero()}};
     return draw(std::move(contents), size, pixelRatio);
+}
+
+QFuture<QImage> PictureMaker::exitPicture(std::shared_ptr<const track::Track> track,
+                                          std::shared_ptr<const part::Part> part, const base::Pose& pose,
+                                          QSize size, double pixelRatio) {
+    const ExitView view = makeExitView(*track, *part, pose, size);
+    auto contents = std::make_shared<SceneContents>();
+    contents->theme = theme_;
+    contents->marks = TrackMarks::none();
+    contents->marks.finishLine = true;
+    contents->track = std::move(track);
+    contents->part = std::move(part);
+    contents->partPoses = {pose};
+    return renderer_.render({std::move(contents), view.camera, size * pixelRatio, pixelRatio})
+        .then([view, theme = theme_](const Rendering& made) {
+            QImage image = made.image;
+            if (!image.isNull()) paintArrow(image, view, theme);
+            return image;
+        });
 }
 
 QFuture<QImage> PictureMaker::draw(std::shared_ptr<SceneContents> contents, QSize size, double pixelRatio) {

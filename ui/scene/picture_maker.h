@@ -24,6 +24,11 @@ class PictureMaker {
     [[nodiscard]] QFuture<QImage> partPicture(std::shared_ptr<const part::Part> part,
                                               const base::Quaternion& rotation, QSize size,
                                               double pixelRatio = 1.0);
+    /// The part as it leaves the track, near by: at the finish in this pose (part frame to room), from the
+    /// operator's side, with an arrow that tells which way it is conveyed.
+    [[nodiscard]] QFuture<QImage> exitPicture(std::shared_ptr<const track::Track> track,
+                                              std::shared_ptr<const part::Part> part, const base::Pose& pose,
+                                              QSize size, double pixelRatio = 1.0);
 
  private:
     QFuture<QImage> draw(std::shared_ptr<SceneContents> contents, QSize size, double pixelRatio);
