@@ -26,19 +26,29 @@ struct Report {
     study::PhysicalTable table;
     std::vector<calibration::Calibration> calibrations;
     QImage track;               // a picture of it; null: none
+    QImage expected;            // of a part that leaves as expected; null: not known
     std::vector<QImage> poses;  // pictures by pose
     QString program;            // that writes the report, and its version
     QDateTime written;
 };
 
 /// Width and height of the pictures, in pixels, at 150 dpi in print.
-inline constexpr QSize kTrackPicture(560, 380);
+inline constexpr QSize kTrackPicture(500, 330);
+inline constexpr QSize kExpectedPicture(500, 330);
 inline constexpr QSize kPosePicture(120, 92);
-inline constexpr QSize kChartPicture(1020, 400);
+inline constexpr QSize kChartPicture(1020, 350);
 
-/// The report as HTML, with pictures by the names "track", "pose1", "success", "course".
-QString reportHtml(const Report& report);
-/// Writes it as PDF (A4), beside it NAME-table.csv and NAME-trials.csv. Errors name the file.
+/// "Validation on the real feeder: cuboid"; of trials with the virtual feeder it says so.
+QString reportTitle(const Report& report);
+/// "Real feeder", "Virtual feeder" or "Mixed feeders": what the trials were made with.
+QString reportFeeder(const Report& report);
+/// For the head of every page: that the feeder was the virtual one; empty if it was not.
+QString reportWarning(const Report& report);
+/// The report as pieces of HTML, each of which stays on one page, with pictures by the names "track",
+/// "expected", "pose1", "success", "course".
+std::vector<QString> reportPieces(const Report& report);
+/// Writes it as PDF (A4, head and numbered foot on every page), beside it NAME-table.csv and NAME-trials.csv.
+/// Errors name the file.
 base::Status writeReport(const Report& report, const std::filesystem::path& pdf);
 
 }  // namespace trapwright::feeder

@@ -68,6 +68,7 @@ Report ReportCard::makeReport() const {
     scene::PictureMaker pictures;
     pictures.setTheme(scene::SceneTheme::light());
     if (placing_.track()) report.track = pictures.trackPicture(placing_.track(), kTrackPicture).result();
+    report.expected = expectedPicture(pictures, placing_.expected(), kExpectedPicture).result();
     for (const part::StablePose& pose : report.part->stablePoses)
         report.poses.push_back(pictures.partPicture(report.part, pose.rotation, kPosePicture).result());
     report.program = QString::fromStdString(program_);

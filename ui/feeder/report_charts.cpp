@@ -40,7 +40,7 @@ class Frame {
         const QFontMetricsF metrics(font, &image_);
         line_ = metrics.height();
         const double left = metrics.horizontalAdvance("100 %") + 10.0;
-        area_ = QRectF(left, 1.6 * line_, pixels.width() - left - 24.0, pixels.height() - 4.4 * line_);
+        area_ = QRectF(left, 2.1 * line_, pixels.width() - left - 24.0, pixels.height() - 5.0 * line_);
         drawScale();
     }
 
@@ -56,7 +56,7 @@ class Frame {
     }
     void titleOfX(const QString& text) {
         painter_.setPen(kAxis);
-        painter_.drawText(QRectF(area_.left(), area_.bottom() + 4 + line_, area_.width(), line_),
+        painter_.drawText(QRectF(area_.left(), area_.bottom() + 4 + 1.4 * line_, area_.width(), line_),
                           Qt::AlignHCenter, text);
     }
     QImage finish() {
@@ -116,7 +116,7 @@ void drawRate(Frame& frame, double x, const study::SuccessCount& count, bool rea
     }
 }
 
-void drawLegend(Frame& frame) {
+void drawLegend(Frame& frame, const QString& feeder) {
     QPainter& painter = frame.painter();
     const double line = frame.lineHeight();
     double x = frame.area().left();
@@ -130,7 +130,7 @@ void drawLegend(Frame& frame) {
             painter.drawEllipse(mark);
         }
         painter.setPen(Qt::black);
-        const QString text = real ? Texts::tr("real feeder") : Texts::tr("simulated");
+        const QString text = real ? feeder : Texts::tr("Simulated");
         painter.drawText(QPointF(x + 22, line * 0.25 + 13), text);
         x += 50 + painter.fontMetrics().horizontalAdvance(text);
     }
@@ -138,7 +138,7 @@ void drawLegend(Frame& frame) {
 
 }  // namespace
 
-QImage successChart(const study::PhysicalTable& table, QSize pixels) {
+QImage successChart(const study::PhysicalTable& table, const QString& feeder, QSize pixels) {
     std::vector<study::PhysicalRow> rows = table.rows;
     rows.push_back(table.total);
     double lowest = 1.0;
@@ -154,7 +154,7 @@ QImage successChart(const study::PhysicalTable& table, QSize pixels) {
         frame.label(x, rows[i].pose < 0 ? Texts::tr("Total") : QString::number(rows[i].pose + 1));
     }
     frame.titleOfX(Texts::tr("Start pose"));
-    drawLegend(frame);
+    drawLegend(frame, feeder);
     return frame.finish();
 }
 
@@ -165,7 +165,7 @@ QImage courseChart(const study::PhysicalValidation& validation, QSize pixels) {
     int good = 0;
     for (std::size_t i = 0; i < count; ++i) {
         good += validation.trials[i].outcome == study::PhysicalOutcome::success ? 1 : 0;
-        bounds.push_back(stats::calcWilson(good, static_cast<int>(i) + 1));
+        bounds.push_back(stats::calcClopperPearson(good, static_cast<int>(i) + 1));
         rates.push_back(static_cast<double>(good) / static_cast<double>(i + 1));
     }
     // The first few trials tell little and would take all of the scale.
@@ -204,7 +204,7 @@ QImage courseChart(const study::PhysicalValidation& validation, QSize pixels) {
     const std::size_t step = std::max<std::size_t>((count + kLabels - 1) / kLabels, 1);
     for (std::size_t i = step; i <= count; i += step)
         frame.label(x(i - 1), QString::number(i));
-    frame.titleOfX(Texts::tr("Trial (a mark on the axis: a failure)"));
+    frame.titleOfX(Texts::tr("Trial"));
     return frame.finish();
 }
 

@@ -9,9 +9,11 @@
 namespace trapwright::feeder {
 
 /// Success rates with their 95 % bounds (Clopper and Pearson) by pose, simulated beside real.
-QImage successChart(const study::PhysicalTable& table, QSize pixels);
+/// `feeder`: its name in the legend.
+QImage successChart(const study::PhysicalTable& table, const QString& feeder, QSize pixels);
 
-/// The success rate over the course of the trials with its 95 % bounds (Wilson); failures are marked.
+/// The success rate over the course of the trials with its 95 % bounds (Clopper and Pearson); failures are
+/// marked.
 QImage courseChart(const study::PhysicalValidation& validation, QSize pixels);
 
 }  // namespace trapwright::feeder

@@ -1,5 +1,5 @@
-// Takes pictures of the page Validate in the middle of a validation: feeder_pictures OUT THEME. The report is
-// written there as well.
+// Takes pictures of the page Validate in the middle of a validation: feeder_pictures OUT THEME [WIDTH
+// HEIGHT]. The report is written there as well.
 
 #include <QDockWidget>
 #include <QScreen>
@@ -46,8 +46,8 @@ void makeTrials(Operator& user, int count) {
 int main(int argc, char** argv) {
     QApplication application(argc, argv);
     const QStringList arguments = QCoreApplication::arguments();
-    if (arguments.size() != 3) {
-        std::fputs("feeder_pictures OUT THEME\n", stderr);
+    if (arguments.size() != 3 && arguments.size() != 5) {
+        std::fputs("feeder_pictures OUT THEME [WIDTH HEIGHT]\n", stderr);
         return 2;
     }
     pages::LearnedStudy study("feeder_pictures");
@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     const Camera camera(arguments[1], arguments[2]);
     Bench bench;
     Operator user(bench, study.copy());
+    if (arguments.size() == 5) user.window.resize(arguments[3].toInt(), arguments[4].toInt());
     user.find<QAction>("theme." + arguments[2])->trigger();
     camera.take(user.window, "validate-empty");
     user.click("plan.new");

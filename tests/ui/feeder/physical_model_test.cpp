@@ -23,7 +23,7 @@ class PhysicalModelTest : public QObject {
         QCOMPARE(model.rowCount(), 0);
     }
 
-    // 394 of 400 gives 96.8 ... 99.3 % by Wilson (1927).
+    // 394 of 400 gives 96.8 ... 99.4 % by Clopper and Pearson (1934), 99.3 by Wilson.
     void itShowsBothSidesAndTheirBounds() {
         study::PhysicalValidation physical = plan();
         physical.plan.repetitions = 200;
@@ -41,7 +41,7 @@ class PhysicalModelTest : public QObject {
         QCOMPARE(total(PhysicalModel::SimulatedTrials), QString("400"));
         QCOMPARE(total(PhysicalModel::SimulatedFailures), QString("6"));
         QCOMPARE(total(PhysicalModel::SimulatedSuccess), QString("98.5"));
-        QCOMPARE(total(PhysicalModel::SimulatedBounds), QString("96.8 … 99.3"));
+        QCOMPARE(total(PhysicalModel::SimulatedBounds), QString("96.8 … 99.4"));
         QCOMPARE(total(PhysicalModel::Trials), QString("400"));
         QCOMPARE(total(PhysicalModel::Planned), QString("400"));
         QCOMPARE(total(PhysicalModel::Failures), QString("3"));

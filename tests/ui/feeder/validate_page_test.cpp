@@ -5,6 +5,8 @@
 #include <QTableView>
 
 #include "tests/ui/feeder/operator.h"
+#include "tests/ui/scene/scene_samples.h"
+#include "ui/feeder/expected_pose.h"
 #include "ui/feeder/report_card.h"
 
 using namespace trapwright;
@@ -94,6 +96,79 @@ class ValidatePageTest : public QObject {
         QCOMPARE(user.trials().size(), std::size_t(1));
         // Without a drive here nothing is known of it.
         QCOMPARE(user.trials().front().setPoint, 0.0);
+    }
+
+    // Whoever judges sees what right looks like: large, and beside the buttons.
+    void theTrialCardShowsWhatSuccessLooksLike() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        auto& card = *user.find<ExpectedPose>("guide.expected");
+        user.plan(2, false);
+        QTRY_VERIFY_WITH_TIMEOUT(card.shown().track != nullptr, kPatience);
+        // Nothing is made up.
+        QVERIFY(!card.shown().known());
+        QVERIFY(user.text("guide.expected.text").contains("validated in simulation"));
+        user.session()->startValidation(*user.session()->chosen());
+        QTRY_VERIFY_WITH_TIMEOUT(!card.picture().isNull(), kPatience);
+        const study::ValidationRecord& simulated = user.session()->validations().back();
+        QVERIFY(card.shown().orientation->coeffs() == simulated.expectedOrientation.coeffs());
+        QVERIFY2(card.picture().deviceIndependentSize().width() >= 200 &&
+                     card.picture().deviceIndependentSize().height() >= 96,
+                 qPrintable(QString("%1 x %2").arg(card.picture().width()).arg(card.picture().height())));
+        // The cuboid's group is D2.
+        QVERIFY(user.text("guide.expected.text").contains("same in 4 orientations"));
+        QVERIFY(samples::shareOfHue(card.picture(), scene::SceneTheme::light().part) > 0.05 ||
+                samples::shareOfHue(card.picture(), scene::SceneTheme::dark().part) > 0.05);
+        QTRY_VERIFY_WITH_TIMEOUT(!user.find<ExpectedPose>("plan.expected")->picture().isNull(), kPatience);
+    }
+
+    void aDriveThatDiffersFromTheStudyIsTold() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        QCOMPARE(user.session()->settings().simulation.drive.halfStroke, 0.8e-3);
+        QVERIFY(user.reach());
+        const auto* warning = user.find<QFrame>("feeder.match.warning");
+        user.setSetPoint(82);
+        QVERIFY(warning->isHidden());
+        user.setSetPoint(60);
+        QVERIFY(!warning->isHidden());
+        const QString text = user.text("feeder.match.text");
+        QVERIFY2(text.contains("0.60 mm") && text.contains("0.80 mm") && text.contains("25 % less"),
+                 qPrintable(text));
+        QCOMPARE(user.text("feeder.match.halfStroke.difference"), QString("−25 %"));
+        // Dismissed, it is away until something is another; and nothing is ever blocked.
+        user.find<QPushButton>("feeder.match.dismiss")->click();
+        QVERIFY(warning->isHidden());
+        QVERIFY(user.find<QPushButton>("feeder.start")->isEnabled());
+        user.setSetPoint(61);
+        QVERIFY(!warning->isHidden());
+        user.find<QPushButton>("feeder.match.set")->click();
+        QCOMPARE(user.page().link().target(), 0.8);
+        QVERIFY(warning->isHidden());
+    }
+
+    void virtualAndRealTrialsAreNotMixed() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        user.plan(2, false);
+        user.press(Qt::Key_Space);
+        user.press(Qt::Key_S);
+        QCOMPARE(user.trials().size(), std::size_t(1));
+        QVERIFY(user.trials().back().feeder == study::FeederKind::unconnected);
+        QVERIFY(user.reach());
+        user.setSetPoint(60);
+        user.press(Qt::Key_Space);
+        QCOMPARE(user.guide().stage(), Stage::placing);
+        QVERIFY2(user.text("guide.trouble").contains("Plan another one"),
+                 qPrintable(user.text("guide.trouble")));
+        QVERIFY(bench.feeder->isAtRest());
+        user.plan(2, false);
+        user.press(Qt::Key_Space);
+        user.press(Qt::Key_S);
+        QCOMPARE(user.trials().size(), std::size_t(1));
+        QVERIFY(user.trials().back().feeder == study::FeederKind::virtualFeeder);
+        QCOMPARE(user.trials().back().drive, std::string("Virtual feeder over Modbus TCP"));
+        QVERIFY(user.trials().back().halfStroke > 0.0);
     }
 
     void theScenesDigitsAreBackOnOtherPages() {
@@ -189,12 +264,27 @@ class ValidatePageTest : public QObject {
         reader.start("pdftotext", {"-layout", pdf, "-"});
         QVERIFY2(reader.waitForFinished() && reader.exitCode() == 0, "pdftotext of poppler-utils is needed");
         const QString text = QString::fromUtf8(reader.readAllStandardOutput());
-        for (const char* told : {"Validation on the real feeder: cuboid", "Grace Hopper", "PA12, as printed",
-                                 "60.0 %", "S3 stayed u", "trapwright test", "Page 1 of"})
-            QVERIFY2(text.contains(told), told);
+        // Lines are broken anywhere.
+        const QString flowing = text.simplified();
+        for (const char* told : {"Training with the virtual feeder: cuboid", "no real part moved",
+                                 "Grace Hopper", "PA12, as printed", "60.0 %", "S3 stayed u",
+                                 "trapwright test", "Virtual feeder over Modbus TCP", "Drive and simulation",
+                                 "0.60 mm; the study simulated 0.80 mm (25 % less)", "Released by"})
+            QVERIFY2(flowing.contains(told), qPrintable(QString("%1 in: %2").arg(told, flowing)));
+        QVERIFY(!text.contains("real feeder:"));
+        // A page alone tells it as well.
+        const QStringList pages = text.split('\f', Qt::SkipEmptyParts);
+        QVERIFY(pages.size() > 1);
+        for (int i = 0; i < pages.size(); ++i) {
+            QVERIFY2(pages[i].contains("VIRTUAL FEEDER"), qPrintable(pages[i]));
+            QVERIFY2(pages[i].contains(QString("Page %1 of %2").arg(i + 1).arg(pages.size())),
+                     qPrintable(pages[i]));
+        }
         QFile trials(study_.file("report-trials.csv"));
         QVERIFY(trials.open(QIODevice::ReadOnly));
-        QCOMPARE(trials.readAll().count('\n'), 61);
+        const QByteArray lines = trials.readAll();
+        QCOMPARE(lines.count('\n'), 61);
+        QCOMPARE(lines.count(",virtual,"), 60);
         QVERIFY(QFile::exists(study_.file("report-table.csv")));
         const QString keep = qEnvironmentVariable("TRAPWRIGHT_KEEP");
         if (!keep.isEmpty()) QVERIFY(QFile::copy(pdf, QDir(keep).filePath("report.pdf")));
