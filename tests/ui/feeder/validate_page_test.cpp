@@ -132,7 +132,7 @@ class ValidatePageTest : public QObject {
         QVERIFY(warning->isHidden());
         user.setSetPoint(60);
         QVERIFY(!warning->isHidden());
-        const QString text = user.text("feeder.match.text");
+        const QString text = user.text("feeder.match.text").simplified();
         QVERIFY2(text.contains("0.60 mm") && text.contains("0.80 mm") && text.contains("25 % less"),
                  qPrintable(text));
         QCOMPARE(user.text("feeder.match.halfStroke.difference"), QString("−25 %"));
