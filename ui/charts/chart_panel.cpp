@@ -85,7 +85,9 @@ ChartPanel::ChartPanel(const QString& name, const QString& title, QWidget* paren
 QAction* ChartPanel::addPanelAction(const QString& text, const QKeySequence& key, void (ChartPanel::*act)()) {
     auto* action = new QAction(text, this);
     action->setShortcut(key);
+    // Only in the chart, so no menu shows the key.
     action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    action->setShortcutVisibleInContextMenu(false);
     connect(action, &QAction::triggered, this, act);
     addAction(action);
     return action;

@@ -88,7 +88,9 @@ void CurveChart::addActions() {
     const auto add = [this](const QString& text, const QList<QKeySequence>& keys, auto act) {
         auto* action = new QAction(text, this);
         action->setShortcuts(keys);
+        // Only in the chart, so no menu shows the key.
         action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+        action->setShortcutVisibleInContextMenu(false);
         connect(action, &QAction::triggered, this, act);
         addAction(action);
         return action;

@@ -59,6 +59,7 @@ EventLog::EventLog(QWidget* parent)
     auto* copy = new QAction(look::icon("save-as"), tr("Copy lines"), list_);
     copy->setShortcut(QKeySequence::Copy);
     copy->setShortcutContext(Qt::WidgetShortcut);
+    copy->setShortcutVisibleInContextMenu(false);
     connect(copy, &QAction::triggered, this, [this] {
         QString text;
         for (int i = 0; i < list_->topLevelItemCount(); ++i) {

@@ -65,7 +65,9 @@ RecordTable::RecordTable(const QString& name, const QString& title, const QStrin
     auto* save = new QAction(tr("Save table as CSV..."), view_);
     save->setObjectName(name + ".saveCsv");
     save->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_E));
+    // Only in the table, so no menu shows the key.
     save->setShortcutContext(Qt::WidgetShortcut);
+    save->setShortcutVisibleInContextMenu(false);
     connect(save, &QAction::triggered, this, &RecordTable::askAndSaveCsv);
     view_->addAction(save);
     view_->setContextMenuPolicy(Qt::ActionsContextMenu);

@@ -195,8 +195,9 @@ void MainWindow::leaveSession(session::StudySession& session) {
 
 void MainWindow::updateTitle() {
     const QString program = tr("Trapwright");
-    // Where dialogs for files begin, and the names that they propose.
-    setWindowFilePath(desk_.publicPath());
+    // Where dialogs for files begin, and the names that they propose. Before a study is open: where the last
+    // one was.
+    setWindowFilePath(desk_.session() != nullptr ? desk_.publicPath() : desk_.recent().list().value(0));
     setWindowTitle(desk_.session() == nullptr ? program : QString("%1 - %2").arg(desk_.name(), program));
     if (desk_.session() == nullptr) showRecent();
 }

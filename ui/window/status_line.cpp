@@ -20,6 +20,7 @@ using session::RunState;
 namespace {
 
 constexpr int kSign = 14;
+constexpr double kNear = 0.05;  // difference of two shares that is called none
 
 struct StateFace {
     QString text;
@@ -176,14 +177,17 @@ void StatusLine::updateEngines() {
     const int checked = check.reference.oriented;
     const stats::Interval bounds = stats::calcClopperPearson(checked, check.trials);
     const double share = static_cast<double>(learned) / check.trials;
-    const bool agrees = share >= bounds.low && share <= bounds.high;
-    engines_->setText((agrees ? tr("%1 agrees: %2 % and %3 %") : tr("%1 differs: %2 % and %3 %"))
-                          .arg(engineName(check.reference.engine), models::percent(learned, check.trials),
+    const bool alike = share >= bounds.low && share <= bounds.high;
+    const bool near = std::abs(learned - checked) <= kNear * check.trials;
+    const QString text = !alike ? tr("%1 differs: %2 % and %3 %")
+                         : near ? tr("%1 agrees: %2 % and %3 %")
+                                : tr("%1: %2 % and %3 %, too few trials to tell");
+    engines_->setText(text.arg(engineName(check.reference.engine), models::percent(learned, check.trials),
                                models::percent(checked, check.trials)));
     engines_->setToolTip(
         tr("Parts that end oriented, of the same %1 trials of generation %2's winner: %3 in the "
-           "engine that learns (%4), %5 in %6. They agree if the first share lies within the 95 % "
-           "interval (Clopper-Pearson) of the second.")
+           "engine that learns (%4), %5 in %6. They differ if the first share is outside the 95 % "
+           "interval (Clopper-Pearson) of the second; they agree if it is inside and within 5 points.")
             .arg(check.trials)
             .arg(check.generation)
             .arg(learned)

@@ -307,6 +307,15 @@ class InputTest : public QObject {
                  study.completeBaseName() + ending);
     }
 
+    void studiesAreLookedForWhereTheLastOneWas() {
+        User user(study_);
+        user.action("file.close")->trigger();
+        QTRY_VERIFY(user.session() == nullptr);
+        user.action("file.open")->trigger();
+        QVERIFY(user.dialog() != nullptr);
+        QCOMPARE(user.dialog()->directory().absolutePath(), QFileInfo(study_).absolutePath());
+    }
+
     // There is no folder of documents where these tests are at home.
     void aDraftIsSavedUnderThePartsName() {
         User user;
@@ -345,8 +354,9 @@ class InputTest : public QObject {
         QTest::addColumn<int>("checked");
         QTest::addColumn<QString>("told");
         QTest::newRow("alike") << 97 << 97 << "Simbody agrees: 97.0 % and 97.0 %";
-        // 90 of 100: 82.4 to 95.1 % (Clopper-Pearson).
+        // 90 of 100: 82.4 to 95.1 % (Clopper-Pearson); 60 of 100: 49.7 to 69.7 %.
         QTest::newRow("within chance") << 95 << 90 << "Simbody agrees: 95.0 % and 90.0 %";
+        QTest::newRow("too few trials") << 68 << 60 << "Simbody: 68.0 % and 60.0 %, too few trials to tell";
         QTest::newRow("beyond chance") << 96 << 90 << "Simbody differs: 96.0 % and 90.0 %";
     }
 

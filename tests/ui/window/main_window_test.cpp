@@ -286,6 +286,19 @@ class MainWindowTest : public QObject {
         QVERIFY(window::shortcutTable(shortcuts).contains("| File | Open study | Ctrl+O |"));
     }
 
+    // One that works only in a chart or a table would be pressed elsewhere, and do nothing.
+    void aKeyThatAMenuShowsWorksEverywhere() {
+        User user;
+        QVERIFY(user.import("cuboid"));
+        for (const QAction* action : user.window.findChildren<QAction*>()) {
+            if (action->shortcut().isEmpty() || action->associatedObjects().isEmpty()) continue;
+            QVERIFY2(action->shortcutContext() == Qt::WindowShortcut ||
+                         action->shortcutContext() == Qt::ApplicationShortcut ||
+                         !action->isShortcutVisibleInContextMenu(),
+                     qPrintable(action->text()));
+        }
+    }
+
     // Where it has not: paste what trapwright-studio --shortcuts prints.
     void theReadmeHasTheTable() {
         QFile readme(TRAPWRIGHT_SOURCE_DIR "/README.md");
