@@ -57,7 +57,7 @@ const RawText kTexts[] = {
     {"evolution.racingTrials", TEXT("Racing trials"), TEXT("Trials for every individual before only the best get all; 0 gives all to everybody.")},
     {"evolution.racingShare", TEXT("Racing share"), TEXT("Share of the population that gets all trials in a race.")},
     {"evolution.commonRandomNumbers", TEXT("Starts of parts"), TEXT("Whether all individuals of a generation meet the same random starts."), {TEXT("Differ"), TEXT("Same for all")}},
-    {"evolution.learningStuckTime_s", TEXT("Stuck while learning"), TEXT("A part that makes no progress for so long counts as stuck while learning; it saves time.")},
+    {"evolution.learningStuckTime_s", TEXT("Stuck while learning"), TEXT("A part that makes no progress for this long counts as stuck while learning; it saves time.")},
     {"evolution.generations", TEXT("Generations"), TEXT("When learning ends; it can be raised later.")},
     {"evolution.seed", TEXT("Seed"), TEXT("Of all random numbers: the same seed and settings give the same tracks.")},
 
@@ -68,11 +68,11 @@ const RawText kTexts[] = {
     {"simulation.contact.kineticFriction", TEXT("Kinetic friction"), TEXT("Friction of a part that slides, over its normal force.")},
     {"simulation.contact.restitution", TEXT("Restitution"), TEXT("Speed after an impact over the speed before it.")},
     {"simulation.termination.timeLimit_s", TEXT("Time limit"), TEXT("A part that is not at the finish by then counts as stuck.")},
-    {"simulation.termination.stuckTime_s", TEXT("Stuck after"), TEXT("A part that makes no progress for so long is stuck in selection and validation.")},
+    {"simulation.termination.stuckTime_s", TEXT("Stuck after"), TEXT("A part that makes no progress for this long is stuck in selection and validation.")},
     {"simulation.termination.stuckProgress_mm", TEXT("Progress"), TEXT("What counts as progress along the track.")},
     {"simulation.start.nearPose", TEXT("Start pose"), TEXT("The orientation near which parts start; any, if it is not set.")},
     {"simulation.start.tilt_deg", TEXT("Start tilt"), TEXT("How far parts are tilted at the start when one pose is set; the standard deviation.")},
-    {"simulation.start.lateral_mm", TEXT("Start offset"), TEXT("Parts start up to so far beside the middle.")},
+    {"simulation.start.lateral_mm", TEXT("Start offset"), TEXT("Parts start up to this far beside the middle.")},
     {"simulation.gravity_m_s2", TEXT("Gravity"), TEXT("9.81 on Earth.")},
     {"simulation.engine", TEXT("Engine"), TEXT("Hybrid learns with the quick engine and has each winner checked by Simbody."), {TEXT("Hybrid"), TEXT("Native"), TEXT("Simbody")}},
 
@@ -81,8 +81,8 @@ const RawText kTexts[] = {
     {"validation.trialsPerPose", TEXT("Trials per pose"), TEXT("Parts that are simulated from each stable pose in a validation.")},
     {"validation.tolerance_deg", TEXT("Tolerance"), TEXT("How far from the expected orientation still counts as success.")},
 
-    {"feeder.highestSetPoint", TEXT("Highest set-point"), TEXT("What the drive of the real feeder is told at most, as a share of its full set-point.")},
-    {"feeder.rampPerSecond", TEXT("Ramp"), TEXT("How quickly its set-point rises and falls, as a share of full per second; a stop knows no ramp.")},
+    {"feeder.highestSetPoint", TEXT("Highest set-point"), TEXT("The highest set-point that the drive of the real feeder is given, as a share of full.")},
+    {"feeder.rampPerSecond", TEXT("Ramp"), TEXT("How quickly its set-point rises and falls, as a share of full per second; a stop is at once.")},
 };
 // clang-format on
 #undef TEXT

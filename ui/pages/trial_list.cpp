@@ -121,7 +121,7 @@ QWidget* TrialList::makeFoot() {
     ghosts_->setToolTip(
         tr("How many of the next trials of the list are shown at once, in the colours of how they end"));
     connect(ghosts_, &QSpinBox::valueChanged, this, &TrialList::chosenChanged);
-    auto* label = new QLabel(tr("Next ones as &ghosts"), foot);
+    auto* label = new QLabel(tr("Next trials as &ghosts"), foot);
     label->setBuddy(ghosts_);
     auto* row = new QHBoxLayout;
     row->addWidget(label, 1);
