@@ -48,12 +48,19 @@ checkBareRoot() {
 
 # Runs a command where it may mount without anybody else seeing it, and whose processes end with it.
 inBareRootNamespace() {
-    local namespace=(unshare --mount --propagation private --pid --fork --kill-child)
-    if ((EUID != 0)); then
-        mmdebstrap --unshare-helper "${namespace[@]}" "$@"
-    else
+    local namespace=(unshare --mount --propagation private --pid --fork --kill-child) status code=125
+    if ((EUID == 0)); then
         "${namespace[@]}" "$@"
+        return
     fi
+    # The helper keeps the exit status of what it ran to itself.
+    status=$(mktemp)
+    chmod 666 "$status"
+    mmdebstrap --unshare-helper "${namespace[@]}" sh -c 'status=$1; shift; "$@"; echo $? > "$status"' \
+        sh "$status" "$@" || true
+    read -r code < "$status" || true
+    rm -f "$status"
+    return "$code"
 }
 
 # makeBareRoot FOLDER [PACKAGE...]: the smallest Debian that has apt, and these packages.
@@ -89,7 +96,9 @@ runInBareRoot() {
         folder=$1
         shift
         mount -t proc proc "$folder/proc" && mount --rbind /dev "$folder/dev" || exit 125
-        cd / && exec /usr/sbin/chroot "$folder" sh -c "cd /root && exec \"\$@\"" sh env -i "$@"' \
+        # Not by exec: the command must not be process 1, which programs such as X servers send no signals to.
+        cd / && /usr/sbin/chroot "$folder" sh -c "cd /root && exec \"\$@\"" sh env -i "$@"
+        exit $?' \
         sh "$folder" "${environment[@]}" "$@"
 }
 
