@@ -39,5 +39,6 @@ void addVerifyCommand(CLI::App& program, Invocation& invocation);
 void addBenchCommand(CLI::App& program, Invocation& invocation);
 void addDemoCommand(CLI::App& program, Invocation& invocation);
 void addDumpCommand(CLI::App& program, Invocation& invocation);
+void addCompletionCommand(CLI::App& program, Invocation& invocation);
 
 }  // namespace trapwright::app

@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/trapwright/command.h"
-#include "app/trapwright/program.h"
+#include "app/trapwright/command_line.h"
 
 namespace {
 
@@ -29,25 +28,15 @@ Attempt<ExitCode> perform(const CommandAction& action, const Console& console) {
 
 ExitCode runProgram(int count, char** arguments) {
     CLI::App program("Designs tracks for vibratory part feeders.", "trapwright");
-    program.footer(std::string("COMMAND --help tells its options and shows an example.\n") + kExitCodesText);
-    program.set_version_flag("--version", std::string(kProgram));
-    program.require_subcommand(1);
-    program.failure_message(CLI::FailureMessage::simple);
-
     Invocation invocation;
-    for (const auto add :
-         {addPartCommand, addNewCommand, addSettingsCommand, addEvolveCommand, addSelectCommand,
-          addValidateCommand, addPhysicalCommand, addExportCommand, addReplayCommand, addTrackCommand,
-          addSweepCommand, addVerifyCommand, addBenchCommand, addDemoCommand, addDumpCommand}) {
-        add(program, invocation);
-    }
+    buildCommandLine(program, invocation);
     try {
         program.parse(count, arguments);
     } catch (const CLI::Success& helpOrVersion) {
         return static_cast<ExitCode>(program.exit(helpOrVersion));
     } catch (const CLI::ParseError& error) {
         return Console(asksForJson(count, arguments))
-            .fail({ExitCode::usage, std::string(error.what()) + ". See trapwright --help."});
+            .fail({ExitCode::usage, explainParseError(program, error)});
     }
 
     const Console console(invocation.json);

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/spelling.h"
 #include "core/study/json_leaves.h"
+#include "core/study/setting_keys.h"
 #include "core/study/settings.h"
 #include "core/study/settings_fields.h"
 
@@ -84,6 +86,34 @@ class SettingsWriter {
     bool first_ = true;
 };
 
+/// Collects the keys and what can be chosen.
+class KeyCollector {
+ public:
+    void text(std::string_view key, const std::string&) { add(key); }
+    void number(const NumberField& field, double) { add(field.key); }
+    void count(const CountField& field, int) { add(field.key); }
+    void seed(std::string_view key, std::uint64_t) { add(key); }
+    void flag(std::string_view key, bool) { add(key, {"true", "false"}); }
+    template <class Enum, std::size_t N>
+    void choice(std::string_view key, Enum, const Choices<Enum, N>& choices) {
+        std::vector<std::string> names;
+        names.reserve(N);
+        for (const auto& [name, value] : choices)
+            names.emplace_back(name);
+        add(key, std::move(names));
+    }
+    void rotation(std::string_view key, const std::optional<base::Quaternion>&) { add(key); }
+
+    std::vector<SettingKey> finish() { return std::move(keys_); }
+
+ private:
+    void add(std::string_view key, std::vector<std::string> values = {}) {
+        keys_.push_back({std::string(key), std::move(values)});
+    }
+
+    std::vector<SettingKey> keys_;
+};
+
 /// Fills the fields whose keys are there; keeps the first thing that is wrong.
 class SettingsReader {
  public:
@@ -150,8 +180,12 @@ class SettingsReader {
     /// What was wrong, if anything.
     [[nodiscard]] std::string problem() const {
         if (!problem_.empty() || leaves_.empty()) return problem_;
-        return "\"" + leaves_.begin()->first +
-               "\" is not a setting; check its spelling, its unit and its place";
+        const std::string& unknown = leaves_.begin()->first;
+        std::vector<std::string> names;
+        for (SettingKey& known : listSettingKeys())
+            names.push_back(std::move(known.key));
+        return "\"" + unknown + "\" is not a setting; check its spelling, its unit and its place. " +
+               base::suggestName(unknown, names);
     }
 
  private:
@@ -205,9 +239,17 @@ base::Result<Settings> settingsFromJson(const std::string& text, const Settings&
     Settings settings = base;
     SettingsReader reader(std::move(leaves).value());
     visitFields(reader, settings);
-    const std::string problem = reader.problem();
-    if (!problem.empty()) return base::Error{"The settings cannot be read: " + problem + "."};
-    return settings;
+    std::string problem = reader.problem();
+    if (problem.empty()) return settings;
+    if (problem.back() != '.' && problem.back() != '?') problem += '.';
+    return base::Error{"The settings cannot be read: " + problem};
+}
+
+std::vector<SettingKey> listSettingKeys() {
+    KeyCollector collector;
+    const Settings settings;
+    visitFields(collector, settings);
+    return collector.finish();
 }
 
 }  // namespace trapwright::study

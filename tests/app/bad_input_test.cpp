@@ -74,6 +74,21 @@ class BadInputTest : public QObject {
         QTest::newRow("part: density and material")
             << QStringList{"part", "cuboid", "--material", "ABS", "--density", "3"} << 2 << "excludes";
 
+        // What there is not is named, with the nearest that there is.
+        QTest::newRow("command: unknown")
+            << QStringList{"frobnicate"} << 2 << "no command \"frobnicate\". The nearest is \"validate\"";
+        QTest::newRow("command: misspelt")
+            << QStringList{"evovle", "x.trap"} << 2 << "no command \"evovle\". Did you mean \"evolve\"?";
+        QTest::newRow("command: none") << QStringList{} << 2 << "There are part, new,";
+        QTest::newRow("option: misspelt")
+            << QStringList{"part", "cuboid", "--densty", "3"} << 2
+            << "`trapwright part` has no option --densty. Did you mean \"--density\"?";
+        QTest::newRow("option: misspelt, with =")
+            << QStringList{"demo", "--ot=x"} << 2 << "Did you mean \"--out\"?";
+        QTest::newRow("setting: misspelt")
+            << QStringList{"new", "x.trap", "--preset", "cuboid", "--set", "track.segmentWdth_mm=5"} << 2
+            << "Did you mean \"track.segmentWidth_mm\"?";
+
         QTest::newRow("study: missing")
             << QStringList{"settings", "missing.trap"} << 3 << "no study at missing.trap";
         QTest::newRow("study: garbage")

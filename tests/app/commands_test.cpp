@@ -36,6 +36,17 @@ class CommandsTest : public QObject {
                      ran.output.contains("Example:\n  trapwright " + command.toUtf8()),
                  ran.all());
         QVERIFY(ask({"--help"}).output.contains("  " + command.toUtf8() + " "));
+        // In lines that a terminal holds, and in words instead of the parser's types.
+        for (const QByteArray& line : ran.output.split('\n'))
+            QVERIFY2(line.size() <= 100 || line.startsWith("  trapwright "), line);
+        for (const char* type : {"TEXT", "FLOAT", "INT", "REQUIRED", "Excludes", "Needs", "\n\n\n"})
+            QVERIFY2(!ran.output.contains(type), type);
+    }
+
+    void version() {
+        const Ran ran = ask({"--version"});
+        QCOMPARE(ran.code, 0);
+        QCOMPARE(ran.output, QByteArray("trapwright " TRAPWRIGHT_VERSION "\n"));
     }
 
     /// A homogeneous box: volume, mass and moments of inertia in closed form.

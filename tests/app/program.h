@@ -48,6 +48,18 @@ inline Ran run(const QString& folder, const QStringList& arguments) {
     return finish(*start(folder, arguments));
 }
 
+/// The commands that the program's --help lists.
+inline QStringList listCommands() {
+    const QString help = QString::fromUtf8(run(".", {"--help"}).output);
+    QStringList names;
+    for (const QString& line :
+         help.mid(help.indexOf("\nCommands:\n") + 11).section("\n\n", 0, 0).split('\n')) {
+        // The texts of a command go on further to the right.
+        if (line.startsWith("  ") && !line.startsWith("   ")) names << line.section(' ', 2, 2);
+    }
+    return names;
+}
+
 /// The same where no file can grow past `bytes`, as on a disk that is full.
 inline Ran runOnFullDisk(const QString& folder, const QStringList& arguments, rlim_t bytes) {
     QProcess process;

@@ -1,0 +1,108 @@
+#include "app/trapwright/option_values.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "app/trapwright/engines.h"
+#include "core/part/bundled.h"
+#include "core/part/import.h"
+#include "core/part/materials.h"
+#include "core/part/units.h"
+#include "core/study/presets.h"
+
+namespace trapwright::app {
+
+namespace {
+
+using Paths = ValueKind::Paths;
+
+/// What an option takes, in one command or, where none is named, in all of them.
+struct Use {
+    std::string_view command;
+    std::string_view option;
+    std::string_view type;
+};
+
+constexpr std::array<Use, 18> kUses = {{
+    {"", "STUDY", "STUDY"},
+    {"dump", "--compare", "STUDY"},
+    {"part", "FILE", "PART"},
+    {"", "--part", "PART"},
+    {"track", "FILE", "TRACK"},
+    {"", "--settings", "JSON"},
+    {"export", "FILE", "FILE"},
+    {"replay", "--out", "FILE"},
+    {"demo", "--out", "FOLDER"},
+    {"", "--preset", "PRESET"},
+    {"", "--contact", "PAIR"},
+    {"", "--engine", "ENGINE"},
+    {"", "--material", "MATERIAL"},
+    {"", "--units", "UNIT"},
+    {"", "--set", kSettingType},
+    // What nobody can complete, but what has a better name than TEXT.
+    {"verify", "--case", "NAME"},
+    {"bench", "--scene", "NAME"},
+    {"replay", "--kind", "KIND"},
+}};
+
+template <class Range, class Projection>
+std::vector<std::string> collectNames(const Range& range, Projection name) {
+    std::vector<std::string> names;
+    for (const auto& one : range)
+        names.emplace_back(name(one));
+    return names;
+}
+
+std::vector<std::string> studyEngineNames() {
+    std::vector<std::string> names = engineNames();
+    names.emplace_back("hybrid");  // stands for two (work::engineFor)
+    return names;
+}
+
+std::vector<std::string> partExtensions() {
+    std::vector<std::string> extensions = part::supportedExtensions();
+    for (std::string& extension : extensions)
+        extension.erase(0, 1);
+    return extensions;
+}
+
+}  // namespace
+
+std::vector<ValueKind> listValueKinds() {
+    return {
+        {"STUDY", {}, Paths::files, {"trap"}},
+        {"PART",
+         collectNames(part::listBundledParts(), [](const part::BundledPart& part) { return part.name; }),
+         Paths::files, partExtensions()},
+        {"TRACK", {}, Paths::files, {"json"}},
+        {"JSON", {}, Paths::files, {"json"}},
+        {"FILE", {}, Paths::files, {}},
+        {"FOLDER", {}, Paths::folders, {}},
+        {"PRESET", collectNames(study::presetNames(), [](std::string_view name) { return name; })},
+        {"PAIR", collectNames(study::contactPresets(), [](const auto& pair) { return pair.name; })},
+        {"ENGINE", studyEngineNames()},
+        {"MATERIAL", collectNames(part::listMaterials(), [](const auto& material) { return material.name; })},
+        {"UNIT", {"um", "mm", "cm", "m", "inch", "ft"}},
+        {"KIND", {"learning", "selection", "validation"}},
+    };
+}
+
+std::optional<std::string> findValueType(const CLI::App& command, const CLI::Option& option) {
+    const std::string name = option.get_name();
+    const auto found = std::ranges::find_if(kUses, [&](const Use& use) {
+        return use.option == name && (use.command.empty() || use.command == command.get_name());
+    });
+    if (found == kUses.end()) return std::nullopt;
+    return std::string(found->type);
+}
+
+void nameValueTypes(CLI::App& program) {
+    for (CLI::App* command : program.get_subcommands({})) {
+        for (CLI::Option* option : command->get_options()) {
+            if (const auto type = findValueType(*command, *option)) option->type_name(*type);
+        }
+    }
+}
+
+}  // namespace trapwright::app
