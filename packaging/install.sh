@@ -22,15 +22,19 @@ packages=(
     qt6-serialbus-dev qt6-serialport-dev
     # tests, those with windows on a screen of their own; a Modbus device and client of somebody else
     python3-pymodbus python3-serial python3-serial-asyncio xauth xvfb
-    # bare systems to try the first command in (try_bare.sh)
+    # bare systems to try the first command in (try_bare.sh, try_debs.sh)
     mmdebstrap uidmap
+    # what packages have beside the programs, and what looks at it: manual pages, completions, desktop metadata
+    appstream bash-completion desktop-file-utils help2man zsh
 )
+# for making Debian packages and looking at them
+debs=(file librsvg2-bin lintian)
 # other simulators that tests/peers measures against
 peers=(libmujoco-dev libode-dev)
 
 usage() {
     cat <<USAGE
-Usage: packaging/install.sh [--peers] [--list]
+Usage: packaging/install.sh [--debs] [--peers] [--list]
 
 Installs, as root or through sudo, the Debian 12 packages that Trapwright is built, run and tested with.
 Does nothing when all of them are there. The packages:
@@ -38,6 +42,7 @@ Does nothing when all of them are there. The packages:
 $(printf '%s\n' "${packages[@]}" | sort | fmt -w 100)
 
   --list       prints the names of the packages, one a line, and installs nothing
+  --debs       also those for making Debian packages: ${debs[*]}
   --peers      also those for the comparison with other simulators (tests/peers): ${peers[*]}
   -h, --help   this text
 USAGE
@@ -56,6 +61,7 @@ for argument in "$@"; do
             exit 0
             ;;
         --list) list=true ;;
+        --debs) packages+=("${debs[@]}") ;;
         --peers) packages+=("${peers[@]}") ;;
         *) fail "unknown option '$argument'. See packaging/install.sh --help." ;;
     esac
