@@ -204,7 +204,6 @@ caches='^/(etc/ld\.so\.cache|etc/(passwd|shadow|group|gshadow)-|var/cache/(ldcon
 
 compareFiles() {
     local left
-    diff "$1" "$2" | grep '^[<>]' || true
     left=$(comm -13 "$1" "$2" | grep -Ev "$caches" || true)
     if [[ -n $left ]]; then
         echo "Left behind:"

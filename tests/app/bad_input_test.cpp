@@ -79,7 +79,6 @@ class BadInputTest : public QObject {
             << QStringList{"frobnicate"} << 2 << "no command \"frobnicate\". The nearest is \"validate\"";
         QTest::newRow("command: misspelt")
             << QStringList{"evovle", "x.trap"} << 2 << "no command \"evovle\". Did you mean \"evolve\"?";
-        QTest::newRow("command: none") << QStringList{} << 2 << "There are part, new,";
         QTest::newRow("option: misspelt")
             << QStringList{"part", "cuboid", "--densty", "3"} << 2
             << "`trapwright part` has no option --densty. Did you mean \"--density\"?";

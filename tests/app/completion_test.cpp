@@ -119,19 +119,8 @@ class CompletionTest : public QObject {
     }
 
     [[nodiscard]] QStringList completeInBash(const QString& line) const {
-        // As readline hands it over: '=' begins a word of its own.
-        return shell("bash", {"--norc", "-c", R"(
-            source /usr/share/bash-completion/bash_completion
-            source functions/trapwright.bash
-            compopt() { :; }
-            COMP_LINE=$1
-            COMP_POINT=${#1}
-            read -ra COMP_WORDS <<< "${1//=/ = }"
-            [[ $1 == *[\ =] ]] && COMP_WORDS+=('')
-            COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
-            _trapwright
-            printf '%s\n' "${COMPREPLY[@]}")",
-                              "bash", line});
+        return shell("bash", {"--norc", TRAPWRIGHT_SOURCE_DIR "/tests/app/capture_completion.bash",
+                              folder_.filePath("functions/trapwright.bash"), line});
     }
 
     [[nodiscard]] QStringList completeInZsh(const QString& line) const {

@@ -54,9 +54,9 @@ class SpellingTest : public QObject {
     }
 
     void suggestion() {
-        const std::array<std::string, 3> names = {"evolve", "export", "replay"};
+        const std::array<std::string, 3> names = {"evolve", "export", "validate"};
         QCOMPARE(suggestName("evovle", names), std::string("Did you mean \"evolve\"?"));
-        QCOMPARE(suggestName("frobnicate", names), std::string("The nearest is \"export\"."));
+        QCOMPARE(suggestName("frobnicate", names), std::string("The nearest is \"validate\"."));
         QCOMPARE(suggestName("evovle", {}), std::string());
     }
 };
