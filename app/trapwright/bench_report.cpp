@@ -34,7 +34,7 @@ std::string benchHeader(const bench::Plan& plan) {
                "{} trials a scene, median of {} repeats in turns, one thread, CPU time of the process\n",
                plan.trials, plan.repeats) +
            fmt::format(kColumns, "Scene", "Engine", "Step ms", "Trials/s core", "us/step", "Steps",
-                       "To the first", "Finished", "Oriented", "Detection, law, integration");
+                       "To the first", "Finished", "Success", "Detection, law, integration");
 }
 
 std::string benchRow(const std::string& scene, const bench::Measurement& measured) {

@@ -54,8 +54,8 @@ study::Settings settingsFor(const Options& options, const track::Track& track) {
 
 std::string describeShare(const char* what, int count, int trials) {
     const stats::Interval bounds = stats::calcClopperPearson(count, trials);
-    return fmt::format("{:<10} {:>6} of {}   {:5.1f} %   95 % bounds {:5.1f} ... {:5.1f} %\n", what, count,
-                       trials, 100.0 * count / trials, 100.0 * bounds.low, 100.0 * bounds.high);
+    return fmt::format("{:<10} {:>6} of {}   {:5.1f} %   95 % Clopper-Pearson {:5.1f} ... {:5.1f} %\n", what,
+                       count, trials, 100.0 * count / trials, 100.0 * bounds.low, 100.0 * bounds.high);
 }
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
@@ -89,8 +89,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   describeShare("Finished", counts.finished, counts.trials) +
                   describeShare("Fell off", counts.fellOff, counts.trials) +
                   describeShare("Stuck", counts.stuck, counts.trials) +
-                  describeShare("Oriented", counts.oriented, counts.trials) +
-                  fmt::format("Oriented: finished within {:g} deg of {}.\n", options.tolerance,
+                  describeShare("Success", counts.oriented, counts.trials) +
+                  fmt::format("Success: finished within {:g} deg of {}.\n", options.tolerance,
                               file->expectedOrientation ? "the orientation that the file expects"
                                                         : "the most frequent final orientation"));
     console.emit({{"track", options.file},

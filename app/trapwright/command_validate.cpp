@@ -61,11 +61,11 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addValidateCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(
-        program, invocation, "validate",
-        "Success of one track per stable pose of the part: trials T, failures F, success P with 95 % bounds.",
-        "trapwright validate cuboid.trap --trials 1000",
-        [options](const Console& console) { return run(*options, console); });
+    CLI::App& command = addCommand(program, invocation, "validate",
+                                   "Success of one track per stable pose of the part: trials T, failures F, "
+                                   "success P with its 95 % Clopper-Pearson bounds.",
+                                   "trapwright validate cuboid.trap --trials 1000",
+                                   [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();
     addIndividualOptions(command, options->choice);
     command.add_option("--trials", options->trials, "Trials per stable pose (default: as in the study)");

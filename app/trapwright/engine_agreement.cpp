@@ -31,9 +31,9 @@ std::string formatTable(const std::vector<verify::Agreement>& table, int trials)
     constexpr const char* kRow = "{:<8} {:<8} {:<8} {:<22} {:>8} {:<22} {:>8} {:>8} {:>7} {:>8}  {:<5} {}\n";
     std::string text = fmt::format(
         "\nNative against Simbody: {} trials of each part on each track, the same starts in both; shares in "
-        "% with 95 % bounds\n",
+        "% with 95 % Clopper-Pearson bounds\n",
         trials);
-    text += fmt::format(fmt::runtime(kRow), "Part", "Track", "Engine", "finished", "p", "oriented", "p",
+    text += fmt::format(fmt::runtime(kRow), "Part", "Track", "Engine", "finished", "p", "success", "p",
                         "median s", "KS D", "KS p", "alone", "Verdict");
     for (const verify::Agreement& row : table) {
         text += fmt::format(fmt::runtime(kRow), row.part, row.track, "native",

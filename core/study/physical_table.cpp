@@ -43,8 +43,7 @@ void add(SuccessCount& sum, const SuccessCount& count) {
 }
 
 void setBounds(SuccessCount& count) {
-    count.wilson = stats::calcWilson(count.successes(), count.trials);
-    count.clopperPearson = stats::calcClopperPearson(count.successes(), count.trials);
+    count.bounds = stats::calcClopperPearson(count.successes(), count.trials);
 }
 
 stats::RatePair pairOf(const PhysicalRow& row) {
@@ -138,10 +137,10 @@ std::string describe(const PhysicalTable& table) {
     if (total.physical.trials == 0) return "No part has been placed on the feeder yet.";
     const bool trained = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
     const std::string feeder =
-        fmt::format("{} of {} parts were oriented on the {} ({}; 95 % bounds {:.1f} to {:.1f} %).",
+        fmt::format("{} of {} parts succeeded on the {} ({}; 95 % Clopper-Pearson {:.1f} to {:.1f} %).",
                     total.physical.successes(), total.physical.trials, trained ? "virtual feeder" : "feeder",
-                    shareText(total.physical), kPercent * total.physical.clopperPearson.low,
-                    kPercent * total.physical.clopperPearson.high);
+                    shareText(total.physical), kPercent * total.physical.bounds.low,
+                    kPercent * total.physical.bounds.high);
     if (!total.p)
         return feeder + " This track has not been validated in simulation, so there is nothing to compare.";
 
@@ -164,12 +163,11 @@ std::string describe(const PhysicalTable& table) {
         probabilityText(*total.p), where);
 }
 
-/// "1000      10   99.0 %    98.2 ...  99.5 %"
+/// "1000      10   99.0 %       98.2 ...  99.5 %"
 std::string sideText(const SuccessCount& count) {
-    if (count.trials == 0) return fmt::format("{:>6} {:>5} {:>8}   {:>17}", 0, 0, "-", "-");
-    return fmt::format("{:>6} {:>5} {:>8}   {:>5.1f} ... {:>5.1f} %", count.trials, count.failures,
-                       shareText(count), kPercent * count.clopperPearson.low,
-                       kPercent * count.clopperPearson.high);
+    if (count.trials == 0) return fmt::format("{:>6} {:>5} {:>8}   {:>20}", 0, 0, "-", "-");
+    return fmt::format("{:>6} {:>5} {:>8}   {:>8.1f} ... {:>5.1f} %", count.trials, count.failures,
+                       shareText(count), kPercent * count.bounds.low, kPercent * count.bounds.high);
 }
 
 void appendText(std::string& text, const std::string& name, const PhysicalRow& row) {
@@ -180,18 +178,17 @@ void appendText(std::string& text, const std::string& name, const PhysicalRow& r
 }
 
 std::string sideCsv(const SuccessCount& count) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{}", count.trials, count.failures,
+    return fmt::format("{},{},{},{},{},{},{},{}", count.trials, count.failures,
                        count.trials > 0 ? fmt::format("{}", kPercent * count.successes() / count.trials) : "",
-                       count.wrongOrientation, count.stuck, count.fellOff, kPercent * count.wilson.low,
-                       kPercent * count.wilson.high, kPercent * count.clopperPearson.low,
-                       kPercent * count.clopperPearson.high);
+                       count.wrongOrientation, count.stuck, count.fellOff, kPercent * count.bounds.low,
+                       kPercent * count.bounds.high);
 }
 
 std::string sideHeadings(const char* side) {
     std::string text;
-    for (const char* heading : {"trials", "failures", "success_percent", "wrong_orientation", "stuck",
-                                "fell_off", "wilson_low_percent", "wilson_high_percent",
-                                "clopper_pearson_low_percent", "clopper_pearson_high_percent"})
+    for (const char* heading :
+         {"trials", "failures", "success_percent", "wrong_orientation", "stuck", "fell_off",
+          "clopper_pearson_95_low_percent", "clopper_pearson_95_high_percent"})
         text += fmt::format(",{}_{}", side, heading);
     return text;
 }
@@ -249,11 +246,12 @@ std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> v
 
 std::string formatPhysical(const PhysicalTable& table) {
     std::string text = table.notice.empty() ? "" : table.notice + "\n";
-    text += fmt::format("{:<5} {:^41}   {:^41}   {:^23}\n", "", "Simulation", "Physical", "failed");
+    text += fmt::format("{:<5} {:^44}   {:^44}   {:^23}\n", "", "Simulation", "Physical", "failed");
     fmt::format_to(
         std::back_inserter(text),
-        "{:<5} {:>6} {:>5} {:>8}   {:>17}   {:>6} {:>5} {:>8}   {:>17}   {:>6} {:>6} {:>9}   {:>6}\n", "Pose",
-        "T", "F", "P", "95 % bounds", "T", "F", "P", "95 % bounds", "wrong", "stuck", "fell off", "p");
+        "{:<5} {:>6} {:>5} {:>8}   {:>20}   {:>6} {:>5} {:>8}   {:>20}   {:>6} {:>6} {:>9}   {:>6}\n", "Pose",
+        "T", "F", "P", "95 % Clopper-Pearson", "T", "F", "P", "95 % Clopper-Pearson", "wrong", "stuck",
+        "fell off", "p");
     for (const PhysicalRow& row : table.rows)
         appendText(text, std::to_string(row.pose + 1), row);
     appendText(text, "Total", table.total);

@@ -18,8 +18,7 @@ struct SuccessCount {
     int wrongOrientation = 0;
     int stuck = 0;
     int fellOff = 0;
-    stats::Interval wilson;          // 95 %; while counting
-    stats::Interval clopperPearson;  // 95 %; for the report
+    stats::Interval bounds;  // 95 %, Clopper and Pearson's
 
     [[nodiscard]] int successes() const { return trials - failures; }
 };

@@ -15,9 +15,9 @@ constexpr double kPercent = 100.0;
 
 /// "99.4 %   98.7 ... 99.8 %"
 std::string shareText(int successes, int trials) {
-    if (trials == 0) return fmt::format("{:>7}   {:>17}", "-", "-");
+    if (trials == 0) return fmt::format("{:>7}   {:>20}", "-", "-");
     const stats::Interval bounds = stats::calcClopperPearson(successes, trials);
-    return fmt::format("{:5.1f} %   {:5.1f} ... {:5.1f} %", kPercent * successes / trials,
+    return fmt::format("{:5.1f} %   {:>8.1f} ... {:5.1f} %", kPercent * successes / trials,
                        kPercent * bounds.low, kPercent * bounds.high);
 }
 
@@ -30,8 +30,8 @@ void appendRow(std::string& text, const std::string& name, const ValidationRow& 
 }  // namespace
 
 std::string formatValidation(const ValidationRecord& record) {
-    std::string text = fmt::format("{:<5} {:>7} {:>7}   {:>7}   {:>17}   {:>6} {:>6} {:>9}\n", "Pose", "T",
-                                   "F", "P", "95 % bounds", "wrong", "stuck", "fell off");
+    std::string text = fmt::format("{:<5} {:>7} {:>7}   {:>7}   {:>20}   {:>6} {:>6} {:>9}\n", "Pose", "T",
+                                   "F", "P", "95 % Clopper-Pearson", "wrong", "stuck", "fell off");
     for (const ValidationRow& row : record.rows)
         appendRow(text, std::to_string(row.pose + 1), row);
     appendRow(text, "Total", calcTotal(record));
@@ -40,8 +40,8 @@ std::string formatValidation(const ValidationRecord& record) {
 
 std::string formatSelection(const SelectionRecord& record) {
     std::string text =
-        fmt::format("{:>4} {:>10} {:>10} {:>8} {:>8} {:>9} {:>7}   {:>7}   {:>17}\n", "Rank", "Generation",
-                    "Individual", "F_D", "F_O", "Finished", "Trials", "Success", "95 % bounds");
+        fmt::format("{:>4} {:>10} {:>10} {:>8} {:>8} {:>9} {:>7}   {:>7}   {:>20}\n", "Rank", "Generation",
+                    "Individual", "F_D", "F_O", "Finished", "Trials", "Success", "95 % Clopper-Pearson");
     int rank = 0;
     for (const SelectionEntry& entry : record.entries) {
         fmt::format_to(std::back_inserter(text), "{:>4} {:>10} {:>10} {:>8.3f} {:>8.3f} {:>9} {:>7}   {}\n",

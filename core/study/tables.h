@@ -7,7 +7,7 @@
 namespace trapwright::study {
 
 /// The paper's Tables 2 and 3 as text: per stable pose (counted from 1, as there) T, F and P in percent, the
-/// 95 % bounds of P (Clopper and Pearson's, never narrower than stated), and how the failed ones failed; last
+/// 95 % bounds of P, and how the failed ones failed; last
 /// the total.
 std::string formatValidation(const ValidationRecord& record);
 

@@ -84,7 +84,7 @@ JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::S
     for (const trial::Outcome& outcome : outcomes) {
         if (outcome.ending == trial::Ending::finished) {
             judged.verdicts.push_back(study::isOriented(outcome, judged.expected, symmetry, tolerance)
-                                          ? TrialVerdict::finished
+                                          ? TrialVerdict::success
                                           : TrialVerdict::wrongOrientation);
         } else {
             judged.verdicts.push_back(outcome.ending == trial::Ending::fellOff ? TrialVerdict::fellOff

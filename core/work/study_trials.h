@@ -46,7 +46,7 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
                                            const TrialsRequest& request, const StoredTrials& stored);
 
 /// How a trial is counted. One that ran out of time is stuck.
-enum class TrialVerdict { finished, wrongOrientation, stuck, fellOff };
+enum class TrialVerdict { success, wrongOrientation, stuck, fellOff };
 
 /// Trials and how each is counted.
 struct JudgedTrials {

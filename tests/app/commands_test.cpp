@@ -300,7 +300,7 @@ class CommandsTest : public QObject {
         QVERIFY2(ran.code == 0, ran.all());
         for (const char* file : {"cuboid.trap", "cuboid.stl", "cuboid.3mf"})
             QVERIFY2(QFileInfo(folder_.filePath("demo/" + QString(file))).size() > 0, file);
-        QVERIFY2(ran.output.contains("95 % bounds"), ran.all());
+        QVERIFY2(ran.output.contains("95 % Clopper-Pearson"), ran.all());
         const Ran again = ask(arguments);
         QVERIFY2(again.code == 0, again.all());
         QCOMPARE(ask({"dump", "demo/cuboid.trap"}).output.count('\n'), 8);

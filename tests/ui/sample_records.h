@@ -12,6 +12,8 @@ inline study::GenerationSummary summary(int index, double orientation = 0.5) {
     made.statistics.best = {-2.0, -0.25, orientation};
     made.statistics.topMean = {-4.0, -0.5, orientation / 2.0};
     made.statistics.topStrategy = {0.8, 0.01, 0.05};
+    made.statistics.success = stats::Count{17, 20};
+    made.statistics.topSuccess = 0.5;
     made.seconds = 2.0;
     return made;
 }

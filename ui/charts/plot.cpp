@@ -4,14 +4,12 @@
 #include <QCategoryAxis>
 #include <QChart>
 #include <QGraphicsLayout>
-#include <QLineSeries>
 #include <QMouseEvent>
 #include <QTextDocument>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
 
-#include "ui/charts/curve_style.h"
 #include "ui/charts/ticks.h"
 
 namespace trapwright::charts {
@@ -74,19 +72,8 @@ void Plot::setSheet(const PlotSheet& sheet) {
     sheet_ = sheet;
     xAxis_->setTitleText(sheet.xTitle);
     setAccessibleName(QString(sheet.yTitle).remove("<sub>").remove("</sub>"));
-    while (curves_.size() > sheet_.curves.size()) {
-        chart()->removeSeries(curves_.back().series);
-        delete curves_.back().series;
-        curves_.pop_back();
-    }
-    while (curves_.size() < sheet_.curves.size()) {
-        auto* series = new QLineSeries(chart());
-        chart()->addSeries(series);
-        series->attachAxis(xAxis_);
-        series->attachAxis(yAxis_);
-        curves_.push_back({{}, series, true});
-    }
-    updateSeries();
+    curves_.resize(sheet_.curves.size());
+    updateCurves();
     updateLimits();
     updateTitle();
     updateView();
@@ -107,13 +94,12 @@ void Plot::setTheme(const ChartTheme& theme) {
         axis->setLinePen(QPen(theme.axis, 1.0));
         axis->setGridLinePen(QPen(theme.grid, 1.0));
     }
-    updateSeries();
+    viewport()->update();
 }
 
 void Plot::setShown(std::vector<bool> shown) {
     for (std::size_t i = 0; i < curves_.size(); ++i)
         curves_[i].shown = i >= shown.size() || shown[i];
-    updateSeries();
     updateLimits();
     updateView();
 }
@@ -147,7 +133,6 @@ void Plot::setCursor(std::optional<double> x) {
 
 void Plot::setPicturing(bool picturing) {
     picturing_ = picturing;
-    updateSeries();
 }
 
 QPointF Plot::toWidget(const QPointF& value) const {
@@ -171,20 +156,23 @@ QPointF Plot::fromWidget(const QPointF& position) const {
             y_.low + (area.bottom() - position.y()) / area.height() * y_.size()};
 }
 
-void Plot::updateSeries() {
+void Plot::updateCurves() {
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         const Curve& curve = sheet_.curves[i];
         DrawnCurve& drawn = curves_[i];
-        drawn.points.clear();
-        for (const QPointF& point : curve.points) {
+        for (QPolygonF* line : {&drawn.points, &drawn.low, &drawn.high})
+            line->clear();
+        for (std::size_t at = 0; at < curve.points.size(); ++at) {
+            const QPointF& point = curve.points[at];
             const double y = toAxis(point.y());
-            if (std::isfinite(y)) drawn.points.append({point.x(), y});
+            if (!std::isfinite(y)) continue;
+            drawn.points.append({point.x(), y});
+            if (curve.band.empty()) continue;
+            drawn.low.append({point.x(), toAxis(curve.band[at].low)});
+            drawn.high.append({point.x(), toAxis(curve.band[at].high)});
         }
         // A level goes from edge to edge of the view.
         if (curve.level) drawn.points = {{x_.low, toAxis(*curve.level)}, {x_.high, toAxis(*curve.level)}};
-        drawn.series->replace(drawn.points);
-        drawn.series->setPen(curvePen(curve.style, theme_));
-        drawn.series->setVisible(drawn.shown && !picturing_);
     }
 }
 
@@ -196,8 +184,9 @@ void Plot::updateLimits() {
         for (const QPointF& point : sheet_.curves[i].points)
             x.add(point.x());
         if (!curves_[i].shown) continue;
-        for (const QPointF& point : curves_[i].points)
-            y.add(point.y());
+        for (const QPolygonF* line : {&curves_[i].points, &curves_[i].low, &curves_[i].high})
+            for (const QPointF& point : *line)
+                y.add(point.y());
     }
     for (const double value : sheet_.yIncluded)
         y.add(toAxis(value));
@@ -218,7 +207,6 @@ void Plot::updateView() {
         if (!sheet_.curves[i].level) continue;
         curves_[i].points.front().setX(x_.low);
         curves_[i].points.back().setX(x_.high);
-        curves_[i].series->replace(curves_[i].points);
     }
     updateTicks();
     viewport()->update();

@@ -10,7 +10,6 @@
 #include "ui/charts/view_range.h"
 
 class QCategoryAxis;
-class QLineSeries;
 
 namespace trapwright::charts {
 
@@ -41,7 +40,7 @@ class Plot : public QChartView {
     /// The values at the cursor, a line each.
     [[nodiscard]] QStringList readOff() const;
 
-    /// For a picture: no cursor, and curves that are cut to the plot without the painter's help.
+    /// For a picture: no cursor.
     void setPicturing(bool picturing);
 
     /// In the widget's coordinates. y is the value itself.
@@ -69,20 +68,31 @@ class Plot : public QChartView {
     /// A curve as it is drawn: y is log10 of the value on a logarithmic scale.
     struct DrawnCurve {
         QPolygonF points;
-        QLineSeries* series = nullptr;
+        QPolygonF low;  // of the band; slot i about points[i]
+        QPolygonF high;
         bool shown = true;
     };
 
     [[nodiscard]] double toAxis(double value) const;
     [[nodiscard]] QPointF fromWidget(const QPointF& position) const;
-    void updateSeries();
+    /// The points of a curve that belong together: from the first to the last, and no data are missing
+    /// between.
+    struct Piece {
+        qsizetype first = 0;
+        qsizetype last = 0;
+    };
+
+    [[nodiscard]] std::vector<Piece> piecesOf(const QPolygonF& points) const;
+    [[nodiscard]] QPointF placeOf(const QPointF& point) const;
+    void updateCurves();
     void updateLimits();
     void updateView();
     void updateTicks();
     void updateTitle();
     void paintMark(QPainter& painter) const;
-    void paintMarkers(QPainter& painter, std::size_t curve) const;
+    void paintBands(QPainter& painter) const;
     void paintCurves(QPainter& painter) const;
+    void paintMarkers(QPainter& painter, std::size_t curve) const;
     void moveCursorTo(const QPointF& position);
 
     PlotSheet sheet_;

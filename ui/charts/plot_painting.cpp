@@ -5,25 +5,14 @@
 #include "ui/charts/plot.h"
 #include "ui/charts/read_off.h"
 
-/// What a plot draws over its chart: markers, and the values under the cursor.
+/// What a plot draws over its chart: curves with their bands and markers, and the values under the cursor.
 namespace trapwright::charts {
 
 namespace {
 
-constexpr double kMarkerSpace = 70.0;  // between the markers of a curve
+constexpr double kMarkerSpace = 11.0;  // between neighbours of a curve where each has a marker
 constexpr double kSlack = 0.5;         // pixels that a point on the plot's edge may be outside
-
-/// The least of 1, 2, 5, 10 ... generations that are so many pixels apart.
-int strideFor(double pixelsPerUnit) {
-    int power = 1;
-    while (power < 1'000'000) {
-        for (const int factor : {1, 2, 5}) {
-            if (factor * power * pixelsPerUnit >= kMarkerSpace) return factor * power;
-        }
-        power *= 10;
-    }
-    return power;
-}
+constexpr float kBandOpacity = 0.16F;
 
 /// The value of a curve at x; nothing where it has no point.
 std::optional<double> valueAt(const Curve& curve, double x) {
@@ -35,10 +24,22 @@ std::optional<double> valueAt(const Curve& curve, double x) {
     return found->y();
 }
 
-QString valueText(std::optional<double> value, int decimals) {
+QString numberText(double value, int decimals) {
+    const bool nothing = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
+    return QString::number(nothing ? 0.0 : value, 'f', decimals);
+}
+
+/// "0.400", with a band "85.0 (62.1 … 96.8)".
+QString valueText(const Curve& curve, double x, int decimals) {
+    const std::optional<double> value = valueAt(curve, x);
     if (!value) return QStringLiteral("–");
-    const bool nothing = std::abs(*value) < 0.5 * std::pow(10.0, -decimals);
-    return QString::number(nothing ? 0.0 : *value, 'f', decimals);
+    const QString text = numberText(*value, decimals);
+    if (curve.band.empty()) return text;
+    const auto found = std::find_if(curve.points.begin(), curve.points.end(),
+                                    [x](const QPointF& point) { return point.x() == x; });
+    const stats::Interval& band = curve.band[static_cast<std::size_t>(found - curve.points.begin())];
+    return QStringLiteral("%1 (%2 … %3)")
+        .arg(text, numberText(band.low, decimals), numberText(band.high, decimals));
 }
 
 }  // namespace
@@ -49,8 +50,7 @@ QStringList Plot::readOff() const {
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         if (!curves_[i].shown) continue;
         const Curve& curve = sheet_.curves[i];
-        lines.append(
-            QStringLiteral("%1: %2").arg(curve.name, valueText(valueAt(curve, *cursor_), sheet_.decimals)));
+        lines.append(QStringLiteral("%1: %2").arg(curve.name, valueText(curve, *cursor_, sheet_.decimals)));
     }
     return lines;
 }
@@ -58,8 +58,9 @@ QStringList Plot::readOff() const {
 void Plot::drawForeground(QPainter* painter, const QRectF&) {
     painter->save();
     painter->setFont(font());
+    paintBands(*painter);
     paintMark(*painter);
-    if (picturing_) paintCurves(*painter);
+    paintCurves(*painter);
     for (std::size_t i = 0; i < curves_.size(); ++i)
         if (curves_[i].shown) paintMarkers(*painter, i);
     const bool reading = cursor_ && !picturing_ && !dragging_ && x_.contains(*cursor_);
@@ -72,7 +73,7 @@ void Plot::drawForeground(QPainter* painter, const QRectF&) {
             const bool drawn = value && std::isfinite(toAxis(*value));
             // A level has no point to be met.
             const QPointF place = drawn && !curve.level ? toWidget({*cursor_, *value}) : QPointF(-1e9, -1e9);
-            values.push_back({curve.style, curve.name, valueText(value, sheet_.decimals), place});
+            values.push_back({curve.style, curve.name, valueText(curve, *cursor_, sheet_.decimals), place});
         }
         paintReadOff(*painter, plotArea(), toWidget({*cursor_, 1.0}).x(),
                      QStringLiteral("%1 %2").arg(sheet_.xTitle).arg(*cursor_), values, theme_);
@@ -88,42 +89,87 @@ void Plot::paintMark(QPainter& painter) const {
     painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
 }
 
+QPointF Plot::placeOf(const QPointF& point) const {
+    const QRectF area = plotArea();
+    return {area.left() + (point.x() - x_.low) / x_.size() * area.width(),
+            area.bottom() - (point.y() - y_.low) / y_.size() * area.height()};
+}
+
+std::vector<Plot::Piece> Plot::piecesOf(const QPolygonF& points) const {
+    std::vector<Piece> pieces;
+    for (qsizetype i = 0; i < points.size(); ++i) {
+        const bool joined =
+            i > 0 && (sheet_.xStep <= 0.0 || points[i].x() - points[i - 1].x() < 1.5 * sheet_.xStep);
+        if (joined) {
+            pieces.back().last = i;
+        } else {
+            pieces.push_back({i, i});
+        }
+    }
+    return pieces;
+}
+
+/// Each point has a marker, or none has: markers here and there look as if data were missing between. A point
+/// without neighbours has one always, as no line shows it.
 void Plot::paintMarkers(QPainter& painter, std::size_t curve) const {
+    if (sheet_.curves[curve].level) return;
     const CurveStyle& style = sheet_.curves[curve].style;
     const QPolygonF& points = curves_[curve].points;
-    if (style.marker == Marker::none || points.isEmpty()) return;
     const QRectF area = plotArea();
     const QRectF inside = area.adjusted(-kSlack, -kSlack, kSlack, kSlack);
-    const int stride = strideFor(area.width() / x_.size());
-    // Each curve has its markers at other places, so that they do not hide each other.
-    const int offset = static_cast<int>(curve) * stride / static_cast<int>(curves_.size());
-    const auto place = [&](const QPointF& point) {
-        return QPointF(area.left() + (point.x() - x_.low) / x_.size() * area.width(),
-                       area.bottom() - (point.y() - y_.low) / y_.size() * area.height());
-    };
-    const QPointF last = place(points.back());
-    for (const QPointF& point : points) {
-        if (static_cast<int>(point.x()) % stride != offset) continue;
-        const QPointF centre = place(point);
-        if (inside.contains(centre) && last.x() - centre.x() > kMarkerSpace / 3.0)
-            paintMarker(painter, centre, style, theme_);
+    for (const Piece& piece : piecesOf(points)) {
+        const bool alone = piece.first == piece.last;
+        if (!alone) {
+            const double space = (placeOf(points[piece.last]).x() - placeOf(points[piece.first]).x()) /
+                                 static_cast<double>(piece.last - piece.first);
+            if (style.marker == Marker::none || space < kMarkerSpace) continue;
+        }
+        CurveStyle drawn = style;
+        if (drawn.marker == Marker::none) drawn.marker = Marker::circle;
+        for (qsizetype i = piece.first; i <= piece.last; ++i) {
+            const QPointF centre = placeOf(points[i]);
+            if (inside.contains(centre)) paintMarker(painter, centre, drawn, theme_);
+        }
     }
-    if (inside.contains(last)) paintMarker(painter, last, style, theme_);
+}
+
+/// Cut to the plot by our own arithmetic: QSvgGenerator of Qt 6.4 knows no clipping.
+void Plot::paintBands(QPainter& painter) const {
+    const QRectF area = plotArea();
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+        if (!curves_[i].shown || curves_[i].low.isEmpty()) continue;
+        QColor colour = theme_.series(sheet_.curves[i].style.colour, sheet_.curves[i].style.second);
+        colour.setAlphaF(kBandOpacity);
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(colour);
+        for (const Piece& piece : piecesOf(curves_[i].low)) {
+            QPolygonF outline;
+            for (qsizetype at = piece.first; at <= piece.last; ++at)
+                outline.append(placeOf(curves_[i].high[at]));
+            for (qsizetype at = piece.last; at >= piece.first; --at)
+                outline.append(placeOf(curves_[i].low[at]));
+            if (piece.first == piece.last) {  // a bar, as wide as its marker
+                outline = QRectF(outline[0] - QPointF(3.5, 0.0), outline[1] + QPointF(3.5, 0.0));
+                outline.removeLast();
+            }
+            painter.drawPolygon(area.contains(outline.boundingRect()) ? outline : outline.intersected(area));
+        }
+    }
 }
 
 void Plot::paintCurves(QPainter& painter) const {
     const QRectF area = plotArea();
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         if (!curves_[i].shown) continue;
-        QPolygonF line;
-        for (const QPointF& point : curves_[i].points) {
-            line.append({area.left() + (point.x() - x_.low) / x_.size() * area.width(),
-                         area.bottom() - (point.y() - y_.low) / y_.size() * area.height()});
-        }
         painter.setPen(curvePen(sheet_.curves[i].style, theme_));
         painter.setBrush(Qt::NoBrush);
-        for (const QPolygonF& piece : clipPolyline(line, area))
-            painter.drawPolyline(piece);
+        for (const Piece& piece : piecesOf(curves_[i].points)) {
+            QPolygonF line;
+            for (qsizetype at = piece.first; at <= piece.last; ++at)
+                line.append(placeOf(curves_[i].points[at]));
+            for (const QPolygonF& cut : clipPolyline(line, area))
+                painter.drawPolyline(cut);
+        }
     }
 }
 

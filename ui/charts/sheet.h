@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/stats/binomial.h"
 #include "ui/charts/chart_theme.h"
 
 /// What a chart shows, as values: made from a study's curves, drawn by a CurveChart.
@@ -30,8 +31,10 @@ struct Curve {
     QString column;    // in CSV, with the unit
     QStringList keys;  // shown while all legend entries with these keys are on
     CurveStyle style;
-    std::vector<QPointF> points;    // x rising; on a logarithmic scale only those with y > 0 are drawn
-    std::optional<double> level{};  // instead of points: a horizontal line
+    std::vector<QPointF> points;          // x rising; on a logarithmic scale only those with y > 0 are drawn
+    std::optional<double> level{};        // instead of points: a horizontal line
+    std::vector<stats::Interval> band{};  // slot i about points[i], drawn as an area; empty: none
+    QStringList bandColumns{};            // in CSV, of its low and its high end
 };
 
 /// A place on the x axis that means something.
@@ -50,6 +53,7 @@ struct PlotSheet {
     double leastHeight = 0.0;         // of the fitted y range; decades on a logarithmic scale
     std::vector<double> yIncluded{};  // always within the fitted y range
     double leastWidth = 10.0;         // of the fitted x range
+    double xStep = 0.0;  // between points that farther apart miss data between them; 0: they never do
     std::optional<XMark> mark{};
     std::vector<Curve> curves;
 };

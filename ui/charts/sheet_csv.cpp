@@ -19,6 +19,14 @@ QString toCsv(const ChartSheet& sheet) {
             for (const QPointF& point : curve.points)
                 lines[point.x()][column] = point.y();
             ++column;
+            if (curve.bandColumns.isEmpty()) continue;
+            for (const QString& title : curve.bandColumns)
+                heading.append(csvField(title));
+            for (std::size_t i = 0; i < curve.band.size(); ++i) {
+                lines[curve.points[i].x()][column] = curve.band[i].low;
+                lines[curve.points[i].x()][column + 1] = curve.band[i].high;
+            }
+            column += curve.bandColumns.size();
         }
     }
     // A level has the same value everywhere.
@@ -29,7 +37,7 @@ QString toCsv(const ChartSheet& sheet) {
                 for (auto& [x, fields] : lines)
                     fields[column] = *curve.level;
             }
-            ++column;
+            column += 1 + curve.bandColumns.size();
         }
     }
     QString text = heading.join(u',') + u'\n';

@@ -35,6 +35,12 @@ void StudyChart::update() {
     setSheet(make_(studies_));
 }
 
+SuccessChart::SuccessChart(QWidget* parent) : StudyChart("success", tr("Success"), &successSheet, parent) {
+    setEmptyText(tr(
+        "The learning curve begins when the first generation is complete. Generations that were learned by a "
+        "program that did not count success have none."));
+}
+
 FitnessChart::FitnessChart(QWidget* parent) : StudyChart("fitness", tr("Fitness"), &fitnessSheet, parent) {
     setEmptyText(tr("The learning curves begin when the first generation is complete."));
 }

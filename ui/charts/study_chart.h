@@ -31,6 +31,13 @@ class StudyChart : public CurveChart {
     std::vector<StudyCurves> studies_;
 };
 
+/// Success of each generation's winner with its bounds, and the mean of the top 30 %.
+class SuccessChart : public StudyChart {
+    Q_OBJECT
+ public:
+    explicit SuccessChart(QWidget* parent = nullptr);
+};
+
 /// F_C, F_D and F_O in a plot each: best, mean of the top 30 %, best attainable (paper, Figure 6).
 class FitnessChart : public StudyChart {
     Q_OBJECT

@@ -65,6 +65,7 @@ PlotSheet makePlot(const QString& key, const QString& yTitle, const QString& ySh
     PlotSheet plot;
     plot.key = key;
     plot.xTitle = Text::tr("Generation");
+    plot.xStep = 1.0;
     plot.yTitle = yTitle;
     plot.yShortTitle = yShortTitle;
     return plot;
@@ -158,6 +159,53 @@ void addEngineCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, c
 
 }  // namespace
 
+ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
+    ChartSheet sheet = makeSheet();
+    PlotSheet plot = makePlot("success", Text::tr("Success [%]"));
+    plot.yIncluded = {0.0, kPercent};
+    plot.decimals = 1;
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        CurveStyle best = kBest;
+        best.second = i > 0;
+        Curve curve{withStudy(Text::tr("winner"), studies, i),
+                    withStudy(Text::tr("Winner's success [%]"), studies, i),
+                    {"best", studyKey(i)},
+                    best,
+                    {}};
+        curve.bandColumns = {
+            withStudy(Text::tr("Winner's success, 95 % Clopper-Pearson low [%]"), studies, i),
+            withStudy(Text::tr("Winner's success, 95 % Clopper-Pearson high [%]"), studies, i)};
+        CurveStyle mean = kMean;
+        mean.second = i > 0;
+        Curve top{withStudy(Text::tr("mean of top 30 %"), studies, i),
+                  withStudy(Text::tr("Success, mean of top 30 % [%]"), studies, i),
+                  {"mean", studyKey(i)},
+                  mean,
+                  {}};
+        for (const study::GenerationSummary& summary : studies[i].summaries) {
+            if (const auto& success = summary.statistics.success) {
+                const stats::Interval bounds = stats::calcClopperPearson(success->successes, success->trials);
+                curve.points.emplace_back(summary.index, kPercent * success->share());
+                curve.band.push_back({kPercent * bounds.low, kPercent * bounds.high});
+            }
+            if (const auto& share = summary.statistics.topSuccess)
+                top.points.emplace_back(summary.index, kPercent * *share);
+        }
+        plot.curves.push_back(std::move(curve));
+        plot.curves.push_back(std::move(top));
+    }
+    sheet.plots.push_back(std::move(plot));
+    sheet.legend.push_back(
+        {"best", Text::tr("winner, with its 95 % bounds"),
+         Text::tr("Parts of each generation's winner that finished in the expected orientation, of all its "
+                  "trials. The area is the 95 % Clopper-Pearson interval."),
+         kBest});
+    sheet.legend.push_back({"mean", Text::tr("mean of top 30 %"),
+                            Text::tr("The mean success of the best 30 % of each generation."), kMean});
+    addStudies(sheet, studies);
+    return sheet;
+}
+
 ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
     const bool overlaps = everOverlaps(studies);
@@ -250,8 +298,9 @@ ChartSheet speedSheet(const std::vector<StudyCurves>& studies) {
 ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
     sheet.legend = {
-        {"success", Text::tr("Success"), Text::tr("Parts of each winner that finished as most of them do.")},
-        {"F_O", Text::tr("Orientation"), Text::tr("The winner's F_O on these trials.")},
+        {"success", Text::tr("Success"),
+         Text::tr("Parts of each winner that finished in the expected orientation, in its check.")},
+        {"F_O", Text::tr("Orientation"), Text::tr("The winner's F_O on these trials."), {}, false},
         {"F_D", Text::tr("Distance"), Text::tr("The winner's F_D on these trials."), {}, false}};
 
     PlotSheet success = makePlot("success", Text::tr("Winner's success [%]"), Text::tr("Success [%]"));

@@ -8,6 +8,7 @@
 /// What the charts of a learning run show: one study, or two to be compared.
 namespace trapwright::charts {
 
+ChartSheet successSheet(const std::vector<StudyCurves>& studies);
 ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies);
 ChartSheet strategySheet(const std::vector<StudyCurves>& studies);
 ChartSheet speedSheet(const std::vector<StudyCurves>& studies);

@@ -9,7 +9,7 @@ namespace trapwright::feeder {
 inline work::TrialVerdict verdictOf(study::PhysicalOutcome outcome) {
     switch (outcome) {
         case study::PhysicalOutcome::success:
-            return work::TrialVerdict::finished;
+            return work::TrialVerdict::success;
         case study::PhysicalOutcome::wrongOrientation:
             return work::TrialVerdict::wrongOrientation;
         case study::PhysicalOutcome::stuck:

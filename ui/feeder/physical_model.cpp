@@ -36,12 +36,17 @@ QString successText(const Row& row) {
 
 template <SuccessCount Row::*side>
 QVariant bounds(const Row& row) {
-    return kPercent * (row.*side).clopperPearson.low;
+    return kPercent * (row.*side).bounds.low;
 }
 
 template <SuccessCount Row::*side>
 QString boundsText(const Row& row) {
-    return models::boundsText((row.*side).clopperPearson, (row.*side).trials);
+    return models::boundsText((row.*side).bounds, (row.*side).trials);
+}
+
+template <SuccessCount Row::*side>
+QVariantList boundsValues(const Row& row) {
+    return models::boundsValues((row.*side).bounds, (row.*side).trials);
 }
 
 QString poseText(const Row& row) {
@@ -70,8 +75,8 @@ std::vector<models::Column<Row>> PhysicalModel::makeColumns() {
          &countOf<&SuccessCount::failures, kSimulated>, &countText<&SuccessCount::failures, kSimulated>},
         {tr("P [%]"), tr("Simulated parts that finished in the expected orientation (P)."),
          &success<kSimulated>, &successText<kSimulated>},
-        {tr("95 % [%]"), tr("Where the simulated success rate is with 95 % confidence (Clopper-Pearson)."),
-         &bounds<kSimulated>, &boundsText<kSimulated>},
+        {tr("95 % [%]"), models::boundsHelp(), &bounds<kSimulated>, &boundsText<kSimulated>,
+         [] { return models::boundsTitles(tr("Simulated success")); }, &boundsValues<kSimulated>},
         {tr("Real T"), tr("Trials on the real feeder (T)."), &countOf<&SuccessCount::trials, kReal>,
          [](const Row& r) { return QString::number(r.physical.trials); }},
         {tr("of"), tr("Trials on the real feeder that are planned."),
@@ -81,10 +86,8 @@ std::vector<models::Column<Row>> PhysicalModel::makeColumns() {
          &countText<&SuccessCount::failures, kReal>},
         {tr("P [%]"), tr("Parts that succeeded on the real feeder (P)."), &success<kReal>,
          &successText<kReal>},
-        {tr("95 % [%]"),
-         tr("Where the real success rate is with 95 % confidence, as far as is known by now "
-            "(Clopper-Pearson)."),
-         &bounds<kReal>, &boundsText<kReal>},
+        {tr("95 % [%]"), models::boundsHelp(), &bounds<kReal>, &boundsText<kReal>,
+         [] { return models::boundsTitles(tr("Real success")); }, &boundsValues<kReal>},
         {tr("Wrong"), tr("Real parts that ended in another orientation."),
          &countOf<&SuccessCount::wrongOrientation, kReal>,
          &countText<&SuccessCount::wrongOrientation, kReal>},

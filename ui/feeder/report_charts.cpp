@@ -102,9 +102,8 @@ void drawRate(Frame& frame, double x, const study::SuccessCount& count, bool rea
     const QColor colour = real ? look::kVermillion : look::kBlue;
     const double rate = static_cast<double>(count.successes()) / count.trials;
     painter.setPen(QPen(colour, 3.0));
-    painter.drawLine(QPointF(x, frame.y(count.clopperPearson.low)),
-                     QPointF(x, frame.y(count.clopperPearson.high)));
-    for (const double end : {count.clopperPearson.low, count.clopperPearson.high})
+    painter.drawLine(QPointF(x, frame.y(count.bounds.low)), QPointF(x, frame.y(count.bounds.high)));
+    for (const double end : {count.bounds.low, count.bounds.high})
         painter.drawLine(QPointF(x - 7, frame.y(end)), QPointF(x + 7, frame.y(end)));
     painter.setPen(Qt::NoPen);
     painter.setBrush(colour);
@@ -144,7 +143,7 @@ QImage successChart(const study::PhysicalTable& table, const QString& feeder, QS
     double lowest = 1.0;
     for (const study::PhysicalRow& row : rows)
         for (const study::SuccessCount* side : {&row.simulated, &row.physical})
-            if (side->trials > 0) lowest = std::min(lowest, side->clopperPearson.low);
+            if (side->trials > 0) lowest = std::min(lowest, side->bounds.low);
     Frame frame(pixels, scaleLow(lowest));
     const double step = frame.area().width() / static_cast<double>(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {

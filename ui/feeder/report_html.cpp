@@ -261,7 +261,7 @@ QString cells(const study::SuccessCount& count) {
         .arg(count.trials)
         .arg(count.failures)
         .arg(models::percent(count.successes(), count.trials),
-             models::boundsText(count.clopperPearson, count.trials));
+             models::boundsText(count.bounds, count.trials));
 }
 
 QString resultRow(const study::PhysicalRow& row) {

@@ -10,7 +10,7 @@ namespace {
 
 using Row = GenerationRow;
 
-/// How many of the check's parts finished in the wanted orientation, by one of its engines.
+/// Success in the winner's check, by one of its engines.
 QVariant successValue(const Row& row, const study::EngineScore study::CheckRecord::*engine) {
     if (!row.check) return {};
     return percentValue(((*row.check).*engine).oriented, row.check->trials);
@@ -19,6 +19,16 @@ QVariant successValue(const Row& row, const study::EngineScore study::CheckRecor
 QString successText(const Row& row, const study::EngineScore study::CheckRecord::*engine) {
     if (!row.check) return {};
     return percent(((*row.check).*engine).oriented, row.check->trials);
+}
+
+QVariant topSuccessValue(const Row& row) {
+    const std::optional<double>& share = row.summary.statistics.topSuccess;
+    return share ? QVariant(100.0 * *share) : QVariant();
+}
+
+QString topSuccessText(const Row& row) {
+    const std::optional<double>& share = row.summary.statistics.topSuccess;
+    return share ? fixed(100.0 * *share, 1) : QStringLiteral("–");
 }
 
 }  // namespace
@@ -32,6 +42,29 @@ std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
         {tr("Winner"), tr("Number of the generation's best individual."),
          [](const Row& r) { return QVariant(r.summary.winner); },
          [](const Row& r) { return QString::number(r.summary.winner); }},
+        {tr("Success [%]"),
+         tr("Parts of the winner that finished in the expected orientation, of all its trials."),
+         [](const Row& r) { return percentValue(r.summary.statistics.success); },
+         [](const Row& r) { return percent(r.summary.statistics.success); }},
+        {tr("95 % bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
+         [](const Row& r) { return boundsValues(r.summary.statistics.success).front(); },
+         [](const Row& r) { return boundsText(r.summary.statistics.success); },
+         [] { return boundsTitles(tr("Success")); },
+         [](const Row& r) { return boundsValues(r.summary.statistics.success); }},
+        {tr("Top 30 % [%]"), tr("Mean success of the best 30 % of the generation."),
+         [](const Row& r) { return topSuccessValue(r); }, [](const Row& r) { return topSuccessText(r); }},
+        {tr("Check, learning [%]"),
+         tr("Success in the winner's check, in the engine that learned: on the trials that the reference "
+            "engine "
+            "has simulated, too."),
+         [](const Row& r) { return successValue(r, &study::CheckRecord::learning); },
+         [](const Row& r) { return successText(r, &study::CheckRecord::learning); }},
+        {tr("Check, reference [%]"), tr("Success on the same trials in the reference engine."),
+         [](const Row& r) { return successValue(r, &study::CheckRecord::reference); },
+         [](const Row& r) { return successText(r, &study::CheckRecord::reference); }},
+        {tr("Time [s]"), tr("Wall time that the generation took."),
+         [](const Row& r) { return QVariant(r.summary.seconds); },
+         [](const Row& r) { return fixed(r.summary.seconds, 1); }},
         {tr("F"), tr("Fitness of the winner: the sum of its three scores. Higher is better."),
          [](const Row& r) { return QVariant(r.summary.statistics.best.total()); },
          [](const Row& r) { return fixed(r.summary.statistics.best.total(), 3); }},
@@ -58,16 +91,6 @@ std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
         {tr("p_s"), tr("Smoothing rate: geometric mean of the top 30 %."),
          [](const Row& r) { return QVariant(r.summary.statistics.topStrategy.smoothing); },
          [](const Row& r) { return fixed(r.summary.statistics.topStrategy.smoothing, 4); }},
-        {tr("Success, learning [%]"),
-         tr("Parts of the winner's check that finished as wanted, in the engine that learned."),
-         [](const Row& r) { return successValue(r, &study::CheckRecord::learning); },
-         [](const Row& r) { return successText(r, &study::CheckRecord::learning); }},
-        {tr("Success, reference [%]"), tr("The same trials in the reference engine."),
-         [](const Row& r) { return successValue(r, &study::CheckRecord::reference); },
-         [](const Row& r) { return successText(r, &study::CheckRecord::reference); }},
-        {tr("Time [s]"), tr("Wall time that the generation took."),
-         [](const Row& r) { return QVariant(r.summary.seconds); },
-         [](const Row& r) { return fixed(r.summary.seconds, 1); }},
     };
 }
 
@@ -101,6 +124,7 @@ QVariant GenerationModel::more(const GenerationRow& row, int column, int role) c
         case IndividualRole:
             return row.summary.winner;
         case Qt::ToolTipRole: {
+            if (column == Success || column == Bounds) return successHelp(row.summary.statistics.success);
             const bool learning = column == LearningSuccess;
             if (!row.check || !(learning || column == ReferenceSuccess)) return {};
             const study::EngineScore& score = learning ? row.check->learning : row.check->reference;

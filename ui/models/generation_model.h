@@ -20,6 +20,12 @@ class GenerationModel : public RecordModel<GenerationRow> {
     enum Columns {
         Generation,
         Individual,
+        Success,
+        Bounds,
+        TopSuccess,
+        LearningSuccess,
+        ReferenceSuccess,
+        Seconds,
         Total,
         Collision,
         Distance,
@@ -27,11 +33,10 @@ class GenerationModel : public RecordModel<GenerationRow> {
         TopTotal,
         Crossover,
         Mutation,
-        Smoothing,
-        LearningSuccess,
-        ReferenceSuccess,
-        Seconds
+        Smoothing
     };
+    /// What only those who look into the algorithm need.
+    static constexpr int kFirstDetail = Total;
 
     explicit GenerationModel(QObject* parent = nullptr);
 

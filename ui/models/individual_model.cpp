@@ -19,6 +19,26 @@ std::vector<Column<IndividualRow>> IndividualModel::makeColumns() {
         {tr("Individual"), tr("Counted from 0; the winner is bold."),
          [](const Row& r) { return QVariant(r.individual); },
          [](const Row& r) { return QString::number(r.individual); }},
+        {tr("Success [%]"), tr("Parts that finished in the expected orientation, of all trials."),
+         [](const Row& r) { return percentValue(r.record.success()); },
+         [](const Row& r) { return percent(r.record.success()); }},
+        {tr("95 % bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
+         [](const Row& r) { return boundsValues(r.record.success()).front(); },
+         [](const Row& r) { return boundsText(r.record.success()); },
+         [] { return boundsTitles(tr("Success")); },
+         [](const Row& r) { return boundsValues(r.record.success()); }},
+        {tr("Trials"), tr("Simulated trials; 0 if the surface overlaps itself and was not simulated."),
+         [](const Row& r) { return QVariant(r.record.trials); },
+         [](const Row& r) { return QString::number(r.record.trials); }},
+        {tr("Finished"), tr("Parts that crossed the finish line, in whatever orientation."),
+         [](const Row& r) { return QVariant(r.record.finished); },
+         [](const Row& r) { return QString::number(r.record.finished); }},
+        {tr("Stuck"), tr("Parts that got stuck or ran out of time."),
+         [](const Row& r) { return QVariant(r.record.stuck); },
+         [](const Row& r) { return QString::number(r.record.stuck); }},
+        {tr("Fell"), tr("Parts that fell off the track."),
+         [](const Row& r) { return QVariant(r.record.fellOff); },
+         [](const Row& r) { return QString::number(r.record.fellOff); }},
         {tr("F"), tr("Fitness: the sum of the three scores. Higher is better."),
          [](const Row& r) { return QVariant(r.record.fitness.total()); },
          [](const Row& r) { return fixed(r.record.fitness.total(), 3); }},
@@ -33,18 +53,6 @@ std::vector<Column<IndividualRow>> IndividualModel::makeColumns() {
          tr("How much more alike the parts lie at the end than at the start. Higher is better."),
          [](const Row& r) { return QVariant(r.record.fitness.orientation); },
          [](const Row& r) { return fixed(r.record.fitness.orientation, 3); }},
-        {tr("Trials"), tr("Simulated trials; 0 if the surface overlaps itself and was not simulated."),
-         [](const Row& r) { return QVariant(r.record.trials); },
-         [](const Row& r) { return QString::number(r.record.trials); }},
-        {tr("Finished"), tr("Parts that passed the finish line."),
-         [](const Row& r) { return QVariant(r.record.finished); },
-         [](const Row& r) { return QString::number(r.record.finished); }},
-        {tr("Stuck"), tr("Parts that got stuck or ran out of time."),
-         [](const Row& r) { return QVariant(r.record.stuck); },
-         [](const Row& r) { return QString::number(r.record.stuck); }},
-        {tr("Fell"), tr("Parts that fell off the track."),
-         [](const Row& r) { return QVariant(r.record.fellOff); },
-         [](const Row& r) { return QString::number(r.record.fellOff); }},
         {tr("p_x"), tr("Crossover rate of this individual."),
          [](const Row& r) { return QVariant(r.strategy.crossover); },
          [](const Row& r) { return fixed(r.strategy.crossover, 4); }},
@@ -75,8 +83,10 @@ void IndividualModel::clear() {
     reset({});
 }
 
-QVariant IndividualModel::more(const IndividualRow& row, int, int role) const {
+QVariant IndividualModel::more(const IndividualRow& row, int column, int role) const {
     switch (role) {
+        case Qt::ToolTipRole:
+            return column == Success || column == Bounds ? successHelp(row.record.success()) : QVariant();
         case GenerationRole:
             return row.generation;
         case IndividualRole:

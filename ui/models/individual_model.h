@@ -20,18 +20,22 @@ class IndividualModel : public RecordModel<IndividualRow> {
  public:
     enum Columns {
         Individual,
-        Total,
-        Collision,
-        Distance,
-        Orientation,
+        Success,
+        Bounds,
         Trials,
         Finished,
         Stuck,
         FellOff,
+        Total,
+        Collision,
+        Distance,
+        Orientation,
         Crossover,
         Mutation,
         Smoothing
     };
+    /// What only those who look into the algorithm need.
+    static constexpr int kFirstDetail = Total;
 
     explicit IndividualModel(QObject* parent = nullptr);
 

@@ -1,10 +1,15 @@
 #include "ui/models/numbers.h"
 
+#include <QCoreApplication>
 #include <cmath>
 
 namespace trapwright::models {
 
 namespace {
+
+struct Text {
+    Q_DECLARE_TR_FUNCTIONS(Numbers)
+};
 
 constexpr double kPercent = 100.0;
 const QString kNothing = QStringLiteral("–");
@@ -31,6 +36,59 @@ QString boundsText(const stats::Interval& bounds, int trials) {
 QVariant percentValue(int successes, int trials) {
     if (trials == 0) return {};
     return kPercent * successes / trials;
+}
+
+QString percent(const std::optional<stats::Count>& success) {
+    return success ? percent(success->successes, success->trials) : kNothing;
+}
+
+QString boundsText(const std::optional<stats::Count>& success) {
+    if (!success) return kNothing;
+    return boundsText(stats::calcClopperPearson(success->successes, success->trials), success->trials);
+}
+
+QString successWord(const std::optional<stats::Count>& success) {
+    if (!success) return kNothing;
+    // 99.6 % must not look like 100 %.
+    const bool whole = 100 * success->successes % success->trials == 0;
+    return Text::tr("%1 %").arg(fixed(kPercent * success->share(), whole ? 0 : 1));
+}
+
+QString shareText(const std::optional<stats::Count>& success) {
+    return success ? Text::tr("%1 % (%2)").arg(percent(success), boundsText(success)) : kNothing;
+}
+
+QVariant percentValue(const std::optional<stats::Count>& success) {
+    return success ? percentValue(success->successes, success->trials) : QVariant();
+}
+
+QString boundsHelp() {
+    return Text::tr("95 % Clopper-Pearson: where the true rate is with 95 % confidence.");
+}
+
+QStringList boundsTitles(const QString& of) {
+    return {Text::tr("%1, 95 % Clopper-Pearson low [%]").arg(of),
+            Text::tr("%1, 95 % Clopper-Pearson high [%]").arg(of)};
+}
+
+QVariantList boundsValues(const stats::Interval& bounds, int trials) {
+    if (trials == 0) return {QVariant(), QVariant()};
+    return {kPercent * bounds.low, kPercent * bounds.high};
+}
+
+QVariantList boundsValues(const std::optional<stats::Count>& success) {
+    if (!success) return {QVariant(), QVariant()};
+    return boundsValues(stats::calcClopperPearson(success->successes, success->trials), success->trials);
+}
+
+QString successHelp(const std::optional<stats::Count>& success) {
+    if (!success)
+        return Text::tr(
+            "Not known: the track was not simulated, or learned by a program that did not count it.");
+    return Text::tr("%1 of %2 parts finished in the expected orientation; 95 % Clopper-Pearson %3 %")
+        .arg(success->successes)
+        .arg(success->trials)
+        .arg(boundsText(success));
 }
 
 }  // namespace trapwright::models

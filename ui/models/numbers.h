@@ -1,7 +1,10 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 #include <QVariant>
+
+#include <optional>
 
 #include "core/stats/binomial.h"
 
@@ -16,5 +19,27 @@ QString percent(int successes, int trials);
 QString boundsText(const stats::Interval& bounds, int trials);
 /// In percent; nothing without trials.
 QVariant percentValue(int successes, int trials);
+
+/// "85.0", in percent; a dash where success is not known.
+QString percent(const std::optional<stats::Count>& success);
+/// "95 %", "99.6 %", or a dash: as short as it is exact.
+QString successWord(const std::optional<stats::Count>& success);
+/// "85.0 % (62.1 … 96.8)", or a dash.
+QString shareText(const std::optional<stats::Count>& success);
+/// "62.1 … 96.8", in percent; a dash where success is not known.
+QString boundsText(const std::optional<stats::Count>& success);
+/// In percent; nothing where success is not known.
+QVariant percentValue(const std::optional<stats::Count>& success);
+
+/// What is said of bounds wherever they are shown: which interval they are.
+QString boundsHelp();
+/// Bounds in CSV: the titles of the low and the high one (`of`: "Success"), and the two in percent; without
+/// trials nothing.
+QStringList boundsTitles(const QString& of);
+QVariantList boundsValues(const stats::Interval& bounds, int trials);
+QVariantList boundsValues(const std::optional<stats::Count>& success);
+/// "17 of 20 parts finished in the expected orientation; 95 % Clopper-Pearson 62.1 … 96.8 %", or why it is
+/// not known.
+QString successHelp(const std::optional<stats::Count>& success);
 
 }  // namespace trapwright::models

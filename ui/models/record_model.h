@@ -18,6 +18,9 @@ struct Column {
     QString help;   // one sentence, the heading's tool tip
     QVariant (*value)(const Row&);
     QString (*text)(const Row&);
+    // What it holds in CSV, where that is not the title and the value.
+    QStringList (*csvTitles)() = nullptr;
+    QVariantList (*csvValues)(const Row&) = nullptr;
 };
 
 /// A read-only table of immutable records, a row each. Numbers are right-aligned; ValueRole has them in full.
@@ -47,6 +50,8 @@ class RecordModel : public QAbstractTableModel {
                 return column.value(row);
             case Qt::TextAlignmentRole:
                 return alignmentOf(column.value(row));
+            case CsvRole:
+                return column.csvValues != nullptr ? column.csvValues(row) : QVariantList{column.value(row)};
             default:
                 return more(row, index.column(), role);
         }
@@ -58,6 +63,8 @@ class RecordModel : public QAbstractTableModel {
         const Column<Row>& column = columns_[static_cast<std::size_t>(section)];
         if (role == Qt::DisplayRole) return column.title;
         if (role == Qt::ToolTipRole) return column.help;
+        if (role == CsvRole)
+            return column.csvTitles != nullptr ? column.csvTitles() : QStringList{column.title};
         return {};
     }
 

@@ -12,7 +12,9 @@ enum Role {
     TrialRole,
     PoseRole,     // index into the part's stable poses; -1 for a total
     VerdictRole,  // work::TrialVerdict as int: of the trial, or that the column counts; -1 otherwise
-    IsWinnerRole
+    IsWinnerRole,
+    SuccessRole,  // "95 %", or a dash where it is not known
+    CsvRole       // a list: what a cell, or a heading, is in CSV; without it the ValueRole, or the title
 };
 
 }  // namespace trapwright::models

@@ -9,14 +9,16 @@ namespace trapwright::models {
 struct SelectionRow {
     int rank = 1;
     study::SelectionEntry entry;
-    stats::Interval bounds;  // 95 % of the success rate (Clopper and Pearson)
+    stats::Interval bounds;  // of the success rate; [0, 1] without trials
 };
 
 /// The winners that were re-simulated, best first.
 class SelectionModel : public RecordModel<SelectionRow> {
     Q_OBJECT
  public:
-    enum Columns { Rank, Generation, Individual, Distance, Orientation, Trials, Finished, Success, Bounds };
+    enum Columns { Rank, Generation, Individual, Success, Bounds, Trials, Finished, Distance, Orientation };
+    /// What only those who look into the algorithm need.
+    static constexpr int kFirstDetail = Distance;
 
     explicit SelectionModel(QObject* parent = nullptr);
 

@@ -14,7 +14,7 @@ namespace trapwright::models {
 struct TrialRow {
     int trial = 0;  // from 0
     int pose = -1;  // of the part's stable poses, where the trial began; -1: anyhow
-    work::TrialVerdict verdict = work::TrialVerdict::finished;
+    work::TrialVerdict verdict = work::TrialVerdict::success;
     trial::Outcome outcome;
     std::optional<double> angle{};  // of the last orientation to the expected one, if it finished [rad]
 };

@@ -16,10 +16,8 @@ int successes(const Row& row) {
     return row.row.trials - row.row.failures;
 }
 
-Row makeRow(const study::ValidationRow& row, BoundsMethod method) {
-    const int good = row.trials - row.failures;
-    return {row, method == BoundsMethod::wilson ? stats::calcWilson(good, row.trials)
-                                                : stats::calcClopperPearson(good, row.trials)};
+Row makeRow(const study::ValidationRow& row) {
+    return {row, stats::calcClopperPearson(row.trials - row.failures, row.trials)};
 }
 
 int verdictOf(int column) {
@@ -52,10 +50,11 @@ std::vector<Column<ValidationTableRow>> ValidationModel::makeColumns() {
         {tr("Success [%]"), tr("Parts that finished in the expected orientation (P)."),
          [](const Row& r) { return percentValue(successes(r), r.row.trials); },
          [](const Row& r) { return percent(successes(r), r.row.trials); }},
-        {tr("95 % bounds [%]"),
-         tr("Where the true success rate is with 95 % confidence; sorted by the lower bound."),
+        {tr("95 % bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
          [](const Row& r) { return QVariant(100.0 * r.bounds.low); },
-         [](const Row& r) { return boundsText(r.bounds, r.row.trials); }},
+         [](const Row& r) { return boundsText(r.bounds, r.row.trials); },
+         [] { return boundsTitles(tr("Success")); },
+         [](const Row& r) { return boundsValues(r.bounds, r.row.trials); }},
         {tr("Wrong"), tr("Parts that finished in another orientation."),
          [](const Row& r) { return QVariant(r.row.wrongOrientation); },
          [](const Row& r) { return QString::number(r.row.wrongOrientation); }},
@@ -68,12 +67,12 @@ std::vector<Column<ValidationTableRow>> ValidationModel::makeColumns() {
     };
 }
 
-void ValidationModel::setValidation(const study::ValidationRecord& record, BoundsMethod method) {
+void ValidationModel::setValidation(const study::ValidationRecord& record) {
     std::vector<Row> rows;
     rows.reserve(record.rows.size() + 1);
     for (const study::ValidationRow& row : record.rows)
-        rows.push_back(makeRow(row, method));
-    rows.push_back(makeRow(study::calcTotal(record), method));
+        rows.push_back(makeRow(row));
+    rows.push_back(makeRow(study::calcTotal(record)));
     reset(std::move(rows));
 }
 

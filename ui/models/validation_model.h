@@ -8,12 +8,9 @@
 
 namespace trapwright::models {
 
-/// Which 95 % bounds of a success rate are shown.
-enum class BoundsMethod { clopperPearson, wilson };
-
 struct ValidationTableRow {
     study::ValidationRow row;  // pose -1: the total
-    stats::Interval bounds;    // 95 %, of the success rate; [0, 1] without trials
+    stats::Interval bounds;    // of the success rate; [0, 1] without trials
 };
 
 /// The paper's Tables 2 and 3: a row for each stable pose, last the total. In the columns that count failures
@@ -25,8 +22,7 @@ class ValidationModel : public RecordModel<ValidationTableRow> {
 
     explicit ValidationModel(QObject* parent = nullptr);
 
-    void setValidation(const study::ValidationRecord& record,
-                       BoundsMethod method = BoundsMethod::clopperPearson);
+    void setValidation(const study::ValidationRecord& record);
     void clear();
 
  protected:

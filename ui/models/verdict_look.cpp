@@ -21,7 +21,7 @@ struct Text {
 QPainterPath signOf(TrialVerdict verdict) {
     QPainterPath path;
     switch (verdict) {
-        case TrialVerdict::finished:  // tick
+        case TrialVerdict::success:  // tick
             path.moveTo(2.5, 8.5);
             path.lineTo(6.5, 12.5);
             path.lineTo(13.5, 3.5);
@@ -87,8 +87,8 @@ class SignEngine : public QIconEngine {
 
 QString verdictText(TrialVerdict verdict) {
     switch (verdict) {
-        case TrialVerdict::finished:
-            return Text::tr("finished");
+        case TrialVerdict::success:
+            return Text::tr("success");
         case TrialVerdict::wrongOrientation:
             return Text::tr("wrong orientation");
         case TrialVerdict::stuck:
@@ -105,7 +105,7 @@ QString verdictWord(TrialVerdict verdict) {
 
 QColor verdictColour(TrialVerdict verdict) {
     switch (verdict) {
-        case TrialVerdict::finished:
+        case TrialVerdict::success:
             return look::kBluishGreen;
         case TrialVerdict::wrongOrientation:
             return look::kOrange;

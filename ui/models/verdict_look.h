@@ -9,7 +9,7 @@
 
 namespace trapwright::models {
 
-inline constexpr std::array kVerdicts{work::TrialVerdict::finished, work::TrialVerdict::wrongOrientation,
+inline constexpr std::array kVerdicts{work::TrialVerdict::success, work::TrialVerdict::wrongOrientation,
                                       work::TrialVerdict::stuck, work::TrialVerdict::fellOff};
 
 /// How a verdict looks wherever it is shown: a word, a colour that reads on light and on dark, and a sign.

@@ -55,11 +55,14 @@ QVariant WinnerModel::data(const QModelIndex& index, int role) const {
             return QString::number(winner.generation);
         case Qt::ToolTipRole:
         case Qt::AccessibleTextRole:
-            return tr("Generation %1: F %2, %3 of %4 parts finished")
+            return tr("Generation %1, winner: success %2. %3 of %4 parts finished. F %5")
                 .arg(winner.generation)
-                .arg(fixed(record.fitness.total(), 3))
+                .arg(shareText(record.success()))
                 .arg(record.finished)
-                .arg(record.trials);
+                .arg(record.trials)
+                .arg(fixed(record.fitness.total(), 3));
+        case SuccessRole:
+            return successWord(record.success());
         case Qt::DecorationRole: {
             const auto found = pictures_.find(winner.generation);
             return found == pictures_.end() ? QVariant() : QVariant(found->second);

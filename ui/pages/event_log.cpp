@@ -16,6 +16,7 @@
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/look/whole_headers.h"
+#include "ui/models/numbers.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -159,13 +160,11 @@ void EventLog::tellState(RunState state) {
 
 void EventLog::tellGeneration(int generation) {
     const study::GenerationSummary& summary = session_->summaries().back();
-    const trial::Fitness& best = summary.statistics.best;
-    add(Kind::good,
-        tr("Generation %1 saved: best F %2, F_C %3, F_D %4, F_O %5, in %6")
-            .arg(generation)
-            .arg(QLocale().toString(best.total(), 'f', 3), QLocale().toString(best.collision, 'f', 0),
-                 QLocale().toString(best.distance, 'f', 3), QLocale().toString(best.orientation, 'f', 3),
-                 look::durationText(summary.seconds)));
+    add(Kind::good, tr("Generation %1 saved: success of its winner %2, F %3, in %4")
+                        .arg(generation)
+                        .arg(models::shareText(summary.statistics.success),
+                             QLocale().toString(summary.statistics.best.total(), 'f', 3),
+                             look::durationText(summary.seconds)));
 }
 
 void EventLog::tellCheck(int generation) {
@@ -176,7 +175,7 @@ void EventLog::tellCheck(int generation) {
             .arg(score.oriented)
             .arg(check.trials);
     };
-    add(Kind::good, tr("Winner of generation %1 checked: %2, %3 parts as wanted")
+    add(Kind::good, tr("Winner of generation %1 checked: success %2, %3 parts")
                         .arg(generation)
                         .arg(share(check.learning), share(check.reference)));
 }

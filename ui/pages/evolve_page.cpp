@@ -10,6 +10,7 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include "core/study/selection.h"
 #include "ui/look/file_dialog.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/icon.h"
@@ -177,10 +178,10 @@ void EvolvePage::connectViews() {
 }
 
 std::vector<Panel> EvolvePage::panels() {
-    std::vector<Panel> panels = charts_->panels();
-    panels.push_back({"generations", tr("Generations"), generations_});
-    panels.push_back({"individuals", tr("Individuals"), individuals_});
-    panels.push_back({"log", tr("Log"), log_});
+    std::vector<Panel> panels = charts_->panels();  // success first
+    panels.insert(panels.begin() + 1, {{"generations", tr("Generations"), generations_},
+                                       {"individuals", tr("Individuals"), individuals_},
+                                       {"log", tr("Log"), log_}});
     return panels;
 }
 
@@ -282,7 +283,7 @@ void EvolvePage::stepWinner(int step) {
 
 const study::Winner* EvolvePage::shown() const {
     if (picked_) return &*picked_;
-    return session_ && !session_->winners().empty() ? &session_->winners().back() : nullptr;
+    return session_ ? study::findBestWinner(session_->winners()) : nullptr;
 }
 
 void EvolvePage::showPicked() {
@@ -320,6 +321,9 @@ QString EvolvePage::captionOf(const study::Winner& individual) const {
     const auto generation = static_cast<std::size_t>(individual.generation);
     const bool winner =
         generation < winners.size() && winners[generation].individual == individual.individual;
+    const study::Winner* best = study::findBestWinner(winners);
+    if (winner && best != nullptr && best->generation == individual.generation)
+        return tr("Generation %1, best so far").arg(individual.generation);
     return winner ? tr("Generation %1, winner").arg(individual.generation)
                   : tr("Generation %1, individual %2").arg(individual.generation).arg(individual.individual);
 }

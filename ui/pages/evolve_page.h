@@ -33,7 +33,7 @@ class RunCard;
 class SettingsForm;
 
 /// Step 3: learning is started, watched and stopped; any individual that was learned can be looked at. The
-/// scene follows the newest winner until another one is picked.
+/// scene follows the best winner until another one is picked.
 class EvolvePage : public Page {
     Q_OBJECT
  public:
@@ -63,7 +63,7 @@ class EvolvePage : public Page {
     void askForComparison();
     void changeSettings();
 
-    /// Shows the newest winner, now and whenever there is a newer one.
+    /// Shows the best winner (study::findBestWinner), now and whenever there is a better one.
     void follow();
     void pick(const study::Winner& individual);
     void pickWinner(int generation);
@@ -76,7 +76,7 @@ class EvolvePage : public Page {
 
     QPointer<session::StudySession> session_;
     scene::SceneView* scene_ = nullptr;    // while the page is shown
-    std::optional<study::Winner> picked_;  // none: the newest winner is followed
+    std::optional<study::Winner> picked_;  // none: the best winner is followed
     session::TrackBuild build_;
     std::optional<Design> design_;  // what track_ is built from, or being built from
     std::shared_ptr<const track::Track> track_;

@@ -5,6 +5,8 @@
 #include <QPainter>
 #include <QPixmap>
 
+#include "ui/models/roles.h"
+
 namespace trapwright::pages {
 
 namespace {
@@ -12,6 +14,7 @@ namespace {
 constexpr int kMargin = 4;
 constexpr int kFrame = 2;
 constexpr int kRadius = 3;
+constexpr int kInset = 3;
 
 }  // namespace
 
@@ -47,9 +50,11 @@ void FilmFrame::paint(QPainter* painter, const QStyleOptionViewItem& option, con
     font.setBold(current);
     painter->setFont(font);
     painter->setPen(palette.color(current ? QPalette::WindowText : QPalette::PlaceholderText));
-    const QRect number(picture.left(), picture.bottom() + 1, picture.width(),
-                       option.rect.bottom() - picture.bottom());
-    painter->drawText(number, Qt::AlignCenter, index.data().toString());
+    const QRect label(picture.left() + kInset, picture.bottom() + 1, picture.width() - 2 * kInset,
+                      option.rect.bottom() - picture.bottom());
+    painter->drawText(label, Qt::AlignLeft | Qt::AlignVCenter, index.data().toString());
+    painter->setPen(palette.color(QPalette::WindowText));
+    painter->drawText(label, Qt::AlignRight | Qt::AlignVCenter, index.data(models::SuccessRole).toString());
     painter->restore();
 }
 

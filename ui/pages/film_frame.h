@@ -4,8 +4,8 @@
 
 namespace trapwright::pages {
 
-/// Draws one picture of the film strip: a winner with its generation below, framed while it is the current
-/// one.
+/// Draws one picture of the film strip: a winner with its generation and its success below, framed while
+/// it is the current one.
 class FilmFrame : public QStyledItemDelegate {
     Q_OBJECT
  public:

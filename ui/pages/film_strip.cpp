@@ -101,7 +101,8 @@ QWidget* FilmStrip::makeControls() {
     follow_ = new QToolButton(controls);
     follow_->setObjectName("filmStrip.follow");
     follow_->setText(tr("Follow the best"));
-    follow_->setToolTip(tr("Show each new generation's winner as soon as it is there (Esc)"));
+    follow_->setToolTip(
+        tr("Show the winner with the greatest success, and each better one as soon as it is there (Esc)"));
     look::drawAsButton(*follow_);
     follow_->setCheckable(true);
     follow_->setIcon(look::icon("to-end"));

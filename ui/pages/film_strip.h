@@ -27,8 +27,8 @@ class FilmStrip : public QWidget {
     explicit FilmStrip(QWidget* parent = nullptr);
 
     void setSession(session::StudySession* session);
-    /// What the scene shows: a generation (-1: none is there yet), what to call it, and whether the newest is
-    /// followed.
+    /// What the scene shows: a generation (-1: none is there yet), what to call it, and whether the best one
+    /// is followed.
     void setCurrent(int generation, const QString& caption, bool following);
 
  signals:

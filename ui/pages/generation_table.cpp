@@ -1,7 +1,10 @@
 #include "ui/pages/generation_table.h"
 
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QVBoxLayout>
 
+#include "ui/pages/details_button.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -17,10 +20,28 @@ GenerationTable::GenerationTable(QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(table_);
+    table_->setHead(makeHead());
     table_->sortBy(models::GenerationModel::Generation, Qt::DescendingOrder);
     connect(table_, &RecordTable::picked, this,
             [this](int row) { emit picked(model_.rows()[static_cast<std::size_t>(row)].summary.index); });
     connect(table_, &RecordTable::failed, this, &GenerationTable::failed);
+}
+
+QWidget* GenerationTable::makeHead() {
+    auto* head = new QWidget(this);
+    auto* text = new QLabel(tr("The winner of each generation"), head);
+    text->setForegroundRole(QPalette::PlaceholderText);
+    auto* layout = new QHBoxLayout(head);
+    layout->setContentsMargins(12, 4, 12, 4);
+    layout->setSpacing(8);
+    layout->addWidget(text, 1);
+    layout->addWidget(new DetailsButton(table_->view(), models::GenerationModel::kFirstDetail,
+                                        models::GenerationModel::Smoothing, head));
+    head->hide();
+    connect(&model_, &QAbstractItemModel::modelReset, head,
+            [this, head] { head->setVisible(model_.rowCount() > 0); });
+    connect(&model_, &QAbstractItemModel::rowsInserted, head, [head] { head->show(); });
+    return head;
 }
 
 void GenerationTable::setSession(StudySession* session) {

@@ -26,6 +26,8 @@ class GenerationTable : public QWidget {
     void failed(const QString& what, const QString& message);
 
  private:
+    QWidget* makeHead();
+
     QPointer<session::StudySession> session_;
     models::GenerationModel model_;
     RecordTable* table_;

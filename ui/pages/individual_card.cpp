@@ -5,7 +5,9 @@
 #include <QVBoxLayout>
 
 #include "core/study/track_design.h"
+#include "ui/look/folding_group.h"
 #include "ui/look/text.h"
+#include "ui/models/numbers.h"
 #include "ui/pages/fact_list.h"
 #include "ui/pages/gene_picture.h"
 
@@ -25,10 +27,13 @@ IndividualCard::IndividualCard(QWidget* parent)
           tr("No track has been learned yet. The scene shows the flat track that learning starts from."),
           this)),
       contents_(new QWidget(this)),
-      scores_(new FactList(contents_)),
-      strategy_(new FactList(contents_)),
+      success_(new FactList(contents_)),
+      details_(new look::FoldingGroup("evolve.algorithm", tr("Details of the algorithm"), true, contents_)),
+      scores_(new FactList(details_)),
+      strategy_(new FactList(details_)),
       lengths_(new QLabel(contents_)),
-      genes_(new GenePicture(contents_)) {
+      genes_(new GenePicture(details_)) {
+    success_->setObjectName("evolve.parts");
     empty_->setWordWrap(true);
     empty_->setForegroundRole(QPalette::PlaceholderText);
     scores_->setObjectName("evolve.scores");
@@ -39,10 +44,11 @@ IndividualCard::IndividualCard(QWidget* parent)
     auto* column = new QVBoxLayout(contents_);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(6);
-    column->addWidget(scores_);
-    column->addWidget(strategy_);
+    column->addWidget(success_);
     column->addWidget(lengths_);
-    column->addWidget(genes_);
+    column->addWidget(details_);
+    for (QWidget* detail : std::initializer_list<QWidget*>{scores_, strategy_, genes_})
+        details_->body()->addWidget(detail);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(empty_);
@@ -58,16 +64,18 @@ void IndividualCard::clear() {
 void IndividualCard::show(const study::Settings& settings, const study::Winner& individual) {
     const study::IndividualRecord& record = individual.record;
     const trial::Fitness& fitness = record.fitness;
+    success_->show({{tr("Success"), models::shareText(record.success())},
+                    {tr("Parts"), record.trials == 0 ? tr("not simulated: the track crosses itself")
+                                                     : tr("%1 of %2 finished, %3 stuck, %4 fell")
+                                                           .arg(record.finished)
+                                                           .arg(record.trials)
+                                                           .arg(record.stuck)
+                                                           .arg(record.fellOff)}});
+    success_->setToolTip(models::successHelp(record.success()));
     scores_->show({{tr("Fitness F"), fixed(fitness.total(), 3)},
                    {tr("Collisions F_C"), tr("%1 triangles").arg(fixed(fitness.collision, 0))},
                    {tr("Distance F_D"), tr("%1 segments").arg(fixed(fitness.distance, 3))},
-                   {tr("Orientation F_O"), tr("%1 √rad").arg(fixed(fitness.orientation, 3))},
-                   {tr("Parts"), record.trials == 0 ? tr("not simulated: the track crosses itself")
-                                                    : tr("%1 of %2 finished, %3 stuck, %4 fell")
-                                                          .arg(record.finished)
-                                                          .arg(record.trials)
-                                                          .arg(record.stuck)
-                                                          .arg(record.fellOff)}});
+                   {tr("Orientation F_O"), tr("%1 √rad").arg(fixed(fitness.orientation, 3))}});
     const evolution::StrategyValues strategy =
         evolution::limitStrategy(evolution::decodeStrategy(record.chromosome.strategy),
                                  study::generationParameters(settings.evolution).transition);

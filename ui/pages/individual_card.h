@@ -8,12 +8,17 @@
 
 class QLabel;
 
+namespace trapwright::look {
+class FoldingGroup;
+}
+
 namespace trapwright::pages {
 
 class FactList;
 class GenePicture;
 
-/// The individual whose track is in the scene: its scores, what it is made of, its genes.
+/// The individual whose track is in the scene: its success and, folded, its scores, what it is made of, its
+/// genes.
 class IndividualCard : public QWidget {
     Q_OBJECT
  public:
@@ -28,6 +33,8 @@ class IndividualCard : public QWidget {
  private:
     QLabel* empty_;
     QWidget* contents_;
+    FactList* success_;
+    look::FoldingGroup* details_;
     FactList* scores_;
     FactList* strategy_;
     QLabel* lengths_;

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "core/study/track_design.h"
+#include "ui/pages/details_button.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -23,7 +24,7 @@ IndividualTable::IndividualTable(QWidget* parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(table_);
     table_->setHead(makeHead());
-    table_->sortBy(models::IndividualModel::Total, Qt::DescendingOrder);
+    table_->sortBy(models::IndividualModel::Success, Qt::DescendingOrder);
     connect(table_, &RecordTable::picked, this, [this](int row) {
         const models::IndividualRow& picked = model_.rows()[static_cast<std::size_t>(row)];
         individual_ = picked.individual;
@@ -48,6 +49,8 @@ QWidget* IndividualTable::makeHead() {
     layout->addWidget(label);
     layout->addWidget(spin_);
     layout->addWidget(count_, 1);
+    layout->addWidget(new DetailsButton(table_->view(), models::IndividualModel::kFirstDetail,
+                                        models::IndividualModel::Smoothing, head));
     connect(spin_, &QSpinBox::valueChanged, this, &IndividualTable::generationPicked);
     head->hide();
     return head;

@@ -1,5 +1,6 @@
 #include "ui/pages/learning_charts.h"
 
+#include <QTabWidget>
 #include <algorithm>
 
 #include "ui/charts/study_chart.h"
@@ -24,10 +25,12 @@ std::vector<double> speedsOf(const std::vector<study::GenerationSummary>& summar
 }  // namespace
 
 LearningCharts::LearningCharts(QObject* parent) : QObject(parent) {
+    add(new charts::SuccessChart);
+    add(new charts::EngineChart);
+    add(new charts::SpeedChart);
+    firstDetail_ = charts_.size();
     add(new charts::FitnessChart);
     add(new charts::StrategyChart);
-    add(new charts::SpeedChart);
-    add(new charts::EngineChart);
 }
 
 void LearningCharts::add(charts::StudyChart* chart) {
@@ -38,8 +41,18 @@ void LearningCharts::add(charts::StudyChart* chart) {
 
 std::vector<Panel> LearningCharts::panels() const {
     std::vector<Panel> panels;
-    for (charts::StudyChart* chart : charts_)
-        panels.push_back({chart->objectName(), chart->title(), chart});
+    auto* details = new QTabWidget;
+    details->setObjectName("algorithm");
+    details->setDocumentMode(true);
+    for (std::size_t i = 0; i < charts_.size(); ++i) {
+        charts::StudyChart* chart = charts_[i];
+        if (i < firstDetail_) {
+            panels.push_back({chart->objectName(), chart->title(), chart});
+        } else {
+            details->addTab(chart, chart->title());
+        }
+    }
+    panels.push_back({details->objectName(), tr("Details of the algorithm"), details});
     return panels;
 }
 

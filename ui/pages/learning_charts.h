@@ -22,7 +22,8 @@ class LearningCharts : public QObject {
  public:
     explicit LearningCharts(QObject* parent);
 
-    /// Fitness, strategy values, speed, engines. Asked for once; who asks owns the charts.
+    /// Success, engines, speed, and the details of the algorithm (fitness, strategy values) in one panel.
+    /// Asked for once; who asks owns the charts.
     [[nodiscard]] std::vector<Panel> panels() const;
 
     void setSession(session::StudySession* session);
@@ -45,6 +46,7 @@ class LearningCharts : public QObject {
     std::optional<charts::StudyCurves> other_;
     session::NewestTask reading_;
     std::vector<charts::StudyChart*> charts_;
+    std::size_t firstDetail_ = 0;  // of charts_: this and all after it show the algorithm
 };
 
 }  // namespace trapwright::pages

@@ -28,8 +28,8 @@ struct PageFace {
 /// A chart or a table of a page. The window puts it into a dock of its own, which can be moved, floated,
 /// closed and is remembered by its name.
 struct Panel {
-    QString name;   // stable, "fitness"
-    QString title;  // tr("Fitness")
+    QString name;   // stable, "success"
+    QString title;  // tr("Success")
     QWidget* widget = nullptr;
     Qt::DockWidgetArea area = Qt::BottomDockWidgetArea;
 };

@@ -17,7 +17,7 @@ namespace trapwright::pages {
 /// A trial that is shown, and how it is counted.
 struct ReplayedTrial {
     int trial = 0;
-    work::TrialVerdict verdict = work::TrialVerdict::finished;
+    work::TrialVerdict verdict = work::TrialVerdict::success;
     std::shared_ptr<const trial::RecordedMotion> motion;
 };
 

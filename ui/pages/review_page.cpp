@@ -9,6 +9,7 @@
 #include "ui/charts/orientation_chart.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/text.h"
+#include "ui/pages/details_button.h"
 #include "ui/pages/judging_card.h"
 #include "ui/pages/replay_files.h"
 #include "ui/pages/result_table.h"
@@ -71,6 +72,9 @@ void ReviewPage::addInspector() {
 
 void ReviewPage::addTables() {
     selectionTable_->view().setSelectionBehavior(QAbstractItemView::SelectRows);
+    auto* details = new DetailsButton(selectionTable_->view(), models::SelectionModel::kFirstDetail,
+                                      models::SelectionModel::Orientation, selectionTable_.get());
+    selectionTable_->headRow().insertWidget(1, details);
     connect(selectionTable_.get(), &ResultTable::cellChosen, this, [this](const QModelIndex& index) {
         choice_->setWinner(index.data(models::GenerationRole).toInt(),
                            index.data(models::IndividualRole).toInt());

@@ -8,9 +8,11 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "core/study/selection.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/pages/run_actions.h"
+#include "ui/pages/success_card.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -20,6 +22,7 @@ using session::RunState;
 
 RunCard::RunCard(RunActions& run, QWidget* parent)
     : QWidget(parent),
+      success_(new SuccessCard("evolve", this)),
       title_(new QLabel(this)),
       detail_(new QLabel(this)),
       speed_(new QLabel(this)),
@@ -52,6 +55,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(4);
+    layout->addWidget(success_);
     layout->addWidget(title_);
     layout->addWidget(detail_);
     layout->addWidget(bar_);
@@ -99,12 +103,25 @@ void RunCard::update() {
     const bool idle = state == RunState::idle || state == RunState::simulating;
     bar_->setVisible(!idle);
     speed_->setVisible(!idle);
+    showSuccess();
     if (!session_) return;
     if (idle) {
         showIdle();
     } else {
         showRun(state);
     }
+}
+
+void RunCard::showSuccess() {
+    const study::Winner* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
+    success_->setVisible(best != nullptr);
+    if (best == nullptr) return;
+    const auto success = best->record.success();
+    const QString generation = tr("best so far: generation %1").arg(best->generation);
+    success_->show(success,
+                   success
+                       ? tr("%1 of %2 parts, %3").arg(success->successes).arg(success->trials).arg(generation)
+                       : generation);
 }
 
 QString RunCard::workText() const {

@@ -14,8 +14,10 @@ enum class RunState;
 namespace trapwright::pages {
 
 class RunActions;
+class SuccessCard;
 
-/// What a study is doing, how far it is and how long it takes, with the buttons that start and end learning.
+/// How good the best winner is, what a study is doing, how far it is and how long it takes, with the buttons
+/// that start and end learning.
 class RunCard : public QWidget {
     Q_OBJECT
  public:
@@ -31,11 +33,13 @@ class RunCard : public QWidget {
     QWidget* makeButton(QAction* action, const QString& name);
     void update();
     void announce();
+    void showSuccess();
     void showIdle();
     void showRun(session::RunState state);
     [[nodiscard]] QString workText() const;
 
     QPointer<session::StudySession> session_;
+    SuccessCard* success_;
     QLabel* title_;
     QLabel* detail_;
     QLabel* speed_;

@@ -2,6 +2,7 @@
 
 #include <QComboBox>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -12,6 +13,7 @@
 #include "ui/look/text.h"
 #include "ui/models/numbers.h"
 #include "ui/pages/fact_list.h"
+#include "ui/pages/success_card.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -30,10 +32,43 @@ QString nameOf(int generation, int individual) {
     return TrackChoice::tr("Generation %1, individual %2").arg(generation).arg(individual);
 }
 
-QString shareText(int good, int trials) {
-    return TrackChoice::tr("%1 % (%2)")
-        .arg(models::percent(good, trials),
-             models::boundsText(stats::calcClopperPearson(good, trials), trials));
+/// Success by the trials that tell most, and which they are.
+struct KnownSuccess {
+    std::optional<stats::Count> success;
+    QString source;
+};
+
+/// By the newest validation, else the newest comparison, else what was counted while learning.
+KnownSuccess findSuccess(const StudySession& session, const study::Winner& winner) {
+    const auto isOf = [&](const auto& entry) {
+        return entry.generation == winner.generation && entry.individual == winner.individual;
+    };
+    KnownSuccess known{winner.record.success(), TrackChoice::tr("while learning")};
+    for (const study::SelectionRecord& selection : session.selections())
+        for (const study::SelectionEntry& entry : selection.entries)
+            if (isOf(entry) && entry.trials > 0)
+                known = {stats::Count{entry.oriented, entry.trials}, TrackChoice::tr("comparison")};
+    for (const study::ValidationRecord& validation : session.validations()) {
+        const study::ValidationRow total = study::calcTotal(validation);
+        if (isOf(validation) && total.trials > 0)
+            known = {stats::Count{total.trials - total.failures, total.trials},
+                     TrackChoice::tr("validation")};
+    }
+    return known;
+}
+
+/// Why nobody should want this track; empty if there is nothing against it.
+QString findObjection(const KnownSuccess& known, const study::IndividualRecord& record) {
+    if (known.success && known.success->successes == 0) {
+        return TrackChoice::tr(
+                   "Its success is 0 %: of %1 parts none finished in the expected orientation (%2).")
+            .arg(known.success->trials)
+            .arg(known.source);
+    }
+    if (known.success) return {};
+    if (record.trials == 0) return TrackChoice::tr("It was never simulated: its surface crosses itself.");
+    if (record.finished == 0) return TrackChoice::tr("None of %1 parts finished.").arg(record.trials);
+    return {};
 }
 
 }  // namespace
@@ -41,6 +76,7 @@ QString shareText(int good, int trials) {
 TrackChoice::TrackChoice(QWidget* parent)
     : QWidget(parent),
       list_(new QComboBox(this)),
+      success_(new SuccessCard("review", this)),
       facts_(new FactList(this)),
       take_(new QPushButton(tr("Make it the final track"), this)),
       final_(new QLabel(this)) {
@@ -53,15 +89,14 @@ TrackChoice::TrackChoice(QWidget* parent)
     });
     take_->setObjectName("review.makeFinal");
     take_->setToolTip(tr("Go on with this track when it is exported"));
-    connect(take_, &QPushButton::clicked, this, [this] {
-        if (session_ && winner_) session_->choose(*winner_);
-    });
+    connect(take_, &QPushButton::clicked, this, &TrackChoice::askAndChoose);
     final_->setObjectName("review.final");
     final_->setWordWrap(true);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(8);
     column->addWidget(list_);
+    column->addWidget(success_);
     column->addWidget(facts_);
     column->addWidget(final_);
     column->addWidget(take_);
@@ -108,39 +143,75 @@ void TrackChoice::listWinners() {
     list_->clear();
     if (!session_) return;
     const auto add = [this](const study::Winner& winner) {
-        list_->addItem(nameOf(winner.generation, winner.individual), winner.generation);
+        list_->addItem(tr("%1: %2").arg(nameOf(winner.generation, winner.individual),
+                                        models::successWord(winner.record.success())),
+                       winner.generation);
         list_->setItemData(list_->count() - 1, winner.individual, kIndividualRole);
         if (winner_ && isSame(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
     };
     list_->setCurrentIndex(-1);
     const std::vector<study::Winner>& winners = session_->winners();
     std::for_each(winners.rbegin(), winners.rend(), add);
-    if (winner_ && list_->currentText() != nameOf(winner_->generation, winner_->individual)) add(*winner_);
+    if (winner_ && list_->currentIndex() < 0) add(*winner_);
 }
 
 void TrackChoice::showFacts() {
     list_->setVisible(winner_.has_value());
+    success_->setVisible(winner_.has_value());
     showFinal();
     if (!winner_) return facts_->show({});
+    const KnownSuccess known = findSuccess(*session_, *winner_);
+    success_->show(known.success, known.success ? tr("%1 of %2 parts, %3")
+                                                      .arg(known.success->successes)
+                                                      .arg(known.success->trials)
+                                                      .arg(known.source)
+                                                : known.source);
     const study::IndividualRecord& record = winner_->record;
-    Facts facts = {{tr("Fitness"), models::fixed(record.fitness.total(), 3)},
-                   {tr("While learning"), tr("%1 of %2 finished").arg(record.finished).arg(record.trials)}};
+    Facts facts = {{tr("While learning"), models::shareText(record.success())},
+                   {tr("Finished"), tr("%1 of %2").arg(record.finished).arg(record.trials)}};
     const study::SelectionEntry* compared = nullptr;
     for (const study::SelectionRecord& selection : session_->selections())
         for (const study::SelectionEntry& entry : selection.entries)
             if (entry.generation == winner_->generation && entry.individual == winner_->individual)
                 compared = &entry;
     if (compared != nullptr)
-        facts.emplace_back(tr("Comparison"), shareText(compared->oriented, compared->trials));
+        facts.emplace_back(tr("Comparison"),
+                           models::shareText(stats::Count{compared->oriented, compared->trials}));
     const study::ValidationRecord* validated = nullptr;
     for (const study::ValidationRecord& validation : session_->validations())
         if (validation.generation == winner_->generation && validation.individual == winner_->individual)
             validated = &validation;
     if (validated != nullptr) {
         const study::ValidationRow total = study::calcTotal(*validated);
-        facts.emplace_back(tr("Validation"), shareText(total.trials - total.failures, total.trials));
+        facts.emplace_back(tr("Validation"),
+                           models::shareText(stats::Count{total.trials - total.failures, total.trials}));
     }
     facts_->show(facts);
+}
+
+void TrackChoice::askAndChoose() {
+    if (!session_ || !winner_) return;
+    const QString objection = findObjection(findSuccess(*session_, *winner_), winner_->record);
+    if (objection.isEmpty()) return choose();
+    auto* box = new QMessageBox(QMessageBox::Warning, tr("Trapwright"),
+                                tr("Make the track of %1 the final one?")
+                                    .arg(nameOf(winner_->generation, winner_->individual).toLower()),
+                                QMessageBox::NoButton, this);
+    box->setObjectName("dialog.badTrack");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setInformativeText(objection);
+    QPushButton* take = box->addButton(tr("Make it final all the same"), QMessageBox::AcceptRole);
+    take->setObjectName("answer.makeFinal");
+    QPushButton* leave = box->addButton(tr("Choose another track"), QMessageBox::RejectRole);
+    leave->setObjectName("answer.chooseAnother");
+    box->setDefaultButton(leave);
+    box->setEscapeButton(leave);
+    connect(take, &QPushButton::clicked, this, &TrackChoice::choose);
+    box->open();
+}
+
+void TrackChoice::choose() {
+    if (session_ && winner_) session_->choose(*winner_);
 }
 
 bool TrackChoice::isFinal() const {

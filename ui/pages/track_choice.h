@@ -17,8 +17,10 @@ class StudySession;
 namespace trapwright::pages {
 
 class FactList;
+class SuccessCard;
 
-/// Which track of a study is looked at, what is known of it, and whether it is the final one.
+/// Which track of a study is looked at, what is known of it, and whether it is the final one. Making one
+/// final on which nothing succeeded is asked about first.
 class TrackChoice : public QWidget {
     Q_OBJECT
  public:
@@ -38,12 +40,15 @@ class TrackChoice : public QWidget {
  private:
     void listWinners();
     void showFacts();
+    void askAndChoose();
+    void choose();
     void showFinal();
     [[nodiscard]] bool isFinal() const;
 
     QPointer<session::StudySession> session_;
     std::optional<study::Winner> winner_;
     QComboBox* list_;
+    SuccessCard* success_;
     FactList* facts_;
     QPushButton* take_;
     QLabel* final_;

@@ -272,7 +272,7 @@ void TrialReview::takeReplay(const work::TrialsRequest& request, int trial,
     if (std::find(wanted_.begin(), wanted_.end(), trial) == wanted_.end()) return;
     const auto& rows = list_->trials().rows();
     const auto row = static_cast<std::size_t>(trial);
-    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : work::TrialVerdict::finished,
+    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : work::TrialVerdict::success,
                         std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape)});
     showReplays();
     if (playWanted_ && trial == wanted_.front()) {

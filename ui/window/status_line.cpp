@@ -185,7 +185,7 @@ void StatusLine::updateEngines() {
     engines_->setText(text.arg(engineName(check.reference.engine), models::percent(learned, check.trials),
                                models::percent(checked, check.trials)));
     engines_->setToolTip(
-        tr("Parts that end oriented, of the same %1 trials of generation %2's winner: %3 in the "
+        tr("Success on the same %1 trials of generation %2's winner: %3 in the "
            "engine that learns (%4), %5 in %6. They differ if the first share is outside the 95 % "
            "interval (Clopper-Pearson) of the second; they agree if it is inside and within 5 points.")
             .arg(check.trials)

@@ -261,7 +261,7 @@ class ValidationTest : public QObject {
         const QStringList lines = QString::fromStdString(study::formatValidation(record)).split('\n');
         const auto words = [&](int line) { return lines[line].simplified(); };
         QCOMPARE(lines.size(), 9);
-        QVERIFY(words(0).startsWith("Pose T F P 95 % bounds"));
+        QVERIFY(words(0).startsWith("Pose T F P 95 % Clopper-Pearson"));
         QCOMPARE(words(1), QString("1 1000 0 100.0 % 99.6 ... 100.0 % 0 0 0"));
         QVERIFY(words(2).startsWith("2 1000 10 99.0 % "));
         QVERIFY(words(3).startsWith("3 1000 5 99.5 % "));

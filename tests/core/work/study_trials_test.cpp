@@ -75,16 +75,15 @@ class StudyTrialsTest : public QObject {
         const auto judged =
             work::judgeTrials(outcomes, fake::block()->symmetry, std::nullopt, 25.0 * base::kDegree);
         // Half a turn about z maps the block onto itself.
-        const std::vector<TrialVerdict> expected = {TrialVerdict::finished, TrialVerdict::wrongOrientation,
-                                                    TrialVerdict::fellOff,  TrialVerdict::stuck,
-                                                    TrialVerdict::stuck,    TrialVerdict::finished,
-                                                    TrialVerdict::finished};
+        const std::vector<TrialVerdict> expected = {
+            TrialVerdict::success, TrialVerdict::wrongOrientation, TrialVerdict::fellOff, TrialVerdict::stuck,
+            TrialVerdict::stuck,   TrialVerdict::success,          TrialVerdict::success};
         QVERIFY(judged.verdicts == expected);
         const base::Quaternion turned(Eigen::AngleAxisd(base::kPi / 2, base::Vec3::UnitZ()));
         const auto others =
             work::judgeTrials(outcomes, fake::block()->symmetry, turned, 25.0 * base::kDegree);
         QCOMPARE(others.verdicts[0], TrialVerdict::wrongOrientation);
-        QCOMPARE(others.verdicts[1], TrialVerdict::finished);
+        QCOMPARE(others.verdicts[1], TrialVerdict::success);
     }
 
  private:

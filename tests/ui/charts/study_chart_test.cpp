@@ -225,6 +225,79 @@ class StudyChartTest : public QObject {
         QVERIFY(plot->readOff().last().endsWith("0.0000"));
     }
 
+    void successIsReadOffWithItsBounds() {
+        charts::SuccessChart chart;
+        chart.setStudies({someStudy(20)});
+        showChart(chart);
+        Plot* plot = chart.shownPlots().front();
+        chart.setCursor(3.0);
+        QCOMPARE(plot->readOff(),
+                 (QStringList{"Generation 3", "winner: 85.0 (62.1 … 96.8)", "mean of top 30 %: 50.0"}));
+        // The area has its colour between the bounds, and none outside them.
+        chart.setCursor(std::nullopt);
+        const QImage picture = plot->grab().toImage();
+        const double ratio = picture.devicePixelRatio();
+        const auto colourAt = [&](double x, double y) {
+            return picture.pixelColor((plot->toWidget({x, y}) * ratio).toPoint());
+        };
+        const QColor paper = colourAt(10.4, 15.0);
+        QVERIFY(colourAt(10.4, 74.0) != paper);
+        QCOMPARE(colourAt(10.4, 58.0), paper);
+    }
+
+    /// Of a study that has no success there is nothing to draw, and no line at 0.
+    void unknownSuccessIsNotDrawn() {
+        StudyCurves study = someStudy(20);
+        for (study::GenerationSummary& summary : study.summaries) {
+            summary.statistics.success.reset();
+            summary.statistics.topSuccess.reset();
+        }
+        charts::SuccessChart chart;
+        chart.setStudies({study});
+        showChart(chart);
+        QVERIFY(!chart.savePictureAction()->isEnabled());
+    }
+
+    /// Every generation has a marker or none has, whatever the zoom; data that are missing leave a gap.
+    void markersAreOnAllPointsOrNone_data() {
+        QTest::addColumn<int>("generations");
+        QTest::addColumn<bool>("marked");
+        QTest::newRow("few") << 12 << true;
+        QTest::newRow("many") << 300 << false;
+    }
+    void markersAreOnAllPointsOrNone() {
+        QFETCH(int, generations);
+        QFETCH(bool, marked);
+        StudyCurves study = someStudy(generations);
+        study.summaries.erase(study.summaries.begin() + 6, study.summaries.begin() + 8);  // 6 and 7
+        charts::SpeedChart chart;
+        study.trialsPerSecond.assign(study.summaries.size(), 100.0);
+        chart.setStudies({study});
+        showChart(chart);
+        Plot* plot = chart.shownPlots().front();
+        const QImage picture = plot->grab().toImage();
+        const double ratio = picture.devicePixelRatio();
+        const auto colourAt = [&](double x, double offset) {
+            const QPointF place = plot->toWidget({x, 100.0}) + QPointF(0.0, offset);
+            return picture.pixelColor((place * ratio).toPoint());
+        };
+        const QColor ink = colourAt(2.5, 0.0);
+        const QColor paper = colourAt(2.5, -8.0);
+        // A marker reaches 3 pixels above the line, which is 1.8 thick.
+        const auto isMarked = [&](int generation) {
+            const int grey = qGray(colourAt(generation, -2.0).rgb());
+            return std::abs(grey - qGray(ink.rgb())) < std::abs(grey - qGray(paper.rgb()));
+        };
+        for (int g = 0; g < generations; ++g) {
+            if (g == 6 || g == 7) continue;
+            QVERIFY2(isMarked(g) == marked, QByteArray::number(g));
+        }
+        if (!marked) return;  // too narrow to look at
+        QCOMPARE(colourAt(4.5, 0.0), ink);
+        QVERIFY(colourAt(6.5, 0.0) != ink);
+        QCOMPARE(colourAt(8.5, 0.0), ink);
+    }
+
     void speedOfReopenedStudyBeginsWhereItGoesOn() {
         StudyCurves study = someStudy(5);
         study.trialsPerSecond.clear();

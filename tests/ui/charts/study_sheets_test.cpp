@@ -45,6 +45,26 @@ class StudySheetsTest : public QObject {
     Q_OBJECT
 
  private slots:
+    void successHasItsBoundsAndBeginsWhereItIsKnown() {
+        StudyCurves study = someStudy("a", 0.5);
+        study.summaries[0].statistics.success.reset();
+        study.summaries[0].statistics.topSuccess.reset();
+        const ChartSheet sheet = charts::successSheet({study});
+        QCOMPARE(sheet.plots.size(), std::size_t{1});
+        const Curve& winner = sheet.plots[0].curves.at(0);
+        QCOMPARE(winner.points, (std::vector<QPointF>{{1, 85.0}, {2, 85.0}}));
+        QCOMPARE(winner.band.size(), std::size_t{2});
+        QVERIFY(std::abs(winner.band[0].low - 62.107317) < 1e-5 &&
+                std::abs(winner.band[0].high - 96.792906) < 1e-5);
+        QCOMPARE(sheet.plots[0].curves.at(1).points, (std::vector<QPointF>{{1, 50.0}, {2, 50.0}}));
+        QVERIFY(sheet.legend[0].help.contains("95 % Clopper-Pearson"));
+        const QStringList lines = charts::toCsv(sheet).split('\n');
+        QCOMPARE(lines[0], QString("Generation,Winner's success [%],\"Winner's success, 95 % Clopper-Pearson "
+                                   "low [%]\",\"Winner's success, 95 % Clopper-Pearson high [%]\",\"Success, "
+                                   "mean of top 30 % [%]\""));
+        QVERIFY2(lines[1].startsWith("1,85,62.107317") && lines[1].endsWith(",50"), qPrintable(lines[1]));
+    }
+
     void fitnessShowsTheThreeScores() {
         const ChartSheet sheet = charts::fitnessSheet({someStudy("a", 0.5)});
         QCOMPARE(sheet.plots.size(), std::size_t{3});
@@ -104,6 +124,7 @@ class StudySheetsTest : public QObject {
 
     void twoStudiesAreToldApart_data() {
         QTest::addColumn<charts::ChartSheet (*)(const std::vector<StudyCurves>&)>("make");
+        QTest::newRow("success") << &charts::successSheet;
         QTest::newRow("fitness") << &charts::fitnessSheet;
         QTest::newRow("strategy") << &charts::strategySheet;
         QTest::newRow("speed") << &charts::speedSheet;

@@ -23,7 +23,7 @@ class PhysicalModelTest : public QObject {
         QCOMPARE(model.rowCount(), 0);
     }
 
-    // 394 of 400 gives 96.8 ... 99.4 % by Clopper and Pearson (1934), 99.3 by Wilson.
+    // 394 of 400 gives 96.76 ... 99.45 % by Clopper and Pearson (1934), 397 of 400 97.82 ... 99.85 %.
     void itShowsBothSidesAndTheirBounds() {
         study::PhysicalValidation physical = plan();
         physical.plan.repetitions = 200;
@@ -47,7 +47,16 @@ class PhysicalModelTest : public QObject {
         QCOMPARE(total(PhysicalModel::Failures), QString("3"));
         QCOMPARE(total(PhysicalModel::FellOff), QString("2"));
         QVERIFY(!total(PhysicalModel::Difference).isEmpty());
-        QVERIFY(models::toCsv(model).contains("98.5"));
+        QCOMPARE(total(PhysicalModel::Bounds), QString("97.8 … 99.8"));
+        QVERIFY(model.headerData(PhysicalModel::Bounds, Qt::Horizontal, Qt::ToolTipRole)
+                    .toString()
+                    .contains("95 % Clopper-Pearson"));
+        const QString csv = models::toCsv(model);
+        QVERIFY(csv.contains("98.5"));
+        QVERIFY2(csv.startsWith("Pose,Sim. T,F,P [%],\"Simulated success, 95 % Clopper-Pearson low [%]\","
+                                "\"Simulated success, 95 % Clopper-Pearson high [%]\",Real T,"),
+                 qPrintable(csv));
+        QVERIFY2(csv.contains(",96.76387055") && csv.contains(",99.447589"), qPrintable(csv));
     }
 
     void withoutTrialsThereAreDashes() {

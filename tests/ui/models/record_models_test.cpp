@@ -43,6 +43,7 @@ study::IndividualRecord individual(double fitness, const std::vector<double>& st
     record.finished = 7;
     record.stuck = 2;
     record.fellOff = 1;
+    record.oriented = 6;
     return record;
 }
 
@@ -99,6 +100,38 @@ class RecordModelsTest : public QObject {
                      .isEmpty());
     }
 
+    void successIsKnownOrADash() {
+        GenerationModel model;
+        study::GenerationSummary old = sample::summary(1);
+        old.statistics.success.reset();
+        old.statistics.topSuccess.reset();
+        model.setGenerations({sample::summary(0), old}, {});
+        QCOMPARE(textAt(model, 0, GenerationModel::Success), QString("85.0"));
+        QCOMPARE(textAt(model, 0, GenerationModel::Bounds), QString("62.1 … 96.8"));
+        QCOMPARE(textAt(model, 0, GenerationModel::TopSuccess), QString("50.0"));
+        for (const int column :
+             {GenerationModel::Success, GenerationModel::Bounds, GenerationModel::TopSuccess}) {
+            QCOMPARE(textAt(model, 1, column), QString("–"));
+            QVERIFY(!model.index(1, column).data(models::ValueRole).isValid());
+        }
+        QVERIFY(model.index(0, GenerationModel::Bounds)
+                    .data(Qt::ToolTipRole)
+                    .toString()
+                    .contains("17 of 20 parts finished in the expected orientation; 95 % Clopper-Pearson"));
+        QVERIFY(model.index(1, GenerationModel::Success)
+                    .data(Qt::ToolTipRole)
+                    .toString()
+                    .startsWith("Not known"));
+        // Both bounds are in CSV, and which they are; nothing where they are not known.
+        const QStringList lines = models::toCsv(model).split('\n');
+        QVERIFY2(lines[0].startsWith("Generation,Winner,Success [%],\"Success, 95 % Clopper-Pearson low "
+                                     "[%]\",\"Success, 95 % Clopper-Pearson high [%]\",Top 30 % [%],"),
+                 qPrintable(lines[0]));
+        QVERIFY2(lines[1].startsWith("0,3,85,62.107317") && lines[1].contains(",96.792906"),
+                 qPrintable(lines[1]));
+        QVERIFY2(lines[2].startsWith("1,4,,,,,"), qPrintable(lines[2]));
+    }
+
     void smallNegativeNumbersAreNotMinusNothing() {
         GenerationModel model;
         study::GenerationSummary summary = sample::summary(0);
@@ -124,6 +157,9 @@ class RecordModelsTest : public QObject {
         QCOMPARE(textAt(model, 0, IndividualModel::Mutation), QString("0.0020"));   // its floor
         QCOMPARE(textAt(model, 0, IndividualModel::Smoothing), QString("0.3000"));  // its limit
         QCOMPARE(textAt(model, 0, IndividualModel::Stuck), QString("2"));
+        QCOMPARE(textAt(model, 0, IndividualModel::Finished), QString("7"));
+        QCOMPARE(textAt(model, 0, IndividualModel::Success), QString("60.0"));
+        QCOMPARE(valueAt(model, 0, IndividualModel::Success), 60.0);
         QVERIFY(!model.index(0, 0).data(models::IsWinnerRole).toBool());
         QVERIFY(model.index(1, 0).data(models::IsWinnerRole).toBool());
         QVERIFY(model.index(1, 0).data(Qt::FontRole).value<QFont>().bold());
@@ -163,21 +199,15 @@ class RecordModelsTest : public QObject {
         QVERIFY(model.index(6, 0).data(Qt::FontRole).value<QFont>().bold());
     }
 
-    void boundsAreKnownOnes_data() {
-        QTest::addColumn<models::BoundsMethod>("method");
-        QTest::addColumn<double>("low");
-        // All of n succeed: (alpha / 2)^(1/n), and n / (n + z^2).
-        QTest::newRow("Clopper and Pearson")
-            << models::BoundsMethod::clopperPearson << 100.0 * std::pow(0.025, 1.0 / 1000.0);
-        QTest::newRow("Wilson") << models::BoundsMethod::wilson
-                                << 100.0 * 1000.0 / (1000.0 + 1.959964 * 1.959964);
-    }
-    void boundsAreKnownOnes() {
-        QFETCH(models::BoundsMethod, method);
-        QFETCH(double, low);
+    void boundsAreThoseOfClopperAndPearson() {
         ValidationModel model;
-        model.setValidation(paperTable(), method);
+        model.setValidation(paperTable());
+        // All of n succeed: (alpha / 2)^(1/n).
+        const double low = 100.0 * std::pow(0.025, 1.0 / 1000.0);
         QVERIFY(std::abs(valueAt(model, 0, ValidationModel::Bounds) - low) < 1e-4);
+        QVERIFY(model.headerData(ValidationModel::Bounds, Qt::Horizontal, Qt::ToolTipRole)
+                    .toString()
+                    .contains("95 % Clopper-Pearson"));
         QCOMPARE(textAt(model, 0, ValidationModel::Bounds), QString("99.6 … 100.0"));
     }
 

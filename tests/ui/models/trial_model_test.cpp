@@ -22,13 +22,13 @@ models::TrialRow trial(int number, int pose, TrialVerdict verdict, double time) 
     row.verdict = verdict;
     row.outcome.time = time;
     row.outcome.farthest.position.x() = 0.1234;
-    if (verdict == TrialVerdict::finished) row.angle = 2.5 * base::kDegree;
+    if (verdict == TrialVerdict::success) row.angle = 2.5 * base::kDegree;
     return row;
 }
 
 std::vector<models::TrialRow> someTrials() {
-    return {trial(0, 0, TrialVerdict::finished, 10.0), trial(1, 0, TrialVerdict::stuck, 9.0),
-            trial(2, 1, TrialVerdict::fellOff, 2.0), trial(3, 1, TrialVerdict::finished, 1.0),
+    return {trial(0, 0, TrialVerdict::success, 10.0), trial(1, 0, TrialVerdict::stuck, 9.0),
+            trial(2, 1, TrialVerdict::fellOff, 2.0), trial(3, 1, TrialVerdict::success, 1.0),
             trial(4, -1, TrialVerdict::wrongOrientation, 3.0)};
 }
 
@@ -49,13 +49,13 @@ class TrialModelTest : public QObject {
         TrialModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
         model.setTrials(someTrials());
-        QCOMPARE(model.index(0, TrialModel::Verdict).data().toString(), QString("finished"));
+        QCOMPARE(model.index(0, TrialModel::Verdict).data().toString(), QString("success"));
         QCOMPARE(model.index(0, TrialModel::Distance).data().toString(), QString("123.4"));
         QCOMPARE(model.index(0, TrialModel::Angle).data().toString(), QString("2.5"));
         QCOMPARE(model.index(1, TrialModel::Angle).data().toString(), QString());
         QCOMPARE(model.index(0, TrialModel::Pose).data().toString(), QString("1"));
         QCOMPARE(model.index(4, TrialModel::Pose).data().toString(), QString("any"));
-        QCOMPARE(model.count(TrialVerdict::finished), 2);
+        QCOMPARE(model.count(TrialVerdict::success), 2);
         QCOMPARE(model.count(TrialVerdict::fellOff), 1);
     }
 

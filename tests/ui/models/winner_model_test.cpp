@@ -18,6 +18,7 @@ study::Winner winnerOf(int generation) {
     winner.record.fitness = {0.0, 0.0, 1.25};
     winner.record.trials = 100;
     winner.record.finished = 98;
+    winner.record.oriented = 97;
     return winner;
 }
 
@@ -39,8 +40,31 @@ class WinnerModelTest : public QObject {
         QVERIFY(model.winnerAt(3) == nullptr);
         QCOMPARE(model.index(2).data().toString(), QString("2"));
         QCOMPARE(model.index(2).data(Qt::ToolTipRole).toString(),
-                 QString("Generation 2: F 1.250, 98 of 100 parts finished"));
+                 QString("Generation 2, winner: success 97.0 % (91.5 … 99.4). 98 of 100 parts finished. F "
+                         "1.250"));
+        QCOMPARE(model.index(2).data(models::SuccessRole).toString(), QString("97 %"));
         QCOMPARE(model.index(2).data(models::IndividualRole).toInt(), 7);
+    }
+
+    void labelsAreAsShortAsTheyAreExact_data() {
+        QTest::addColumn<int>("oriented");
+        QTest::addColumn<int>("trials");
+        QTest::addColumn<QString>("label");
+        QTest::newRow("all") << 100 << 100 << "100 %";
+        QTest::newRow("almost all") << 996 << 1000 << "99.6 %";
+        QTest::newRow("none") << 0 << 20 << "0 %";
+        QTest::newRow("not counted") << -1 << 20 << "–";
+        QTest::newRow("not simulated") << 0 << 0 << "–";
+    }
+    void labelsAreAsShortAsTheyAreExact() {
+        QFETCH(int, oriented);
+        QFETCH(int, trials);
+        study::Winner winner = winnerOf(0);
+        winner.record.trials = trials;
+        winner.record.oriented = oriented < 0 ? std::nullopt : std::optional(oriented);
+        WinnerModel model;
+        model.setWinners({winner});
+        QTEST(model.index(0).data(models::SuccessRole).toString(), "label");
     }
 
     void picturesStayWithTheirGeneration() {

@@ -14,11 +14,15 @@
 #include <QTreeWidget>
 #include <QtTest>
 
+#include "core/study/selection.h"
 #include "tests/ui/session/event_loop_probe.h"
 #include "tests/ui/session/session_fixture.h"
 #include "tests/ui/window/window_user.h"
 #include "ui/charts/study_chart.h"
+#include "ui/look/folding_group.h"
 #include "ui/look/message_bar.h"
+#include "ui/models/generation_model.h"
+#include "ui/models/individual_model.h"
 #include "ui/models/roles.h"
 #include "ui/pages/learning_charts.h"
 
@@ -124,7 +128,7 @@ class EvolvePageTest : public QObject {
         user.click("evolve.start");
         QCOMPARE(user.state(), RunState::learning);
         QVERIFY(waitUntil([&] { return user.text("evolve.state") == "All 6 generations learned"; }));
-        for (const char* name : {"fitness", "strategy", "speed"}) {
+        for (const char* name : {"success", "fitness", "strategy", "speed"}) {
             const charts::StudyCurves& curves = user.chart(name)->studies().front();
             QCOMPARE(curves.summaries.size(), std::size_t{kGenerations});
             QCOMPARE(curves.trialsPerSecond.size(), std::size_t{kGenerations});
@@ -134,8 +138,17 @@ class EvolvePageTest : public QObject {
         // The newest is on top.
         QCOMPARE(user.rows("generations")->index(0, 0).data(models::ValueRole).toInt(), kGenerations - 1);
         QCOMPARE(user.winners(), kGenerations);
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, winner"));
+        const study::Winner best = *study::findBestWinner(user.session()->winners());
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation %1, best so far").arg(best.generation));
         QVERIFY(waitUntil([&] { return heightSum(*user.track()) != flat; }));
+        // Its success is the number of the page, in the largest letters.
+        QCOMPARE(user.text("evolve.success"),
+                 QString("%1 %").arg(100.0 * best.record.success()->share(), 0, 'f', 1));
+        QVERIFY(user.text("evolve.successBounds").contains("95 %"));
+        QVERIFY(user.find<QLabel>("evolve.success")->parentWidget()->toolTip().contains("Clopper-Pearson"));
+        for (const QLabel* label : user.find<QWidget>("page.evolve")->findChildren<QLabel*>())
+            QVERIFY(label->objectName() == "evolve.success" ||
+                    label->font().pointSizeF() < user.find<QLabel>("evolve.success")->font().pointSizeF());
         const auto* log = user.find<QTreeWidget>("log.list");
         QCOMPARE(log->findItems("Generation", Qt::MatchStartsWith, 1).size(), kGenerations);
         QVERIFY(log->topLevelItem(log->topLevelItemCount() - 1)->text(1).startsWith("Ended"));
@@ -213,29 +226,31 @@ class EvolvePageTest : public QObject {
         QVERIFY(user.open(studies.path("a.trap")));
         QVERIFY(waitUntil([&] { return user.track() != nullptr; }));
         const auto newest = user.track();
+        const int best = study::findBestWinner(user.session()->winners())->generation;
         user.show("individuals");
         auto* table = user.find<QTableView>("individuals.table");
         QVERIFY(waitUntil([&] { return table->model()->rowCount() == kIndividuals; }));
-        // Sorted by fitness: the winner is first and current, the worst is last.
-        QCOMPARE(table->currentIndex().row(), 0);
+        // Sorted by success: the worst is last.
         const QModelIndex worst = table->model()->index(kIndividuals - 1, 0);
         table->scrollTo(worst);
         QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualRect(worst).center());
         const int individual = worst.data(models::IndividualRole).toInt();
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, individual %1").arg(individual));
+        QCOMPARE(user.text("filmStrip.caption"),
+                 QString("Generation %1, individual %2").arg(best).arg(individual));
         QVERIFY(waitUntil([&] { return user.track() != newest; }));
         QVERIFY(heightSum(*user.track()) != heightSum(*newest));
         QVERIFY(user.text("evolve.lengths").startsWith("Segments of"));
         QVERIFY(!user.find<QWidget>("evolve.genes")->accessibleDescription().isEmpty());
 
-        user.find<QSpinBox>("individuals.generation")->setValue(2);
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 2, winner"));
-        QCOMPARE(table->model()->index(0, 0).data(models::GenerationRole).toInt(), 2);
+        const int other = best == 2 ? 3 : 2;
+        user.find<QSpinBox>("individuals.generation")->setValue(other);
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation %1, winner").arg(other));
+        QCOMPARE(table->model()->index(0, 0).data(models::GenerationRole).toInt(), other);
 
         user.window.activateWindow();
         QVERIFY(QTest::qWaitForWindowActive(&user.window));
         QTest::keyClick(table, Qt::Key_Escape);
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, winner"));
+        QCOMPARE(user.text("filmStrip.caption"), QString("Generation %1, best so far").arg(best));
         QVERIFY(waitUntil([&] { return heightSum(*user.track()) == heightSum(*newest); }));
     }
 
@@ -248,20 +263,84 @@ class EvolvePageTest : public QObject {
         user.click("evolve.start");
         QVERIFY(user.waitForGenerations(2));
         auto* slider = user.find<QSlider>("filmStrip.slider");
+        slider->setValue(1);
         slider->setValue(0);
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 0, winner"));
+        QVERIFY(user.text("filmStrip.caption").startsWith("Generation 0, "));
         QVERIFY(!user.find<QToolButton>("filmStrip.follow")->isChecked());
         const int saved = user.saved();
         QVERIFY(user.waitForGenerations(saved + 1));
         // What was picked stays while learning goes on.
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 0, winner"));
+        QVERIFY(user.text("filmStrip.caption").startsWith("Generation 0, "));
         QCOMPARE(slider->value(), 0);
         QCOMPARE(slider->maximum(), user.saved() - 1);
         user.find<QAction>("evolve.next")->trigger();
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 1, winner"));
+        QVERIFY(user.text("filmStrip.caption").startsWith("Generation 1, "));
         user.click("filmStrip.follow");
         QVERIFY(user.waitFor(RunState::idle));
-        QCOMPARE(user.text("filmStrip.caption"), QString("Generation 5, winner"));
+        QVERIFY(waitUntil([&] {
+            return user.text("filmStrip.caption") ==
+                   QString("Generation %1, best so far")
+                       .arg(study::findBestWinner(user.session()->winners())->generation);
+        }));
+    }
+
+    /// Following shows the best winner, also when a newer one is worse.
+    void followingStaysWithTheBest() {
+        session::SessionFixture studies;
+        study::Settings settings = session::smallSettings(kGenerations);
+        settings.evolution.trialsPerEvaluation = 20;
+        QVERIFY(studies.create("a.trap", settings) != nullptr);
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QStringList shown;
+        QObject::connect(user.session(), &session::StudySession::generationSaved, &user.window,
+                         [&] { shown.append(user.text("filmStrip.caption")); });
+        user.click("evolve.start");
+        QVERIFY(user.waitForGenerations(kGenerations) && user.waitFor(RunState::idle));
+        const std::vector<study::Winner>& winners = user.session()->winners();
+        QCOMPARE(shown.size(), kGenerations);
+        bool stayed = false;
+        for (int last = 0; last < kGenerations; ++last) {
+            const auto known = std::span(winners).first(static_cast<std::size_t>(last) + 1);
+            const int best = study::findBestWinner(known)->generation;
+            QCOMPARE(shown[last], QString("Generation %1, best so far").arg(best));
+            stayed = stayed || best < last;
+        }
+        QVERIFY2(stayed, "In this study every winner is better than the one before.");
+    }
+
+    void detailsOfTheAlgorithmAreOneFoldAway() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        {
+            User user(studies);
+            QVERIFY(user.open(studies.path("a.trap")));
+            QVERIFY(user.find<QWidget>("evolve.parts")->isVisible());
+            for (const char* name : {"evolve.scores", "evolve.genes"})
+                QVERIFY2(!user.find<QWidget>(name)->isVisible(), name);
+            // The chart in front is success; the others are behind it.
+            QVERIFY(waitUntil(
+                [&] { return !user.find<QDockWidget>("dock.evolve.success")->visibleRegion().isEmpty(); }));
+            QVERIFY(user.find<QDockWidget>("dock.evolve.algorithm")->visibleRegion().isEmpty());
+            user.find<look::FoldingGroup>("group.evolve.algorithm")->setFolded(false);
+            QVERIFY(user.find<QWidget>("evolve.scores")->isVisible());
+            QVERIFY(user.find<QWidget>("evolve.genes")->isVisible());
+            user.show("algorithm");
+            QVERIFY(user.find<QWidget>("fitness")->isVisible());
+
+            user.show("generations");
+            auto* table = user.find<QTableView>("generations.table");
+            QVERIFY(!table->isColumnHidden(models::GenerationModel::Success));
+            QVERIFY(table->isColumnHidden(models::GenerationModel::Orientation));
+            user.click("generations.table.details");
+            QVERIFY(!table->isColumnHidden(models::GenerationModel::Orientation));
+        }
+        // As it was left.
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        QVERIFY(!user.find<QTableView>("generations.table")
+                     ->isColumnHidden(models::GenerationModel::Orientation));
+        QVERIFY(user.find<QTableView>("individuals.table")->isColumnHidden(models::IndividualModel::Total));
     }
 
     void closingWhileItLearnsAsksAndItCanGoOn() {

@@ -1,10 +1,13 @@
 #include <QComboBox>
 #include <QDockWidget>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSlider>
 #include <QSpinBox>
 #include <QToolButton>
 
+#include "core/store/study_file.h"
+#include "core/study/validation.h"
 #include "tests/ui/pages/review_user.h"
 #include "ui/models/selection_model.h"
 #include "ui/models/validation_model.h"
@@ -181,6 +184,72 @@ class ReviewPageTest : public QObject {
                 ->currentText()
                 .contains(
                     QString("generation %1, individual %2").arg(second.generation).arg(second.individual)));
+    }
+
+    void successOfATrackIsItsNumber() {
+        ReviewUser user(study_);
+        const study::Winner winner = *user.session()->chosen();
+        const stats::Count learned = winner.record.success().value();
+        QCOMPARE(user.text("review.success"), QString("%1 %").arg(100.0 * learned.share(), 0, 'f', 1));
+        QVERIFY(user.text("review.successSource").contains("while learning"));
+        auto* list = user.find<QComboBox>("review.track");
+        for (int row = 0; row < list->count(); ++row)
+            QVERIFY2(list->itemText(row).endsWith('%'), qPrintable(list->itemText(row)));
+        // A validation tells more.
+        QVERIFY(user.validate());
+        const study::ValidationRow total = study::calcTotal(user.session()->validations().back());
+        QTRY_COMPARE(user.text("review.success"),
+                     QString("%1 %").arg(100.0 * (total.trials - total.failures) / total.trials, 0, 'f', 1));
+        QVERIFY(user.text("review.successSource").contains("validation"));
+    }
+
+    void trackWithoutSuccessIsAskedAbout() {
+        // The same study, but from the first generation's tracks nothing leaves as wanted.
+        const QString bad = learned_.file("bad.trap");
+        {
+            const auto good = store::StudyFile::openReadOnly(study_.toStdString());
+            VERIFY_OK(good);
+            auto copy = store::StudyFile::create(bad.toStdString(), good->loadSettings().value(),
+                                                 good->loadPart().value(), "trapwright test");
+            VERIFY_OK(copy);
+            for (int index = 0; index < 2; ++index) {
+                study::GenerationRecord record = good->loadGeneration(index).value();
+                for (study::IndividualRecord& individual : record.individuals)
+                    if (index == 0) individual.oriented = individual.finished = 0;
+                VERIFY_OK(copy->saveGeneration(record));
+            }
+        }
+        ReviewUser user(bad);
+        const study::Winner before = *user.session()->chosen();
+        QCOMPARE(before.generation, 1);
+        auto* list = user.find<QComboBox>("review.track");
+        const int row = list->findText("Generation 0,", Qt::MatchStartsWith);
+        QVERIFY(row >= 0 && list->itemText(row).endsWith(" 0 %"));
+        list->setCurrentIndex(row);
+        emit list->activated(row);
+        const auto ask = [&]() -> QMessageBox* {
+            user.find<QPushButton>("review.makeFinal")->click();
+            return user.find<QMessageBox>("dialog.badTrack");
+        };
+        QPointer<QMessageBox> box = ask();
+        QVERIFY(box && box->isVisible());
+        QVERIFY2(box->informativeText().contains("0 %") && box->informativeText().contains("of 16 parts"),
+                 qPrintable(box->informativeText()));
+        for (const QAbstractButton* button : box->buttons())
+            QVERIFY(button->text() != "OK" && button->text() != "Yes" && button->text() != "No");
+        QCOMPARE(user.session()->chosen()->generation, 1);
+        box->findChild<QPushButton*>("answer.chooseAnother")->click();
+        QTRY_VERIFY(box == nullptr);
+        QCOMPARE(user.session()->chosen()->generation, 1);
+        box = ask();
+        box->findChild<QPushButton*>("answer.makeFinal")->click();
+        QTRY_COMPARE(user.session()->chosen()->generation, 0);
+        // A track that is good is not asked about.
+        list->setCurrentIndex(list->findText("Generation 1,", Qt::MatchStartsWith));
+        emit list->activated(list->currentIndex());
+        QTRY_VERIFY(box == nullptr);
+        QVERIFY(ask() == nullptr);
+        QCOMPARE(user.session()->chosen()->generation, 1);
     }
 
     void aFailedRowLeadsToItsReplay() {

@@ -1,0 +1,48 @@
+#include "ui/pages/success_card.h"
+
+#include <QGridLayout>
+#include <QLabel>
+
+#include "ui/models/numbers.h"
+
+namespace trapwright::pages {
+
+namespace {
+
+constexpr double kNumberSize = 2.4;  // of the font's
+
+}  // namespace
+
+SuccessCard::SuccessCard(const QString& name, QWidget* parent)
+    : QWidget(parent), number_(new QLabel(this)), bounds_(new QLabel(this)), source_(new QLabel(this)) {
+    number_->setObjectName(name + ".success");
+    bounds_->setObjectName(name + ".successBounds");
+    source_->setObjectName(name + ".successSource");
+    QFont large = font();
+    large.setPointSizeF(large.pointSizeF() * kNumberSize);
+    large.setBold(true);
+    number_->setFont(large);
+    source_->setForegroundRole(QPalette::PlaceholderText);
+    source_->setWordWrap(true);
+    auto* layout = new QGridLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setHorizontalSpacing(12);
+    layout->setVerticalSpacing(0);
+    layout->addWidget(number_, 0, 0, 2, 1);
+    layout->addWidget(bounds_, 0, 1, Qt::AlignBottom);
+    layout->addWidget(source_, 1, 1, Qt::AlignTop);
+    layout->setColumnStretch(1, 1);
+}
+
+void SuccessCard::show(const std::optional<stats::Count>& success, const QString& source) {
+    number_->setText(success ? tr("%1 %").arg(models::percent(success)) : models::percent(success));
+    bounds_->setText(success ? tr("success, 95 %: %1 %").arg(models::boundsText(success))
+                             : tr("success not known"));
+    source_->setText(source);
+    const QString help = models::successHelp(success);
+    setToolTip(help);
+    number_->setAccessibleName(tr("Success %1").arg(number_->text()));
+    number_->setAccessibleDescription(QStringLiteral("%1. %2").arg(help, source));
+}
+
+}  // namespace trapwright::pages

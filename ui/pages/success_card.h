@@ -1,0 +1,28 @@
+#pragma once
+
+#include <QWidget>
+#include <optional>
+
+#include "core/stats/binomial.h"
+
+class QLabel;
+
+namespace trapwright::pages {
+
+/// The number that a page is about: success in large figures, its bounds, and what it was counted on.
+class SuccessCard : public QWidget {
+    Q_OBJECT
+ public:
+    /// `name` is stable: "review" names the number "review.success".
+    SuccessCard(const QString& name, QWidget* parent);
+
+    /// `source`: of what, in a few words ("generation 12, best so far"). A dash where success is not known.
+    void show(const std::optional<stats::Count>& success, const QString& source);
+
+ private:
+    QLabel* number_;
+    QLabel* bounds_;
+    QLabel* source_;
+};
+
+}  // namespace trapwright::pages
