@@ -44,7 +44,7 @@ std::string entry(const std::string& name, const std::string& text) {
 /// CLI11 joins the names of a type and of what checks it: "FLOAT:FLOAT in [0.1 - 89]".
 std::string typeOf(const CLI::Option& option) {
     const std::string all = option.get_type_name();
-    const std::string type = all.substr(0, all.find(':'));
+    std::string type = all.substr(0, all.find(':'));
     if (type == "INT" || type == "UINT" || type == "FLOAT") return "N";
     return type;
 }
@@ -85,8 +85,8 @@ std::string HelpFormatter::make_subcommand(const CLI::App* sub) const {
     return entry(sub->get_name(), text.substr(0, text.find('\n')));
 }
 
-std::string HelpFormatter::make_option(const CLI::Option* opt, bool is_positional) const {
-    if (is_positional) return entry(make_option_name(opt, true), make_option_desc(opt));
+std::string HelpFormatter::make_option(const CLI::Option* opt, bool isPositional) const {
+    if (isPositional) return entry(make_option_name(opt, true), make_option_desc(opt));
     std::string names;
     for (const std::string& name : opt->get_snames())
         names += (names.empty() ? "-" : ", -") + name;
