@@ -185,6 +185,8 @@ void GuideBar::resizeEvent(QResizeEvent* event) {
 void GuideBar::claimHeight() {
     const int wide = std::clamp(static_cast<int>(kExpectedShare * width()), kLeastExpected, kMostExpected);
     if (expected_->width() != wide) expected_->setFixedWidth(wide);
+    // With its words; a wide bar would else be a low one.
+    expected_->setMinimumHeight(3 * wide / 4);
     // The window's layout asks for no height for a width, and would cut the words.
     setMinimumHeight(layout()->heightForWidth(width()));
 }
