@@ -19,11 +19,9 @@ struct Count {
     friend bool operator==(const Count&, const Count&) = default;
 };
 
-/// Wilson's score interval (Wilson 1927): near the stated coverage on average, never outside [0, 1].
-/// 0 <= successes <= trials; no trials give [0, 1]. confidence in (0, 1), two-sided.
-Interval calcWilson(int successes, int trials, double confidence = 0.95);
-
-/// Clopper and Pearson's interval (1934): at least the stated coverage, always. Same arguments.
+/// Clopper and Pearson's interval (1934): at least the stated coverage, always. It is the one of every single
+/// rate that Trapwright shows. 0 <= successes <= trials; no trials give [0, 1]. confidence in (0, 1),
+/// two-sided.
 Interval calcClopperPearson(int successes, int trials, double confidence = 0.95);
 
 }  // namespace trapwright::stats
