@@ -106,10 +106,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                                   std::move(track).value(), validation->expectedOrientation};
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (const char* name : {"cuboid.stl", "cuboid.3mf"}) {
-        const auto exported = work::exportTrack(design, design.track.solid, folder / name);
+        const auto exported = work::exportTrack(design, {&design.track.solid, 1}, folder / name);
         if (!exported) return toFailure(exported.error());
-        console.print(describeExport(*exported));
-        files.push_back(exported->path.string());
+        console.print(describeExport(exported->front()));
+        files.push_back(exported->front().path.string());
     }
     console.emit({{"study", path},
                   {"selection", toJson(*selection)},

@@ -52,8 +52,15 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!individual) return individual.failure();
     const auto track = study::decodeTrack(settings->track, individual->record.chromosome);
     if (!track) return Failure{ExitCode::badInput, track.error().message};
+    auto means = findPrintMeans(options.print);
+    if (!means) return means.failure();
     const auto solid = track::buildPrintSolid(*track, toPrintOptions(options.print));
     if (!solid) return Failure{ExitCode::usage, solid.error().message};
+    auto pieces = buildPieces(*track, options.print, *means);
+    if (!pieces) return pieces.failure();
+    std::vector<geometry::TriangleMesh> solids;
+    for (const track::PrintPiece& piece : *pieces)
+        solids.push_back(piece.solid);
 
     const std::string name =
         fmt::format("{}, generation {}, individual {}", std::filesystem::path(options.study).stem().string(),
@@ -61,23 +68,31 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     const track::TrackFile design{name, *track, findExpectedOrientation(*file, *individual)};
     for (const std::string& path : options.files.empty() ? defaultFiles(options.study) : options.files) {
-        const auto exported = work::exportTrack(design, *solid, path);
+        const auto exported = work::exportTrack(design, solids, path);
         if (!exported) return toFailure(exported.error());
-        console.print(describeExport(*exported));
-        files.push_back({{"file", path},
-                         {"size_mm", toJson(exported->size, 1e3)},
-                         {"triangles", exported->triangles},
-                         {"volume_mm3", exported->report.volume * 1e9},
-                         {"closed_and_manifold", exported->report.isSolid()},
-                         {"overlapping_triangles", exported->report.overlappingTriangles}});
+        for (const work::ExportedFile& written : *exported) {
+            console.print(describeExport(written));
+            files.push_back({{"file", written.path.string()},
+                             {"size_mm", toJson(written.size, 1e3)},
+                             {"solids", written.solids},
+                             {written.isStep ? "faces" : "triangles", written.faces},
+                             {"volume_mm3", written.volume * 1e9},
+                             {"closed_and_manifold", true},
+                             {"overlapping_triangles", written.overlappingTriangles}});
+        }
     }
-    const geometry::PrintReport report = geometry::checkForPrinting(*solid, toPrintLimits(options.print));
+    const geometry::PrintReport report = geometry::checkForPrinting(*solid, means->limits);
     console.print(describeFlaws(report));
+    nlohmann::ordered_json print = flawsToJson(report);
+    if (means->printer) {
+        console.print(describeFit(*pieces, *means->printer));
+        print["pieces"] = fitToJson(*pieces, *means->printer);
+    }
     console.emit({{"study", options.study},
                   {"generation", individual->generation},
                   {"individual", individual->individual},
                   {"files", files},
-                  {"print", flawsToJson(report)}});
+                  {"print", print}});
     return ExitCode::ok;
 }
 
@@ -87,15 +102,16 @@ void addExportCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = addCommand(
         program, invocation, "export",
-        "Writes a track for printing as binary STL or 3MF, or as JSON for `trapwright track`, in mm, and "
-        "checks what was written.\nWalls and flange are printed around the surface, which stays as it was "
-        "learned; "
-        "what a printer may fail at is told.",
-        "trapwright export cuboid.trap track.stl track.3mf",
+        "Writes a track for printing as binary STL or 3MF, for machining as STEP, or as JSON for `trapwright "
+        "track`, in mm, and checks what was written.\nWalls and flange are printed around the surface, which "
+        "stays as it was learned; what a printer may fail at is told. What is too long for a printer's bed "
+        "is "
+        "cut into pieces that dowels hold together.",
+        "trapwright export cuboid.trap track.3mf --printer prusa-mk4 --split",
         [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();
     command.add_option("FILE", options->files,
-                       "Files to write, .stl, .3mf or .json (default: STL and 3MF, beside the study)");
+                       "Files to write, .stl, .3mf, .step or .json (default: STL and 3MF, beside the study)");
     addIndividualOptions(command, options->choice);
     addPrintOptions(command, options->print);
 }

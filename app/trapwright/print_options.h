@@ -3,10 +3,14 @@
 #include <CLI/App.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "app/trapwright/exit_codes.h"
 #include "core/geometry/print_check.h"
-#include "core/track/print_solid.h"
+#include "core/track/print_pieces.h"
+#include "core/track/printer.h"
 #include "core/work/track_export.h"
 
 namespace trapwright::app {
@@ -22,14 +26,34 @@ struct PrintRequest {
     std::optional<double> boltSpacing;
     std::optional<double> boltEdgeDistance;
     std::optional<double> insertRadius;
+    std::string printer;  // its name; empty: none is meant
+    std::string bed;      // "250x210x220"; empty: the printer's
     std::optional<double> thinnestWall;
     std::optional<double> steepestOverhang;
+    std::vector<int> cuts;  // at these sections
+    bool split = false;     // at the sections that the printer's bed makes necessary
+    std::optional<double> dowelDiameter;
+    std::optional<double> dowelDepth;
+    std::optional<double> dowelClearance;
 };
 
 void addPrintOptions(CLI::App& command, PrintRequest& request);
 
 track::PrintOptions toPrintOptions(const PrintRequest& request);
-geometry::PrintLimits toPrintLimits(const PrintRequest& request);
+
+/// What the track is printed with.
+struct PrintMeans {
+    std::optional<track::Printer> printer;  // with the bed that was given; none: no bed is known
+    geometry::PrintLimits limits;
+};
+
+/// The printer that is named, and what is said differently of it. Error: no such printer, or a bed that is
+/// none.
+Attempt<PrintMeans> findPrintMeans(const PrintRequest& request);
+
+/// The pieces that are asked for. Error: they cannot be made.
+Attempt<std::vector<track::PrintPiece>> buildPieces(const track::Track& track, const PrintRequest& request,
+                                                    const PrintMeans& means);
 
 /// A sentence about a file for people.
 std::string describeExport(const work::ExportedFile& file);
@@ -38,5 +62,9 @@ std::string describeExport(const work::ExportedFile& file);
 std::string describeFlaws(const geometry::PrintReport& report);
 /// The same in mm and degrees.
 nlohmann::ordered_json flawsToJson(const geometry::PrintReport& report);
+
+/// Whether each piece fits on the bed, a line each.
+std::string describeFit(std::span<const track::PrintPiece> pieces, const track::Printer& printer);
+nlohmann::ordered_json fitToJson(std::span<const track::PrintPiece> pieces, const track::Printer& printer);
 
 }  // namespace trapwright::app

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace trapwright::geometry {
@@ -160,6 +161,71 @@ bool fillEdges(ConvexPolytope& polytope) {
     return true;
 }
 
+/// Follows a region's border from one of its directed edges until it is back there: around each corner
+/// through the region's triangles, so that a corner at which the region touches itself does no harm.
+Loop followBorder(const TriangleMesh& mesh, const std::map<Edge, int>& left, const std::vector<int>& region,
+                  const Edge& start, std::set<Edge>& done) {
+    Loop loop;
+    Edge edge = start;
+    do {
+        done.insert(edge);
+        loop.push_back(edge.first);
+        int triangle = left.at(edge);
+        const int corner = edge.second;
+        while (true) {
+            const Triangle& t = mesh.triangles[triangle];
+            const auto at = static_cast<std::size_t>(std::find(t.begin(), t.end(), corner) - t.begin());
+            edge = {corner, t[(at + 1) % 3]};
+            const int behind = left.at({edge.second, edge.first});
+            if (region[behind] != region[triangle]) break;
+            triangle = behind;
+        }
+    } while (edge != start);
+    return loop;
+}
+
+/// Twice the area of the loop as seen against the normal; negative for a hole.
+double calcDoubleArea(const TriangleMesh& mesh, const Loop& loop, const base::Vec3& normal) {
+    base::Vec3 sum = base::Vec3::Zero();
+    const base::Vec3& anchor = mesh.vertices[loop.front()];
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        sum += (mesh.vertices[loop[i]] - anchor).cross(mesh.vertices[loop[(i + 1) % loop.size()]] - anchor);
+    return sum.dot(normal);
+}
+
+/// Leaves out corners at which nothing but one straight edge between two faces goes on.
+void straightenEdges(const TriangleMesh& mesh, double tolerance, std::vector<FlatFace>& faces) {
+    std::map<int, std::set<int>> neighbours;
+    for (const FlatFace& face : faces) {
+        for (const Loop& loop : face.loops) {
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                neighbours[loop[i]].insert(loop[(i + 1) % loop.size()]);
+                neighbours[loop[(i + 1) % loop.size()]].insert(loop[i]);
+            }
+        }
+    }
+    const auto isNeedless = [&](int corner) {
+        const std::set<int>& ends = neighbours.at(corner);
+        if (ends.size() != 2) return false;
+        const base::Vec3& here = mesh.vertices[corner];
+        const base::Vec3 back = mesh.vertices[*ends.begin()] - here;
+        const base::Vec3 ahead = mesh.vertices[*ends.rbegin()] - here;
+        return back.dot(ahead) < 0.0 && back.cross(ahead).norm() <= tolerance * (ahead - back).norm();
+    };
+    // A loop keeps three corners; then all faces keep them.
+    std::set<int> kept;
+    for (const FlatFace& face : faces) {
+        for (const Loop& loop : face.loops) {
+            if (std::count_if(loop.begin(), loop.end(), [&](int v) { return !isNeedless(v); }) < 3)
+                kept.insert(loop.begin(), loop.end());
+        }
+    }
+    for (FlatFace& face : faces) {
+        for (Loop& loop : face.loops)
+            std::erase_if(loop, [&](int v) { return !kept.contains(v) && isNeedless(v); });
+    }
+}
+
 }  // namespace
 
 std::optional<ConvexPolytope> mergeCoplanarTriangles(const TriangleMesh& mesh, double tolerance) {
@@ -178,6 +244,37 @@ std::optional<ConvexPolytope> mergeCoplanarTriangles(const TriangleMesh& mesh, d
     }
     if (!fillEdges(polytope)) return std::nullopt;
     return polytope;
+}
+
+std::optional<std::vector<FlatFace>> mergeFlatFaces(const TriangleMesh& mesh, double tolerance) {
+    const auto left = findLeftTriangles(mesh);
+    if (!left) return std::nullopt;
+    for (const auto& [edge, triangle] : *left) {
+        if (!left->contains({edge.second, edge.first})) return std::nullopt;
+    }
+    const auto [region, count] = findRegions(mesh, *left, tolerance);
+    std::vector<FlatFace> faces(static_cast<std::size_t>(count));
+    std::vector<double> largest(faces.size(), -1.0);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto number = static_cast<std::size_t>(region[i]);
+        const double area = calcDoubleArea(mesh, mesh.triangles[i]);
+        if (area <= largest[number]) continue;
+        largest[number] = area;
+        faces[number].normal = triangleNormal(mesh, i);
+    }
+    std::set<Edge> done;
+    for (const auto& [edge, triangle] : *left) {
+        if (region[triangle] == region[left->at({edge.second, edge.first})] || done.contains(edge)) continue;
+        FlatFace& face = faces[static_cast<std::size_t>(region[triangle])];
+        face.loops.push_back(followBorder(mesh, *left, region, edge, done));
+    }
+    for (FlatFace& face : faces) {
+        std::stable_sort(face.loops.begin(), face.loops.end(), [&](const Loop& a, const Loop& b) {
+            return calcDoubleArea(mesh, a, face.normal) > calcDoubleArea(mesh, b, face.normal);
+        });
+    }
+    straightenEdges(mesh, tolerance, faces);
+    return faces;
 }
 
 }  // namespace trapwright::geometry

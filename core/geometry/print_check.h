@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/geometry/triangle_mesh.h"
@@ -15,11 +16,28 @@ struct PrintLimits {
     friend bool operator==(const PrintLimits&, const PrintLimits&) = default;
 };
 
-/// Neighbouring triangles that a printer may fail at.
-struct PrintFlaw {
+/// A region in which the solid is thinner than the printer's thinnest wall.
+struct ThinWall {
+    TriangleMesh patch;                      // of both its sides, as parts of the solid's triangles
+    double thickness = 0.0;                  // the least [m]
+    double area = 0.0;                       // of one side: the mean of both [m^2]
+    base::Vec3 centre = base::Vec3::Zero();  // [m]
+};
+
+/// A line along which the solid comes to a point that is too sharp to print.
+struct SharpRidge {
+    std::vector<std::pair<base::Vec3, base::Vec3>> edges;  // that hang together [m]
+    double angle = 0.0;                                    // the least between its two faces [rad]
+    double length = 0.0;                                   // [m]
+    double lost = 0.0;  // how much of its height is thinner than the thinnest wall, at most [m]
+    base::Vec3 centre = base::Vec3::Zero();  // [m]
+};
+
+/// Neighbouring triangles that hang over.
+struct Overhang {
     std::vector<int> triangles;              // of the mesh
-    double worst = 0.0;                      // least thickness [m], or greatest angle from upright [rad]
-    double area = 0.0;                       // of what is concerned of the triangles [m^2]
+    double angle = 0.0;                      // the greatest, from upright [rad]
+    double area = 0.0;                       // [m^2]
     base::Vec3 centre = base::Vec3::Zero();  // [m]
 };
 
@@ -29,11 +47,21 @@ struct PrintReport {
     base::Vec3 size = base::Vec3::Zero();  // of its box [m]
     bool closed = false;                   // closed, manifold and oriented outward
     int overlappingTriangles = 0;          // that cross others
-    std::vector<PrintFlaw> thinWalls;      // largest area first
-    std::vector<PrintFlaw> overhangs;      // likewise; what lies on the printer's bed is none
+    std::vector<ThinWall> thinWalls;       // largest area first
+    std::vector<SharpRidge> ridges;        // longest first
+    std::vector<Overhang> overhangs;       // largest area first; what lies on the printer's bed is none
+
+    [[nodiscard]] bool isFlawless() const {
+        return closed && overlappingTriangles == 0 && thinWalls.empty() && ridges.empty() &&
+               overhangs.empty();
+    }
 };
 
-/// Looks a solid over before it is printed. Walls and overhangs are only told of closed ones.
+/// Edges of a solid sharper than this are ridges. [rad]
+inline constexpr double kSharpestEdge = 45.0 * base::kDegree;
+
+/// Looks a solid over before it is printed. Walls, ridges and overhangs are only told of closed ones. What is
+/// thin because it tapers to a ridge is told of as that ridge, with its angle, and is no thin wall.
 PrintReport checkForPrinting(const TriangleMesh& mesh, const PrintLimits& limits);
 
 }  // namespace trapwright::geometry

@@ -51,7 +51,7 @@ void check(LIB3MFRESULT result, const Handle& object) {
 // [m], in the order of lib3mf's MODELUNIT constants: micrometre, millimetre, centimetre, inch, foot, metre.
 constexpr std::array<double, 6> kUnits = {1e-6, 1e-3, 1e-2, 0.0254, 0.3048, 1.0};
 
-std::string packMesh(const TriangleMesh& mesh, const std::string& name) {
+void addObject(const Handle& model, const TriangleMesh& mesh, const std::string& name) {
     std::vector<NMR::MODELMESHVERTEX> vertices(mesh.vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
         for (int axis = 0; axis < 3; ++axis)
@@ -64,12 +64,8 @@ std::string packMesh(const TriangleMesh& mesh, const std::string& name) {
         for (int k = 0; k < 3; ++k)
             triangles[i].m_nIndices[k] = static_cast<DWORD>(mesh.triangles[i][k]);
 
-    Handle model;
     Handle object;
     Handle item;
-    Handle writer;
-    check(NMR::lib3mf_createmodel(model.out()), model);
-    check(NMR::lib3mf_model_setunit(model.get(), NMR::MODELUNIT_MILLIMETER), model);
     check(NMR::lib3mf_model_addmeshobject(model.get(), object.out()), model);
     check(NMR::lib3mf_object_setnameutf8(object.get(), name.c_str()), object);
     check(
@@ -77,6 +73,17 @@ std::string packMesh(const TriangleMesh& mesh, const std::string& name) {
                                            triangles.data(), static_cast<DWORD>(triangles.size())),
         object);
     check(NMR::lib3mf_model_addbuilditem(model.get(), object.get(), nullptr, item.out()), model);
+}
+
+std::string packMeshes(std::span<const TriangleMesh> meshes, const std::string& name) {
+    Handle model;
+    Handle writer;
+    check(NMR::lib3mf_createmodel(model.out()), model);
+    check(NMR::lib3mf_model_setunit(model.get(), NMR::MODELUNIT_MILLIMETER), model);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const std::string piece = ", piece " + std::to_string(i + 1) + " of " + std::to_string(meshes.size());
+        addObject(model, meshes[i], meshes.size() == 1 ? name : name + piece);
+    }
     check(NMR::lib3mf_model_querywriter(model.get(), "3mf", writer.out()), model);
     // Into memory, so that our own writer is the only one that meets full disks.
     ULONG64 size = 0;
@@ -106,11 +113,9 @@ void appendObject(const Handle& object, double unit, TriangleMesh& mesh) {
                                   first + static_cast<int>(t.m_nIndices[2])});
 }
 
-PackagedMesh unpackMesh(std::string bytes) {
-    Handle model;
+/// Reads a package into a model; its unit in metres.
+double readModel(std::string bytes, Handle& model) {
     Handle reader;
-    Handle merged;
-    Handle objects;
     check(NMR::lib3mf_createmodel(model.out()), model);
     check(NMR::lib3mf_model_queryreader(model.get(), "3mf", reader.out()), model);
     check(
@@ -119,27 +124,51 @@ PackagedMesh unpackMesh(std::string bytes) {
     DWORD unit = NMR::MODELUNIT_MILLIMETER;
     check(NMR::lib3mf_model_getunit(model.get(), &unit), model);
     if (unit >= kUnits.size()) throw PackageFailure("lib3mf: unknown unit");
-    // Resolves build items and components into one mesh object in its place.
-    check(NMR::lib3mf_model_mergetomodel(model.get(), merged.out()), model);
-    check(NMR::lib3mf_model_getmeshobjects(merged.get(), objects.out()), merged);
-    PackagedMesh result{{}, kUnits[unit]};
+    return kUnits[unit];
+}
+
+std::vector<TriangleMesh> listObjects(const Handle& model, double unit) {
+    Handle objects;
+    check(NMR::lib3mf_model_getmeshobjects(model.get(), objects.out()), model);
+    std::vector<TriangleMesh> meshes;
     while (true) {
         BOOL hasNext = 0;
         check(NMR::lib3mf_resourceiterator_movenext(objects.get(), &hasNext), objects);
-        if (!hasNext) return result;
+        if (!hasNext) return meshes;
         Handle object;
         check(NMR::lib3mf_resourceiterator_getcurrent(objects.get(), object.out()), objects);
-        appendObject(object, result.unit, result.mesh);
+        appendObject(object, unit, meshes.emplace_back());
     }
+}
+
+PackagedMesh unpackMesh(std::string bytes) {
+    Handle model;
+    Handle merged;
+    PackagedMesh result{{}, readModel(std::move(bytes), model)};
+    // Resolves build items and components into one mesh object in its place.
+    check(NMR::lib3mf_model_mergetomodel(model.get(), merged.out()), model);
+    for (const TriangleMesh& mesh : listObjects(merged, result.unit)) {
+        const int first = static_cast<int>(result.mesh.vertices.size());
+        result.mesh.vertices.insert(result.mesh.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        for (const Triangle& t : mesh.triangles)
+            result.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    return result;
+}
+
+base::Error makeReadError(const std::filesystem::path& path, const char* reason) {
+    return base::Error{"Cannot read " + path.string() + " as a 3MF file: " + reason + ". Export it again."};
 }
 
 }  // namespace
 
-base::Status write3mf(const std::filesystem::path& path, const TriangleMesh& mesh, const std::string& name) {
-    if (mesh.triangles.empty())
+base::Status write3mf(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
+                      const std::string& name) {
+    const auto isEmpty = [](const TriangleMesh& mesh) { return mesh.triangles.empty(); };
+    if (meshes.empty() || std::any_of(meshes.begin(), meshes.end(), isEmpty))
         return base::Error{"Cannot write " + path.string() + ": the mesh has no triangles."};
     try {
-        return base::writeFile(path, packMesh(mesh, name));
+        return base::writeFile(path, packMeshes(meshes, name));
     } catch (const std::exception& failure) {
         return base::Error{"Cannot write " + path.string() + ": the mesh does not fit into a 3MF file, " +
                            failure.what() + ". Repair the mesh, or export an STL."};
@@ -156,8 +185,7 @@ base::Result<PackagedMesh> read3mfWithUnit(const std::filesystem::path& path) {
                                ": its build holds no mesh. Export it again."};
         return package;
     } catch (const std::exception& failure) {
-        return base::Error{"Cannot read " + path.string() + " as a 3MF file: " + failure.what() +
-                           ". Export it again."};
+        return makeReadError(path, failure.what());
     }
 }
 
@@ -165,6 +193,18 @@ base::Result<TriangleMesh> read3mf(const std::filesystem::path& path) {
     base::Result<PackagedMesh> package = read3mfWithUnit(path);
     if (!package) return package.error();
     return std::move(package->mesh);
+}
+
+base::Result<std::vector<TriangleMesh>> read3mfObjects(const std::filesystem::path& path) {
+    base::Result<std::string> bytes = base::readFile(path);
+    if (!bytes) return bytes.error();
+    try {
+        Handle model;
+        const double unit = readModel(std::move(*bytes), model);
+        return listObjects(model, unit);
+    } catch (const std::exception& failure) {
+        return makeReadError(path, failure.what());
+    }
 }
 
 }  // namespace trapwright::geometry

@@ -1,21 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/geometry/triangle_mesh.h"
 
 namespace trapwright::geometry {
 
-/// Writes a 3MF package with one object in millimetres, whole or not at all, through lib3mf. `name` is what a
-/// slicer shows. Errors: no triangles, a mesh that 3MF cannot hold, and whatever keeps the file from being
-/// written.
-base::Status write3mf(const std::filesystem::path& path, const TriangleMesh& mesh, const std::string& name);
+/// Writes a 3MF package in millimetres, an object for each mesh, whole or not at all, through lib3mf. `name`
+/// is what a slicer shows; of several meshes with "piece 1 of 2" behind it. Errors: no triangles, a mesh that
+/// 3MF cannot hold, and whatever keeps the file from being written.
+base::Status write3mf(const std::filesystem::path& path, std::span<const TriangleMesh> meshes,
+                      const std::string& name);
 
 /// Reads all meshes of a 3MF package's build, placed as the package says and in its unit, as one mesh.
 /// Errors name the file and what is wrong with it.
 base::Result<TriangleMesh> read3mf(const std::filesystem::path& path);
+
+/// Each mesh object of a package by itself, in its own coordinates. [m] Errors as above.
+base::Result<std::vector<TriangleMesh>> read3mfObjects(const std::filesystem::path& path);
 
 /// A package's mesh, and the unit that its numbers were in.
 struct PackagedMesh {

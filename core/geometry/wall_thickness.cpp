@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace trapwright::geometry {
 
@@ -18,72 +20,140 @@ using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterato
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 constexpr double kOpposite = -0.70710678;  // cosine between the normals of two faces of one wall
-constexpr double kSpacing = 1e-3;          // between points on a triangle [m]
-constexpr int kMostRows = 12;              // of points on a large triangle
+constexpr double kCellSize = 1e-3;         // the longest edge of a cell [m]
+constexpr double kMostCells = 1e5;         // of a solid, or else they are larger
+constexpr double kLeastHeight = 1e-5;  // of a triangle over a sharp edge; slivers of rounding are lower [m]
 
 Kernel::Point_3 toPoint(const base::Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-/// The middles of the triangle's even parts, so that none lies on an edge.
-std::vector<base::Vec3> spreadPoints(const base::Vec3& a, const base::Vec3& b, const base::Vec3& c) {
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const int rows = std::clamp(static_cast<int>(std::ceil(longest / kSpacing)), 2, kMostRows);
-    std::vector<base::Vec3> points;
-    for (int i = 0; i < rows; ++i) {
-        for (int j = 0; i + j < rows; ++j) {
-            const double u = (i + 1.0 / 3.0) / rows;
-            const double v = (j + 1.0 / 3.0) / rows;
-            points.push_back((1.0 - u - v) * a + u * b + v * c);
-        }
+/// Halves the longest edge until none is longer than `size`.
+void cutIntoCells(const std::array<base::Vec3, 3>& corners, double size,
+                  std::vector<std::array<base::Vec3, 3>>& cells) {
+    std::size_t longest = 0;
+    std::array<double, 3> lengths{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        lengths[k] = (corners[(k + 1) % 3] - corners[k]).norm();
+        if (lengths[k] > lengths[longest]) longest = k;
     }
-    return points;
+    if (lengths[longest] <= size) {
+        cells.push_back(corners);
+        return;
+    }
+    const base::Vec3& a = corners[longest];
+    const base::Vec3& b = corners[(longest + 1) % 3];
+    const base::Vec3& c = corners[(longest + 2) % 3];
+    const base::Vec3 middle = 0.5 * (a + b);
+    cutIntoCells({a, middle, c}, size, cells);
+    cutIntoCells({middle, b, c}, size, cells);
 }
+
+double areaOf(const base::Vec3& a, const base::Vec3& b, const base::Vec3& c) {
+    return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// A solid's triangles that have an area, and what is behind a point of them.
+class Solid {
+ public:
+    explicit Solid(const TriangleMesh& mesh) : mesh_(mesh) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const Triangle& t = mesh.triangles[i];
+            const base::Vec3 normal = triangleNormal(mesh, i);
+            if (normal.isZero()) continue;
+            triangles_.emplace_back(toPoint(mesh.vertices[t[0]]), toPoint(mesh.vertices[t[1]]),
+                                    toPoint(mesh.vertices[t[2]]));
+            numbers_.push_back(i);
+            normals_.push_back(normal);
+        }
+        tree_.rebuild(triangles_.cbegin(), triangles_.cend());
+    }
+
+    [[nodiscard]] const std::vector<std::size_t>& numbers() const { return numbers_; }
+
+    /// The way from a point of triangle numbers()[k] to the wall's other side; infinite if there is none
+    /// before `farthest`.
+    [[nodiscard]] double measure(std::size_t k, const base::Vec3& point, double farthest) {
+        const Kernel::Segment_3 way(toPoint(point), toPoint(point - farthest * normals_[k]));
+        hits_.clear();
+        tree_.all_intersected_primitives(way, std::back_inserter(hits_));
+        double nearest = std::numeric_limits<double>::infinity();
+        double slopeThere = 0.0;
+        for (const auto hit : hits_) {
+            const auto other = static_cast<std::size_t>(hit - triangles_.cbegin());
+            const double slope = normals_[other].dot(normals_[k]);
+            if (other == k || slope >= 0.0) continue;  // the ray leaves through faces that look away
+            const base::Vec3& there = mesh_.vertices[mesh_.triangles[numbers_[other]][0]];
+            const double distance = normals_[other].dot(there - point) / -slope;
+            if (distance < 0.0 || distance >= nearest) continue;
+            nearest = distance;
+            slopeThere = slope;
+        }
+        return slopeThere <= kOpposite && nearest < farthest ? nearest
+                                                             : std::numeric_limits<double>::infinity();
+    }
+
+ private:
+    const TriangleMesh& mesh_;
+    Triangles triangles_;
+    std::vector<std::size_t> numbers_;  // in the mesh
+    std::vector<base::Vec3> normals_;
+    Tree tree_;
+    std::vector<Tree::Primitive_id> hits_;
+};
 
 }  // namespace
 
-std::vector<Wall> measureWalls(const TriangleMesh& mesh, double farthest) {
-    Triangles triangles;
-    std::vector<std::size_t> numbers;  // in the mesh
-    std::vector<base::Vec3> normals;
+std::vector<WallCell> findThinCells(const TriangleMesh& mesh, double thinnest) {
+    Solid solid(mesh);
+    double area = 0.0;
+    for (const Triangle& t : mesh.triangles)
+        area += areaOf(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    // A cell of halved triangles has about a quarter of its longest edge squared.
+    const double size = std::max(kCellSize, std::sqrt(4.0 * area / kMostCells));
+
+    std::vector<WallCell> thin;
+    std::vector<std::array<base::Vec3, 3>> cells;
+    for (std::size_t k = 0; k < solid.numbers().size(); ++k) {
+        const std::size_t number = solid.numbers()[k];
+        const Triangle& t = mesh.triangles[number];
+        cells.clear();
+        cutIntoCells({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, size, cells);
+        for (const auto& corners : cells) {
+            WallCell cell{static_cast<int>(number), corners, areaOf(corners[0], corners[1], corners[2]), 0.0};
+            cell.thickness = solid.measure(k, cell.middle(), thinnest);
+            if (cell.thickness < thinnest) thin.push_back(cell);
+        }
+    }
+    return thin;
+}
+
+std::vector<SharpEdge> findSharpEdges(const TriangleMesh& mesh, double widest) {
+    // The first triangle at each edge and its corner across.
+    std::map<std::pair<int, int>, std::pair<std::size_t, int>> first;
+    std::vector<SharpEdge> edges;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Triangle& t = mesh.triangles[i];
         const base::Vec3 normal = triangleNormal(mesh, i);
         if (normal.isZero()) continue;
-        triangles.emplace_back(toPoint(mesh.vertices[t[0]]), toPoint(mesh.vertices[t[1]]),
-                               toPoint(mesh.vertices[t[2]]));
-        numbers.push_back(i);
-        normals.push_back(normal);
-    }
-    const Tree tree(triangles.cbegin(), triangles.cend());
-
-    std::vector<Wall> walls(mesh.triangles.size());
-    std::vector<Tree::Primitive_id> hits;
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const Triangle& t = mesh.triangles[numbers[k]];
-        const std::vector<base::Vec3> points =
-            spreadPoints(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-        Wall& wall = walls[numbers[k]];
-        int behind = 0;
-        for (const base::Vec3& point : points) {
-            const Kernel::Segment_3 way(toPoint(point), toPoint(point - farthest * normals[k]));
-            hits.clear();
-            tree.all_intersected_primitives(way, std::back_inserter(hits));
-            double nearest = std::numeric_limits<double>::infinity();
-            for (const auto hit : hits) {
-                const auto other = static_cast<std::size_t>(hit - triangles.cbegin());
-                const double slope = normals[other].dot(normals[k]);
-                if (other == k || slope > kOpposite) continue;
-                const base::Vec3& there = mesh.vertices[mesh.triangles[numbers[other]][0]];
-                const double distance = normals[other].dot(there - point) / -slope;
-                if (distance >= 0.0) nearest = std::min(nearest, distance);
-            }
-            if (nearest < farthest) ++behind;
-            wall.thickness = std::min(wall.thickness, nearest);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
+            const int across = mesh.triangles[i][(k + 2) % 3];
+            const auto [place, isNew] = first.try_emplace({low, high}, i, across);
+            if (isNew) continue;
+            const base::Vec3& from = mesh.vertices[low];
+            const base::Vec3& to = mesh.vertices[high];
+            const base::Vec3 other = triangleNormal(mesh, place->second.first);
+            const base::Vec3 along = (to - from).normalized();
+            const base::Vec3 mine = mesh.vertices[across] - from;
+            const base::Vec3 theirs = mesh.vertices[place->second.second] - from;
+            if (mine.cross(along).norm() < kLeastHeight || theirs.cross(along).norm() < kLeastHeight)
+                continue;
+            if (mine.dot(other) >= 0.0) continue;  // a notch
+            const double angle = base::kPi - std::acos(std::clamp(normal.dot(other), -1.0, 1.0));
+            if (angle < widest) edges.push_back({low, high, angle});
         }
-        wall.share = static_cast<double>(behind) / static_cast<double>(points.size());
     }
-    return walls;
+    return edges;
 }
 
 }  // namespace trapwright::geometry

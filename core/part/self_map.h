@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/part/surface_distance.h"
+#include "core/geometry/surface_distance.h"
 
 namespace trapwright::part {
 
@@ -33,7 +33,7 @@ class SelfMap {
     [[nodiscard]] bool mapsWithin(const base::Quaternion& rotation,
                                   const std::function<double(const base::Vec3&)>& allowed) const;
 
-    SurfaceDistance surface_;
+    geometry::SurfaceDistance surface_;
     std::vector<base::Vec3> samples_;  // farthest from the origin first: they tell a mismatch soonest
     double slack_;
     double roundness_;

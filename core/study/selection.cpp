@@ -86,4 +86,27 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     return record;
 }
 
+std::optional<stats::Count> findSuccess(std::span<const SelectionRecord> selections,
+                                        std::span<const ValidationRecord> validations,
+                                        const Winner& individual) {
+    const auto isMeant = [&](const auto& of) {
+        return of.generation == individual.generation && of.individual == individual.individual;
+    };
+    for (auto selection = selections.rbegin(); selection != selections.rend(); ++selection) {
+        const auto entry = std::find_if(selection->entries.begin(), selection->entries.end(), isMeant);
+        if (entry != selection->entries.end() && entry->trials > 0)
+            return stats::Count{entry->oriented, entry->trials};
+    }
+    const auto validation = std::find_if(validations.rbegin(), validations.rend(), isMeant);
+    stats::Count counted;
+    if (validation != validations.rend()) {
+        for (const ValidationRow& row : validation->rows) {
+            counted.trials += row.trials;
+            counted.successes += row.trials - row.failures;
+        }
+    }
+    if (counted.trials > 0) return counted;
+    return individual.record.success();
+}
+
 }  // namespace trapwright::study

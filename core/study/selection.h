@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,5 +26,12 @@ const Winner* findBestWinner(std::span<const Winner> winners);
 /// settings or part that cannot be used, no winners, engine, cancelled.
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
                                             base::RunControl control);
+
+/// The success of an individual: of the newest selection that it is in, whose parts arrive as they fall, or
+/// else of its newest validation, in which each pose has as many trials, or else as it was learned. None if
+/// it was never counted.
+std::optional<stats::Count> findSuccess(std::span<const SelectionRecord> selections,
+                                        std::span<const ValidationRecord> validations,
+                                        const Winner& individual);
 
 }  // namespace trapwright::study

@@ -101,10 +101,10 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline) {
 
 class Builder {
  public:
-    Builder(const Track& track, const PrintOutline& outline)
-        : topology_(makeTopology(outline, static_cast<int>(track.sections.front().points.size()))) {
-        for (const CrossSection& section : subdivideSections(track.shape, track.sections))
-            addRow(track.shape, section.x, makeRow(section, outline), outline.base);
+    Builder(const FeederShape& shape, std::span<const CrossSection> sections, const PrintOutline& outline)
+        : topology_(makeTopology(outline, static_cast<int>(sections.front().points.size()))) {
+        for (const CrossSection& section : subdivideSections(shape, sections))
+            addRow(shape, section.x, makeRow(section, outline), outline.base);
     }
 
     geometry::TriangleMesh build(bool mirrored) {
@@ -199,11 +199,11 @@ class Builder {
 
 }  // namespace
 
-geometry::TriangleMesh buildOutlined(const Track& track, const PrintOutline& outline) {
+geometry::TriangleMesh buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
+                                     const PrintOutline& outline) {
     // Anticlockwise track coordinates are left-handed in the room.
-    const bool mirrored =
-        track.shape.type == FeederType::bowl && track.shape.conveying == Conveying::anticlockwise;
-    return Builder(track, outline).build(mirrored);
+    const bool mirrored = shape.type == FeederType::bowl && shape.conveying == Conveying::anticlockwise;
+    return Builder(shape, sections, outline).build(mirrored);
 }
 
 }  // namespace trapwright::track

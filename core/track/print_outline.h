@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/geometry/triangle_mesh.h"
 #include "core/track/track.h"
@@ -19,10 +20,11 @@ struct PrintOutline {
     std::optional<double> outerFlange{};  // likewise
 };
 
-/// The surface over the track's sections, what stands beside it, sides, ends and a flat base as one closed,
+/// The surface over these sections, what stands beside it, sides, ends and a flat base as one closed,
 /// oriented manifold. Its first triangles are those of the track's surface. Walls stand upright on the
 /// surface's borders and reach outward to the sides; flanges begin at the walls, or without walls at the
 /// borders.
-geometry::TriangleMesh buildOutlined(const Track& track, const PrintOutline& outline);
+geometry::TriangleMesh buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
+                                     const PrintOutline& outline);
 
 }  // namespace trapwright::track

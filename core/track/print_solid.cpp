@@ -1,7 +1,9 @@
 #include "core/track/print_solid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "core/geometry/solid_cut.h"
@@ -57,9 +59,19 @@ void append(geometry::TriangleMesh& mesh, const geometry::TriangleMesh& other) {
 
 base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& track,
                                                                    const PrintOptions& options) {
+    return buildPrintSolid(track, options, {0, static_cast<int>(track.sections.size()) - 1});
+}
+
+base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& track,
+                                                                   const PrintOptions& options,
+                                                                   const SectionRange& range) {
+    assert(range.first >= 0 && range.first < range.last &&
+           range.last < static_cast<int>(track.sections.size()));
     if (auto problem = findPrintProblem(track, options)) return *problem;
     const PrintOutline outline = makeOutline(track, options);
-    geometry::TriangleMesh solid = buildOutlined(track, outline);
+    const std::span<const CrossSection> sections(track.sections);
+    geometry::TriangleMesh solid =
+        buildOutlined(track.shape, sections.subspan(range.first, range.last - range.first + 1), outline);
     if (!options.flange) return solid;
 
     const double low = outline.base - kBeyond;

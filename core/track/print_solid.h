@@ -35,10 +35,22 @@ struct PrintProblem {
 /// The radius at which a bowl's insert is cut. [m]
 double insertRadiusOf(const Track& track, const PrintOptions& options);
 
+/// Sections of a track, by their index, the last one included.
+struct SectionRange {
+    int first = 0;
+    int last = 0;
+};
+
 /// The track's solid with what these options add, in the room [m]: closed, oriented, manifold. The triangles
 /// of the surface are those of the track, bit for bit. It crosses itself only where the track's surface
 /// overhangs.
 base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& track,
                                                                    const PrintOptions& options);
+
+/// What of it lies between two sections: cut there across the conveying direction, on a bowl along a radius.
+/// Neighbouring pieces have the same points in their common face, and together they are the whole.
+base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& track,
+                                                                   const PrintOptions& options,
+                                                                   const SectionRange& range);
 
 }  // namespace trapwright::track

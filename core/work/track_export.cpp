@@ -5,96 +5,157 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <string>
 #include <utility>
 
-#include "core/geometry/mass_properties.h"
+#include "core/geometry/mesh_check.h"
 #include "core/geometry/mesh_files.h"
 #include "core/geometry/three_mf.h"
+#include "core/part/cad_export.h"
 
 namespace trapwright::work {
 
 namespace {
 
+using geometry::TriangleMesh;
+using Solids = std::span<const TriangleMesh>;
+
 // Single precision coordinates, as STL has them, on a track of half a metre.
 constexpr double kVolumeTolerance = 1e-4;
+constexpr double kStepTolerance = 1e-6;  // STEP has all digits
 
-/// What is to be written.
-struct Contents {
-    const track::TrackFile& design;
-    const geometry::TriangleMesh& solid;
-};
-
-struct Format {
-    base::Status (*write)(const std::filesystem::path&, const Contents&);
-    base::Result<geometry::TriangleMesh> (*read)(const std::filesystem::path&);
-    const geometry::TriangleMesh& (*written)(const Contents&);
-};
-
-const geometry::TriangleMesh& takeSolid(const Contents& contents) {
-    return contents.solid;
+Failure describeNoSolid(const std::filesystem::path& path, const std::string& what) {
+    return Failure{FailureKind::notSolid,
+                   fmt::format("{} is not one closed solid when read back ({}), so it was removed.",
+                               path.string(), what)};
 }
 
-Result<Format> findFormat(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".stl") {
-        return Format{[](const std::filesystem::path& file, const Contents& contents) {
-                          return geometry::writeStl(file, contents.solid);
-                      },
-                      geometry::readStl, takeSolid};
+bool isOfVolume(double volume, double expected, double tolerance) {
+    return std::abs(volume - expected) <= tolerance * expected;
+}
+
+/// Adds a mesh that was read back to what is known of its file; an error if it is not what was written.
+Result<ExportedFile> addRead(ExportedFile file, const TriangleMesh& mesh, const TriangleMesh& expected) {
+    const geometry::MeshReport report = geometry::checkMesh(mesh, true);
+    const double volume = geometry::checkMesh(expected).volume;
+    if (!report.isSolid() || report.nonManifoldEdges > 0 ||
+        !isOfVolume(report.volume, volume, kVolumeTolerance)) {
+        return describeNoSolid(
+            file.path, fmt::format("{} open, {} non-manifold and {} inconsistent edges, volume {:.1f} "
+                                   "instead of {:.1f} cm^3",
+                                   report.openEdges, report.nonManifoldEdges, report.inconsistentEdges,
+                                   report.volume * 1e6, volume * 1e6));
     }
-    if (extension == ".3mf") {
-        return Format{[](const std::filesystem::path& file, const Contents& contents) {
-                          return geometry::write3mf(file, contents.solid, contents.design.about);
-                      },
-                      geometry::read3mf, takeSolid};
+    file.faces += mesh.triangles.size();
+    file.volume += report.volume;
+    file.overlappingTriangles += report.overlappingTriangles;
+    return file;
+}
+
+Failure describeUnreadable(const base::Error& error) {
+    return Failure{FailureKind::saving, "Reading the file back: " + error.message};
+}
+
+Result<ExportedFile> readStl(const std::filesystem::path& path, const TriangleMesh& expected) {
+    const auto mesh = geometry::readStl(path);
+    if (!mesh) return describeUnreadable(mesh.error());
+    ExportedFile file{path};
+    file.size = geometry::calcBoundingBox(*mesh).size();
+    return addRead(file, *mesh, expected);
+}
+
+Result<ExportedFile> readStep(const std::filesystem::path& path, const TriangleMesh& expected) {
+    const auto contents = part::inspectStep(path);
+    if (!contents) return describeUnreadable(contents.error());
+    const double volume = geometry::checkMesh(expected).volume;
+    if (!contents->valid || contents->solids != 1 || !isOfVolume(contents->volume, volume, kStepTolerance)) {
+        return describeNoSolid(
+            path, fmt::format("{} solids, {}, volume {:.3f} instead of {:.3f} cm^3", contents->solids,
+                              contents->valid ? "valid" : "not valid", contents->volume * 1e6, volume * 1e6));
     }
-    if (extension == ".json") {
-        return Format{[](const std::filesystem::path& file, const Contents& contents) {
-                          return track::writeTrackFile(file, contents.design);
-                      },
-                      [](const std::filesystem::path& file) -> base::Result<geometry::TriangleMesh> {
-                          auto design = track::readTrackFile(file);
-                          if (!design) return design.error();
-                          return std::move(design->track.solid);
-                      },
-                      [](const Contents& contents) -> const geometry::TriangleMesh& {
-                          return contents.design.track.solid;
-                      }};
+    return ExportedFile{path, contents->size,  1, static_cast<std::size_t>(contents->faces),
+                        true, contents->volume};
+}
+
+Result<ExportedFile> writePackage(const std::filesystem::path& path, Solids solids, const std::string& name) {
+    if (const auto written = geometry::write3mf(path, solids, name); !written)
+        return Failure{FailureKind::saving, written.error().message};
+    const auto objects = geometry::read3mfObjects(path);
+    if (!objects) return describeUnreadable(objects.error());
+    if (objects->size() != solids.size())
+        return describeNoSolid(path, fmt::format("{} objects instead of {}", objects->size(), solids.size()));
+    ExportedFile file{path};
+    file.solids = static_cast<int>(solids.size());
+    geometry::Box box;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        auto added = addRead(file, (*objects)[i], solids[i]);
+        if (!added) return added;
+        file = *added;
+        for (const base::Vec3& v : (*objects)[i].vertices)
+            box.include(v);
     }
-    return Failure{
-        FailureKind::settings,
-        fmt::format("{}: tracks are exported as .stl, .3mf or .json; end the name with one of them.",
-                    path.string())};
+    file.size = box.size();
+    return file;
+}
+
+Result<ExportedFile> writeDesign(const std::filesystem::path& path, const track::TrackFile& design) {
+    if (const auto written = track::writeTrackFile(path, design); !written)
+        return Failure{FailureKind::saving, written.error().message};
+    const auto read = track::readTrackFile(path);
+    if (!read) return describeUnreadable(read.error());
+    ExportedFile file{path};
+    file.size = geometry::calcBoundingBox(read->track.solid).size();
+    return addRead(file, read->track.solid, design.track.solid);
+}
+
+Result<ExportedFile> writeOne(const std::filesystem::path& path, const std::string& extension,
+                              const TriangleMesh& solid) {
+    const bool isStl = extension == ".stl";
+    const auto written = isStl ? geometry::writeStl(path, solid) : part::writeStepSolid(path, solid);
+    if (!written) return Failure{FailureKind::saving, written.error().message};
+    return isStl ? readStl(path, solid) : readStep(path, solid);
 }
 
 }  // namespace
 
-Result<ExportedFile> exportTrack(const track::TrackFile& design, const geometry::TriangleMesh& solid,
-                                 const std::filesystem::path& path) {
-    const Contents contents{design, solid};
-    auto format = findFormat(path);
-    if (!format) return format.error();
-    if (const auto written = format->write(path, contents); !written)
-        return Failure{FailureKind::saving, written.error().message};
-    const auto mesh = format->read(path);
-    if (!mesh) return Failure{FailureKind::saving, "Reading the file back: " + mesh.error().message};
+std::filesystem::path pieceFile(const std::filesystem::path& path, std::size_t piece, std::size_t pieces) {
+    if (pieces == 1) return path;
+    std::filesystem::path file = path;
+    file.replace_filename(
+        fmt::format("{}-{}-of-{}{}", path.stem().string(), piece + 1, pieces, path.extension().string()));
+    return file;
+}
 
-    ExportedFile file{path, geometry::calcBoundingBox(*mesh).size(), mesh->triangles.size(),
-                      geometry::checkMesh(*mesh, true)};
-    const double volume = geometry::calcMassProperties(format->written(contents), 1.0).volume;
-    if (file.report.isSolid() && file.report.nonManifoldEdges == 0 &&
-        std::abs(file.report.volume - volume) <= kVolumeTolerance * volume)
-        return file;
-    std::error_code failure;
-    std::filesystem::remove(path, failure);
-    return Failure{
-        FailureKind::notSolid,
-        fmt::format("{} is not one closed solid when read back ({} open, {} non-manifold and {} inconsistent "
-                    "edges, volume {:.1f} instead of {:.1f} cm^3), so it was removed.",
-                    path.string(), file.report.openEdges, file.report.nonManifoldEdges,
-                    file.report.inconsistentEdges, file.report.volume * 1e6, volume * 1e6)};
+Result<std::vector<ExportedFile>> exportTrack(const track::TrackFile& design, Solids solids,
+                                              const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool isSingle = extension == ".3mf" || extension == ".json";
+    if (!isSingle && extension != ".stl" && extension != ".step" && extension != ".stp") {
+        return Failure{FailureKind::settings,
+                       fmt::format("{}: tracks are exported as .stl, .3mf, .step or .json; end the name with "
+                                   "one of them.",
+                                   path.string())};
+    }
+    const std::size_t count = isSingle ? 1 : solids.size();
+    std::vector<ExportedFile> files;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::filesystem::path file = pieceFile(path, i, count);
+        const auto exported = extension == ".3mf"    ? writePackage(file, solids, design.about)
+                              : extension == ".json" ? writeDesign(file, design)
+                                                     : writeOne(file, extension, solids[i]);
+        if (exported) {
+            files.push_back(*exported);
+            continue;
+        }
+        std::error_code failure;
+        if (exported.error().kind != FailureKind::saving) std::filesystem::remove(file, failure);
+        for (const ExportedFile& before : files)
+            std::filesystem::remove(before.path, failure);
+        return exported.error();
+    }
+    return files;
 }
 
 }  // namespace trapwright::work

@@ -1,26 +1,35 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <span>
+#include <vector>
 
-#include "core/geometry/mesh_check.h"
 #include "core/track/track_file.h"
 #include "core/work/failure.h"
 
 namespace trapwright::work {
 
-/// A file for printing, as it was read back.
+/// A file of a track or of a piece of it, as it was read back: closed and manifold.
 struct ExportedFile {
     std::filesystem::path path;
-    base::Vec3 size = base::Vec3::Zero();  // of its box [m]
-    std::size_t triangles = 0;
-    geometry::MeshReport report;
+    base::Vec3 size = base::Vec3::Zero();  // of the box around all of it [m]
+    int solids = 1;
+    std::size_t faces = 0;  // triangles; of a STEP file, plane faces
+    bool isStep = false;
+    double volume = 0.0;  // [m^3]
+    int overlappingTriangles = 0;
 };
 
-/// Writes the solid that is printed (track::buildPrintSolid) as binary STL or 3MF, or the track as JSON
-/// (core/track/track_file.h), by the extension, in millimetres; reads it back and checks that it is closed,
-/// manifold and of the same volume. What fails that check is removed again.
-Result<ExportedFile> exportTrack(const track::TrackFile& design, const geometry::TriangleMesh& solid,
-                                 const std::filesystem::path& path);
+/// The name of one of several files: track.stl gives track-1-of-2.stl.
+std::filesystem::path pieceFile(const std::filesystem::path& path, std::size_t piece, std::size_t pieces);
+
+/// Writes what is printed (track::buildPrintSolid, or the pieces of track::buildPrintPieces), in millimetres,
+/// by the extension: binary STL and STEP (part::writeStepSolid), of several pieces a file each (pieceFile);
+/// 3MF, with an object for each piece; or the track as JSON (core/track/track_file.h). Reads back what was
+/// written and checks that it is closed, manifold and of the same volume: of a STEP file within 1e-6 of it.
+/// If something fails, all of it is removed again.
+Result<std::vector<ExportedFile>> exportTrack(const track::TrackFile& design,
+                                              std::span<const geometry::TriangleMesh> solids,
+                                              const std::filesystem::path& path);
 
 }  // namespace trapwright::work

@@ -150,6 +150,32 @@ class CommandsTest : public QObject {
         const Ran thick = ask({"export", "study.trap", "thick.stl", "--flange", "--flange-thickness", "9"});
         QCOMPARE(thick.code, 2);
         QVERIFY2(thick.errors.contains("at most the base thickness"), thick.all());
+        // For a small bed it is cut into pieces that fit, and for machining it is one solid of plane faces.
+        const Ran cut = ask({"export", "study.trap", "cut.stl", "cut.3mf", "whole.step", "--bed",
+                             "150x120x100", "--split", "--json"});
+        QVERIFY2(cut.code == 0, cut.all());
+        const QJsonArray pieces = cut.json()["print"].toObject()["pieces"].toArray();
+        QVERIFY(pieces.size() >= 2);
+        for (const QJsonValue piece : pieces) {
+            QVERIFY(piece["fits"].toBool());
+            QVERIFY(piece["dowel_holes"].toInt() >= 2);
+        }
+        QVERIFY(QFileInfo::exists(folder_.filePath(QString("cut-1-of-%1.stl").arg(pieces.size()))));
+        const Ran step = ask({"export", "study.trap", "track.step", "--json"});
+        QVERIFY2(step.code == 0, step.all());
+        const QJsonValue machined = step.json()["files"].toArray()[0];
+        QVERIFY(machined["faces"].toInt() < triangles);
+        QVERIFY(std::abs(machined["volume_mm3"].toDouble() / files[0]["volume_mm3"].toDouble() - 1.0) < 1e-4);
+        const Ran noFit = ask({"export", "study.trap", "large.stl", "--printer", "prusa-mini"});
+        QCOMPARE(noFit.code, 0);
+        QVERIFY2(noFit.output.contains("mm too large in"), noFit.all());
+        const Ran unknown = ask({"export", "study.trap", "x.stl", "--printer", "prusa"});
+        QCOMPARE(unknown.code, 2);
+        QVERIFY2(unknown.errors.contains("prusa-mk4"), unknown.all());
+        for (const char* bed : {"250x210", "250,210,220", "0x210x220", "250x210x220mm"})
+            QCOMPARE(ask({"export", "study.trap", "x.stl", "--bed", bed}).code, 2);
+        QCOMPARE(ask({"export", "study.trap", "x.stl", "--split"}).code, 2);
+        QCOMPARE(ask({"export", "study.trap", "x.stl", "--cut", "99"}).code, 2);
         // What is written for `track` can be simulated.
         const Ran simulated = ask({"track", "track.json", "--trials", "2", "--json"});
         QVERIFY2(simulated.code == 0, simulated.all());

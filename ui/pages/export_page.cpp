@@ -4,9 +4,12 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <cmath>
 #include <utility>
 
 #include "core/study/selection.h"
@@ -18,6 +21,7 @@
 #include "ui/pages/part_files.h"
 #include "ui/pages/print_findings.h"
 #include "ui/pages/print_form.h"
+#include "ui/pages/split_form.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_session.h"
 
@@ -27,6 +31,25 @@ namespace {
 
 constexpr int kGeneration = Qt::UserRole;
 constexpr int kIndividual = Qt::UserRole + 1;
+const QColor kCut(0x00, 0x72, 0xb2);  // of the Okabe-Ito palette
+constexpr int kCircleSides = 24;
+
+/// The circles at a hole's ends, and its axis.
+std::vector<std::vector<base::Vec3>> outlineHole(const track::DowelHole& hole, const base::Vec3& shift) {
+    const base::Vec3 mouth = hole.mouth + shift;
+    const base::Vec3 end = mouth + hole.depth * hole.axis;
+    const base::Vec3 up = hole.axis.unitOrthogonal();
+    const base::Vec3 aside = hole.axis.cross(up);
+    std::vector<std::vector<base::Vec3>> lines = {{mouth, end}};
+    for (const base::Vec3& middle : {mouth, end}) {
+        std::vector<base::Vec3>& circle = lines.emplace_back();
+        for (int i = 0; i <= kCircleSides; ++i) {
+            const double angle = 2.0 * base::kPi * i / kCircleSides;
+            circle.push_back(middle + hole.radius * (std::cos(angle) * up + std::sin(angle) * aside));
+        }
+    }
+    return lines;
+}
 
 }  // namespace
 
@@ -60,7 +83,7 @@ ExportPage::ExportPage(QWidget* parent)
         build();
     });
 
-    auto* found = new look::FoldingGroup("print.found", tr("Solid"), false, contents_);
+    auto* found = new look::FoldingGroup("print.found", tr("Checks"), false, contents_);
     found->body()->addWidget(findings_);
     auto* column = new QVBoxLayout(contents_);
     column->setContentsMargins(12, 12, 12, 12);
@@ -83,11 +106,15 @@ ExportPage::ExportPage(QWidget* parent)
     layout->addWidget(foot_);
 
     connect(form_, &PrintForm::edited, this, &ExportPage::build);
-    connect(form_, &PrintForm::attended, this, [this](const QString& label, const QString& help) {
-        help_->setText("<b>" + label.toHtmlEscaped() + "</b>&nbsp; " + help.toHtmlEscaped());
-    });
+    connect(form_, &PrintForm::apartChanged, this, &ExportPage::showScene);
+    connect(form_, &PrintForm::failed, this, &Page::failed);
+    const auto help = [this](const QString& label, const QString& text) {
+        help_->setText("<b>" + label.toHtmlEscaped() + "</b>&nbsp; " + text.toHtmlEscaped());
+    };
+    connect(form_, &PrintForm::attended, this, help);
+    connect(findings_, &PrintFindings::attended, this, help);
     connect(findings_, &PrintFindings::highlightsChanged, this, [this] {
-        if (scene_ != nullptr && shown_) scene_->setHighlights(findings_->highlights());
+        if (scene_ != nullptr && shown_) scene_->setHighlights(highlights());
     });
     connect(&print_, &session::PrintBuild::built, this, &ExportPage::take);
     connect(
@@ -95,12 +122,7 @@ ExportPage::ExportPage(QWidget* parent)
             form_->setProblem(option, message);
             setState(option.isEmpty() ? message : tr("Correct the marked value; then the solid is built."));
         });
-    connect(&print_, &session::PrintBuild::written, this, [this](const work::ExportedFile& file) {
-        enableExport();
-        setState(tr("Wrote %1: %2, %3 cm³. Read back: closed and manifold.")
-                     .arg(look::pathText(file.path), sizeText(file.size),
-                          look::numberText(file.report.volume * 1e6)));
-    });
+    connect(&print_, &session::PrintBuild::written, this, &ExportPage::tellWritten);
     connect(&print_, &session::PrintBuild::notWritten, this, [this](const QString& message) {
         enableExport();
         setState({});
@@ -134,6 +156,8 @@ QWidget* ExportPage::makeFoot() {
     layout->addLayout(row);
     addExport("stl", tr("Export &STL..."), QKeySequence(Qt::CTRL | Qt::Key_E));
     addExport("3mf", tr("Export &3MF..."), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E));
+    addExport("step", tr("Export S&TEP..."), {});
+    exports_.back()->setToolTip(tr("For machining: one solid of plane faces in mm"));
     for (QAction* action : exports_) {
         auto* button = new QToolButton(foot);
         button->setObjectName(action->objectName() + "Button");
@@ -148,8 +172,9 @@ QWidget* ExportPage::makeFoot() {
 void ExportPage::addExport(const QString& format, const QString& text, const QKeySequence& key) {
     auto* action = new QAction(look::icon("printer"), text, this);
     action->setObjectName("export." + format);
+    action->setIconText(format.toUpper() + "...");
     action->setShortcut(key);
-    connect(action, &QAction::triggered, this, [this, format] { askForPath(format); });
+    connect(action, &QAction::triggered, this, [this, format] { exportAs(format); });
     addAction(action);
     exports_ << action;
 }
@@ -170,6 +195,9 @@ void ExportPage::setSession(session::StudySession* session) {
         });
         connect(session_, &StudySession::selectionSaved, this, &ExportPage::refresh);
         connect(session_, &StudySession::chosenChanged, this, &ExportPage::refresh);
+        connect(session_, &StudySession::validationSaved, this, [this] {
+            if (printed_) take(printed_);
+        });
     }
     refresh();
 }
@@ -182,6 +210,7 @@ void ExportPage::activate(scene::SceneView& scene) {
 }
 
 void ExportPage::deactivate() {
+    wanted_.clear();
     if (scene_ != nullptr) scene_->setHighlights({});
     scene_ = nullptr;
 }
@@ -258,18 +287,56 @@ void ExportPage::build() {
                                   .arg(generation)
                                   .arg(individual)
                                   .toStdString();
-    print_.build({session_->settings().track, winner->record.chromosome, about, form_->choice().options,
-                  form_->choice().limits});
+    const PrintChoice& choice = form_->choice();
+    print_.build({session_->settings().track, winner->record.chromosome, about, choice.options, choice.limits,
+                  form_->printer().space, form_->split().mode(), form_->split().options()});
 }
 
 void ExportPage::take(const std::shared_ptr<const session::PrintedTrack>& printed) {
     printed_ = printed;
-    shown_ = printed->solid;
+    shown_ = printed;
     form_->setProblem({}, {});
-    findings_->show(printed->report);
+    form_->show(*printed);
+    findings_->show(*printed, successOfTrack(), form_->choice(), form_->printer());
     setState({});
     enableExport();
     showScene();
+    if (const QString format = std::exchange(wanted_, {}); !format.isEmpty() && exports_.front()->isEnabled())
+        exportAs(format);
+}
+
+void ExportPage::exportWhenBuilt(const QString& format) {
+    if (printed_ && exports_.front()->isEnabled()) return exportAs(format);
+    wanted_ = format;
+}
+
+std::optional<stats::Count> ExportPage::successOfTrack() const {
+    const auto winner = session_->loadWinner(tracks_->currentData(kGeneration).toInt(),
+                                             tracks_->currentData(kIndividual).toInt());
+    if (!winner) return std::nullopt;
+    return study::findSuccess(session_->selections(), session_->validations(), *winner);
+}
+
+void ExportPage::exportAs(const QString& format) {
+    const auto success = successOfTrack();
+    if (!success || success->share() >= findings_->leastSuccess()) return askForPath(format);
+    auto* question = new QMessageBox(this);
+    question->setObjectName("dialog.success");
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    question->setIcon(QMessageBox::Warning);
+    question->setWindowTitle(tr("Export the track"));
+    question->setText(
+        tr("Of this track's parts, %1 finished in the expected orientation. Export it all the same?")
+            .arg(successText(*success)));
+    question->setInformativeText(
+        tr("You want to be asked below %1 %.").arg(look::numberText(100.0 * findings_->leastSuccess())));
+    QPushButton* yes = question->addButton(tr("Export it"), QMessageBox::AcceptRole);
+    yes->setObjectName("dialog.success.export");
+    question->setDefaultButton(question->addButton(QMessageBox::Cancel));
+    connect(yes, &QPushButton::clicked, this, [this, format] {
+        if (printed_) askForPath(format);
+    });
+    question->open();
 }
 
 void ExportPage::setState(const QString& text) {
@@ -279,7 +346,8 @@ void ExportPage::setState(const QString& text) {
 
 void ExportPage::enableExport() {
     for (QAction* action : exports_)
-        action->setEnabled(printed_ && printed_->report.closed && !print_.writing());
+        action->setEnabled(printed_ && printed_->report.closed && !printed_->pieces.empty() &&
+                           !print_.writing());
 }
 
 void ExportPage::askForPath(const QString& format) {
@@ -294,12 +362,43 @@ void ExportPage::askForPath(const QString& format) {
     });
 }
 
+void ExportPage::tellWritten(const std::vector<work::ExportedFile>& files) {
+    enableExport();
+    const work::ExportedFile& first = files.front();
+    if (files.size() > 1) {
+        return setState(
+            tr("Wrote %1 and the other pieces, %2 files in all. Read back: each closed and manifold.")
+                .arg(look::pathText(first.path))
+                .arg(files.size()));
+    }
+    const QString what = first.solids > 1 ? tr("%n pieces, ", nullptr, first.solids) : QString();
+    setState(tr("Wrote %1: %2%3, %4 cm³. Read back: closed and manifold.")
+                 .arg(look::pathText(first.path), what, sizeText(first.size),
+                      look::numberText(first.volume * 1e6)));
+}
+
+std::vector<scene::Highlight> ExportPage::highlights() const {
+    const bool apart = form_->split().apart() && shown_->isCut();
+    std::vector<scene::Highlight> highlights;
+    // What is wrong lies on the whole.
+    if (!apart) highlights = findings_->highlights();
+    for (std::size_t i = 0; shown_->isCut() && i < shown_->pieces.size(); ++i) {
+        const track::PrintPiece& piece = shown_->pieces[i];
+        const base::Vec3 shift = apart ? shown_->shifts[i] : base::Vec3::Zero();
+        if (!apart && i + 1 < shown_->pieces.size())
+            highlights.push_back({nullptr, track::findCutOutline(shown_->design.track, piece), kCut});
+        for (const track::DowelHole& hole : piece.holes)
+            highlights.push_back({nullptr, outlineHole(hole, shift), kCut, true});
+    }
+    return highlights;
+}
+
 void ExportPage::showScene() {
     if (scene_ == nullptr) return;
     if (!shown_) return scene_->clear();
     scene_->showPart(nullptr);
-    scene_->showSolid(shown_);
-    scene_->setHighlights(findings_->highlights());
+    scene_->showSolid(form_->split().apart() ? shown_->apart : shown_->together);
+    scene_->setHighlights(highlights());
 }
 
 }  // namespace trapwright::pages

@@ -5,16 +5,46 @@
 
 #include "ui/look/folding_group.h"
 #include "ui/pages/print_row.h"
+#include "ui/pages/printer_choice.h"
+#include "ui/pages/split_form.h"
 
 namespace trapwright::pages {
 
 using base::kDegree;
 using base::kMillimetre;
 
-PrintForm::PrintForm(QWidget* parent) : QWidget(parent) {
+PrintForm::PrintForm(QWidget* parent)
+    : QWidget(parent), printer_(new PrinterChoice(this)), split_(new SplitForm(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(8);
+
+    look::FoldingGroup& printer = *addGroup("print.limits", tr("Printer"));
+    printer.body()->addWidget(printer_);
+    addRow(
+        printer,
+        {"thinnestWall", tr("Thinnest wall"), tr("mm"),
+         tr("Walls thinner than this are marked; about three times the nozzle's width prints well. At first "
+            "the printer's."),
+         0.1, 20},
+        choice_.limits.thinnestWall, kMillimetre);
+    addRow(printer,
+           {"steepestOverhang", tr("Steepest overhang"), tr("°"),
+            tr("Undersides that lean further than this from upright are marked: they need supports. 90° is a "
+               "ceiling. At first the printer's."),
+            0, 90},
+           choice_.limits.steepestOverhang, kDegree);
+    connect(printer_, &PrinterChoice::changed, this, [this] {
+        takePrinter();
+        emit edited();
+    });
+    connect(printer_, &PrinterChoice::failed, this, &PrintForm::failed);
+
+    look::FoldingGroup& pieces = *addGroup("print.split", tr("Pieces"));
+    pieces.body()->addWidget(split_);
+    connect(split_, &SplitForm::edited, this, &PrintForm::edited);
+    connect(split_, &SplitForm::apartChanged, this, &PrintForm::apartChanged);
+    connect(split_, &SplitForm::attended, this, &PrintForm::attended);
 
     look::FoldingGroup& shape = *addGroup("print.shape", tr("Base and walls"));
     addRow(
@@ -67,18 +97,7 @@ PrintForm::PrintForm(QWidget* parent) : QWidget(parent) {
              choice_.options.insertRadius);
     insertRow_ = flangeRows_.back();
 
-    look::FoldingGroup& limits = *addGroup("print.limits", tr("Printer"));
-    addRow(limits,
-           {"thinnestWall", tr("Thinnest wall"), tr("mm"),
-            tr("Walls thinner than this are marked; about three times the nozzle's width prints well."), 0.1,
-            20},
-           choice_.limits.thinnestWall, kMillimetre);
-    addRow(limits,
-           {"steepestOverhang", tr("Steepest overhang"), tr("°"),
-            tr("Undersides that lean further than this from upright are marked: they need supports. 90° is a "
-               "ceiling."),
-            0, 90},
-           choice_.limits.steepestOverhang, kDegree);
+    takePrinter();
     setDesign(kMillimetre, false);
 }
 
@@ -119,6 +138,25 @@ void PrintForm::setDesign(double baseThickness, bool bowl) {
 void PrintForm::setProblem(const QString& option, const QString& reason) {
     for (const Value& value : values_)
         value.row->setProblem(value.row->field().key == option ? reason : QString());
+}
+
+const track::Printer& PrintForm::printer() const {
+    return printer_->printer();
+}
+
+void PrintForm::show(const session::PrintedTrack& printed) {
+    split_->show(printed);
+}
+
+void PrintForm::takePrinter() {
+    const track::Printer& printer = printer_->printer();
+    choice_.limits.thinnestWall = printer.thinnestWall;
+    choice_.limits.steepestOverhang = printer.steepestOverhang;
+    for (Value& value : values_) {
+        if (value.target == &choice_.limits.thinnestWall || value.target == &choice_.limits.steepestOverhang)
+            value.fallback = *value.target;
+    }
+    showValues();
 }
 
 void PrintForm::showValues() {

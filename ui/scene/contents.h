@@ -38,10 +38,13 @@ struct ContactArrow {
     friend bool operator==(const ContactArrow&, const ContactArrow&) = default;
 };
 
-/// Triangles of what is shown, by index, to be looked at: thin walls, overhangs.
+/// A place of what is shown that is to be looked at: regions and lines on its surface, as thin walls,
+/// overhangs, ridges, or lines inside it, as dowel holes, which are seen through the surface.
 struct Highlight {
-    std::vector<int> triangles;  // of the track's solid, or of the mesh given to showSolid
+    std::shared_ptr<const geometry::TriangleMesh> patch;  // lies on the surface; null: none. In the room [m]
+    std::vector<std::vector<base::Vec3>> lines;           // in the room [m]
     QColor colour;
+    bool through = false;  // nothing hides the lines
 
     friend bool operator==(const Highlight&, const Highlight&) = default;
 };

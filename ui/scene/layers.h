@@ -41,6 +41,19 @@ class MarksLayer {
     std::unique_ptr<State> state_;
 };
 
+/// Regions and lines on the subject that are to be looked at.
+class HighlightLayer {
+ public:
+    explicit HighlightLayer(vtkRenderer& renderer);
+    ~HighlightLayer();
+    void show(const SceneContents& contents, double pixelRatio);
+    void setCamera(const Camera& camera);
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 /// The part in all its poses, or in its stable poses.
 class PartLayer {
  public:

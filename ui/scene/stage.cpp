@@ -43,6 +43,7 @@ struct Stage::State {
     vtkSmartPointer<vtkGenericOpenGLRenderWindow>
         window;  // of the current context; null before its first picture
     SubjectLayer subject{*renderer};
+    HighlightLayer highlights{*renderer};
     MarksLayer marks{*renderer};
     PartLayer part{*renderer};
     MotionLayer motion{*renderer};
@@ -80,11 +81,13 @@ void Stage::draw(const SceneContents& contents, const Camera& camera, unsigned f
     if (!state.window) state.openWindow();
     state.part.show(contents);
     state.subject.show(contents, state.part.shades());
+    state.highlights.show(contents, pixelRatio);
     state.marks.show(contents, camera, pixelRatio);
     state.motion.show(contents, pixelRatio);
     state.edges.show(contents, camera, pixelRatio);
     state.part.setCamera(camera);
     state.subject.setCamera(camera);
+    state.highlights.setCamera(camera);
     state.marks.setCamera(camera);
     state.motion.setCamera(camera);
 

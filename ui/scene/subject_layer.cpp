@@ -39,18 +39,6 @@ TriangleMesh cutOut(const TriangleMesh& mesh, std::size_t from, std::size_t to) 
     return piece;
 }
 
-/// By triangle the colour that a highlight gives it, or an invalid one.
-std::vector<QColor> highlightColours(std::span<const Highlight> highlights, std::size_t triangles) {
-    std::vector<QColor> colours(triangles);
-    for (const Highlight& highlight : highlights) {
-        for (const int triangle : highlight.triangles) {
-            if (triangle >= 0 && static_cast<std::size_t>(triangle) < triangles)
-                colours[static_cast<std::size_t>(triangle)] = highlight.colour;
-        }
-    }
-    return colours;
-}
-
 /// Where the light map's texels are for each corner of each surface triangle.
 vtkSmartPointer<vtkFloatArray> lightMapPlaces(const track::Track& track) {
     const std::vector<base::Vec3> places = surfaceInTrackCoordinates(track);
@@ -113,29 +101,23 @@ struct SubjectLayer::State {
 
     [[nodiscard]] bool isShown(const SceneContents& contents) const {
         return made && shown.track == contents.track && shown.solid == contents.solid &&
-               shown.stablePoses == contents.stablePoses && shown.theme == contents.theme &&
-               shown.highlights == contents.highlights;
+               shown.stablePoses == contents.stablePoses && shown.theme == contents.theme;
     }
 
     void makeTrack(const SceneContents& contents) {
         const track::Track& track = *contents.track;
         const SceneTheme& theme = contents.theme;
         const TriangleMesh& solid = track.solid;
-        const std::vector<QColor> marked = highlightColours(contents.highlights, solid.triangles.size());
         const std::vector<base::Vec3> places = surfaceInTrackCoordinates(track);
         const double trapBegin = track.sections[static_cast<std::size_t>(track.firstTrapSection)].x;
         const double trapEnd = track.sections[static_cast<std::size_t>(track.lastTrapSection)].x;
         const auto surfaceColour = [&](std::size_t i) {
-            if (marked[i].isValid()) return marked[i];
             double x = 0.0;
             for (const int vertex : solid.triangles[i])
                 x += places[static_cast<std::size_t>(vertex)].x() / 3.0;
             return x > trapBegin && x < trapEnd ? theme.trap : theme.leadIn;
         };
-        const auto bodyColour = [&](std::size_t i) {
-            const QColor& colour = marked[i + track.surfaceTriangles];
-            return colour.isValid() ? colour : theme.side;
-        };
+        const auto bodyColour = [&](std::size_t) { return theme.side; };
         const auto surfaceData = makeFlatMesh(cutOut(solid, 0, track.surfaceTriangles), surfaceColour);
         surfaceData->GetPointData()->SetTCoords(lightMapPlaces(track));
         surfaceMapper->SetInputData(surfaceData);
@@ -148,11 +130,8 @@ struct SubjectLayer::State {
     }
 
     void makeSolid(const SceneContents& contents) {
-        const std::vector<QColor> marked =
-            highlightColours(contents.highlights, contents.solid->triangles.size());
-        bodyMapper->SetInputData(makeFlatMesh(*contents.solid, [&](std::size_t i) {
-            return marked[i].isValid() ? marked[i] : contents.theme.leadIn;
-        }));
+        bodyMapper->SetInputData(
+            makeFlatMesh(*contents.solid, [&](std::size_t) { return contents.theme.leadIn; }));
         body->VisibilityOn();
         shadow.make(*contents.solid);
     }
@@ -193,7 +172,6 @@ void SubjectLayer::show(const SceneContents& contents, std::span<const Shade> sh
         state_->shown.solid = contents.solid;
         state_->shown.stablePoses = contents.stablePoses;
         state_->shown.theme = contents.theme;
-        state_->shown.highlights = contents.highlights;
         state_->made = true;
     }
     const HeightRange range = contents.track ? heightRangeOf(*contents.track) : HeightRange{};

@@ -12,6 +12,7 @@
 #include "core/part/bundled.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
+#include "ui/pages/export_page.h"
 #include "ui/pages/page.h"
 #include "ui/window/main_window.h"
 #include "ui/window/page_docks.h"
@@ -69,6 +70,17 @@ void MainWindow::addFileMenu() {
     studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."),
                              QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S), this,
                              [this] { askForSaveAs([] {}); });
+    QMenu& exports = *menu.addMenu(look::icon("printer"), tr("E&xport the track"));
+    exports.setObjectName("menu.export");
+    const auto addExport = [&](const QString& format, const QString& text) {
+        studyActions_ << addItem(exports, "file.export." + format, {}, text, {}, this, [this, format] {
+            showPage("export");
+            if (auto* page = findChild<pages::ExportPage*>()) page->exportWhenBuilt(format);
+        });
+    };
+    addExport("stl", tr("&STL, for printing..."));
+    addExport("3mf", tr("&3MF, for printing..."));
+    addExport("step", tr("S&TEP, for machining..."));
     studyActions_ << addItem(menu, "file.close", "close", tr("&Close study"),
                              QKeySequence(Qt::CTRL | Qt::Key_W), this,
                              [this] { whenClosable([this] { desk_.close(true); }); });

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 base::Status write(const fs::path& path, const TriangleMesh& mesh) {
-    return path.extension() == ".3mf" ? write3mf(path, mesh, "cup") : writeStl(path, mesh);
+    return path.extension() == ".3mf" ? write3mf(path, {&mesh, 1}, "cup") : writeStl(path, mesh);
 }
 
 base::Result<TriangleMesh> read(const fs::path& path) {

@@ -47,22 +47,6 @@ Track readExample(const std::string& name) {
     return file->track;
 }
 
-/// The same sections on another feeder.
-Track bend(Track track, const FeederShape& shape) {
-    track::TrackParameters parameters;
-    parameters.shape = shape;
-    parameters.width = track.width;
-    parameters.height = track.height;
-    parameters.leadInLength = track.sections[1].x - track.begin();
-    parameters.baseThickness = track.baseThickness;
-    std::vector<track::CrossSection> trap(track.sections.begin() + 2,
-                                          track.sections.begin() + track.lastTrapSection + 1);
-    for (track::CrossSection& section : trap)
-        section.x -= track.sections[1].x;
-    parameters.leadOutSegments = static_cast<int>(track.sections.size()) - 1 - track.lastTrapSection;
-    return track::buildTrack(parameters, trap).value();
-}
-
 PrintOptions makeOptions(double wall, bool flange, double bolts) {
     PrintOptions options;
     options.wallHeight = wall;
@@ -211,7 +195,7 @@ class PrintSolidTest : public QObject {
         for (const auto& [name, track] : tracks)
             for (const auto& [kind, shape] : shapes)
                 for (const auto& [title, option] : options)
-                    QTest::addRow("%s, %s, %s", name, kind, title) << bend(track, shape) << option;
+                    QTest::addRow("%s, %s, %s", name, kind, title) << testing::bend(track, shape) << option;
     }
 
     void examplesAreClosedAndManifold() {
@@ -237,7 +221,7 @@ class PrintSolidTest : public QObject {
         QCOMPARE(written.nonManifoldEdges, 0);
         QVERIFY(std::abs(written.volume / report.volume - 1.0) < 1e-5);
         const std::filesystem::path package = folder.filePath("track.3mf").toStdString();
-        QVERIFY(geometry::write3mf(package, *solid, "track").ok());
+        QVERIFY(geometry::write3mf(package, {&*solid, 1}, "track").ok());
         QVERIFY(geometry::read3mf(package).ok());
     }
 

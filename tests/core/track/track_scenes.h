@@ -22,4 +22,20 @@ inline track::FeederShape makeBowl(track::Conveying conveying) {
     return {track::FeederType::bowl, 0.175, conveying};
 }
 
+/// The same sections on another feeder.
+inline track::Track bend(const track::Track& track, const track::FeederShape& shape) {
+    track::TrackParameters parameters;
+    parameters.shape = shape;
+    parameters.width = track.width;
+    parameters.height = track.height;
+    parameters.leadInLength = track.sections[1].x - track.begin();
+    parameters.baseThickness = track.baseThickness;
+    std::vector<track::CrossSection> trap(track.sections.begin() + 2,
+                                          track.sections.begin() + track.lastTrapSection + 1);
+    for (track::CrossSection& section : trap)
+        section.x -= track.sections[1].x;
+    parameters.leadOutSegments = static_cast<int>(track.sections.size()) - 1 - track.lastTrapSection;
+    return track::buildTrack(parameters, trap).value();
+}
+
 }  // namespace trapwright::testing

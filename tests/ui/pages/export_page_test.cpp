@@ -7,17 +7,23 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "core/base/resources.h"
 #include "core/geometry/mesh_files.h"
 #include "core/geometry/three_mf.h"
+#include "core/part/cad_export.h"
 #include "core/study/track_design.h"
 #include "core/track/print_solid.h"
+#include "core/track/printer.h"
 #include "tests/ui/session/session_fixture.h"
 #include "tests/ui/window/window_user.h"
 #include "ui/look/message_bar.h"
+#include "ui/look/text.h"
 #include "ui/pages/value_edit.h"
 
 using namespace trapwright;
@@ -32,6 +38,13 @@ struct User : tests::WindowUser {
     User(const session::SessionFixture& studies, const std::string& name)
         : WindowUser(studies.environment()) {
         (void)open(studies.path(name), "export");
+    }
+    /// Picks the entry that begins so, in any case.
+    void choose(const QString& list, const QString& text) {
+        auto* box = find<QComboBox>(list);
+        const int place = box->findText(text, Qt::MatchStartsWith);
+        box->setCurrentIndex(place);
+        emit box->activated(place);
     }
 
     QString state() { return find<QLabel>("export.state")->text(); }
@@ -100,12 +113,16 @@ class ExportPageTest : public QObject {
     void init() {
         QSettings().clear();
         QSettings().setValue("folders/print", folder_.path());
+        std::filesystem::remove_all(printers());
+        // Few of the parts of these studies succeed; who exports does not want to be asked.
+        QSettings().setValue("print/leastSuccess", 0.0);
     }
 
     void selectedTrackIsExportedAndReadsBack_data() {
         QTest::addColumn<QString>("format");
         QTest::newRow("STL") << "stl";
         QTest::newRow("3MF") << "3mf";
+        QTest::newRow("STEP") << "step";
     }
 
     void selectedTrackIsExportedAndReadsBack() {
@@ -121,22 +138,29 @@ class ExportPageTest : public QObject {
         const QString path = folder_.filePath("track." + format);
         QVERIFY(user.exportTo(format, path));
         QVERIFY(QTest::qWaitFor([&] { return user.state().contains("Read back"); }, kPatience));
-        const auto mesh =
-            format == "stl" ? geometry::readStl(path.toStdString()) : geometry::read3mf(path.toStdString());
-        QVERIFY(mesh.ok());
-        const geometry::MeshReport report = geometry::checkMesh(*mesh);
-        QVERIFY(report.isSolid());
-        QCOMPARE(report.nonManifoldEdges, 0);
-
         track::PrintOptions options;
         options.wallHeight = 5 * kMm;
         options.flange = true;
         options.boltDiameter = 3.4 * kMm;
         const geometry::TriangleMesh expected = user.buildSelected(options);
-        QVERIFY(std::abs(report.volume / geometry::checkMesh(expected).volume - 1.0) < 1e-5);
-        const base::Vec3 difference =
-            geometry::calcBoundingBox(*mesh).size() - geometry::calcBoundingBox(expected).size();
-        QVERIFY(difference.norm() < 1e-6);
+        const double volume = geometry::checkMesh(expected).volume;
+        const base::Vec3 size = geometry::calcBoundingBox(expected).size();
+        if (format == "step") {
+            const auto contents = part::inspectStep(path.toStdString());
+            QVERIFY(contents.ok() && contents->valid);
+            QCOMPARE(contents->solids, 1);
+            QVERIFY(std::abs(contents->volume / volume - 1.0) < 1e-6);
+            QVERIFY((contents->size - size).norm() < 1e-6);
+        } else {
+            const auto mesh = format == "stl" ? geometry::readStl(path.toStdString())
+                                              : geometry::read3mf(path.toStdString());
+            QVERIFY(mesh.ok());
+            const geometry::MeshReport report = geometry::checkMesh(*mesh);
+            QVERIFY(report.isSolid());
+            QCOMPARE(report.nonManifoldEdges, 0);
+            QVERIFY(std::abs(report.volume / volume - 1.0) < 1e-5);
+            QVERIFY((geometry::calcBoundingBox(*mesh).size() - size).norm() < 1e-6);
+        }
         // The scene shows the same.
         QVERIFY(user.scene().solid);
         QCOMPARE(user.scene().solid->triangles.size(), expected.triangles.size());
@@ -208,6 +232,177 @@ class ExportPageTest : public QObject {
         QVERIFY(user.scene().highlights.empty());
     }
 
+    void asksBelowTheLeastSuccess() {
+        QSettings().setValue("print/leastSuccess", 1.0);
+        User user(studies_, "learned.trap");
+        QVERIFY(user.waitForSolid());
+        const study::SelectionEntry& first = user.session()->selections().back().entries.front();
+        QVERIFY(first.oriented < first.trials);
+        const QString percent = look::numberText(100.0 * first.oriented / first.trials) + " %";
+        QVERIFY(user.text("print.check.success").contains(percent));
+        QVERIFY(user.text("print.check.success").contains("below 100 %"));
+
+        user.action("export.stl")->trigger();
+        auto* question = user.find<QMessageBox>("dialog.success");
+        QVERIFY(question != nullptr);
+        QVERIFY(question->text().contains(percent));
+        question->reject();
+        QVERIFY(user.find<QFileDialog>("dialog.file") == nullptr);
+        QVERIFY(
+            QTest::qWaitFor([&] { return user.find<QMessageBox>("dialog.success") == nullptr; }, kPatience));
+        user.action("export.stl")->trigger();
+        user.find<QPushButton>("dialog.success.export")->click();
+        auto* dialog = user.find<QFileDialog>("dialog.file");
+        QVERIFY(dialog != nullptr);
+        dialog->close();
+        QVERIFY(QTest::qWaitFor([&] { return user.find<QFileDialog>("dialog.file") == nullptr; }, kPatience));
+
+        // What the user wants less of is not asked for, and is remembered.
+        user.type("leastSuccess", "0");
+        QVERIFY(!user.text("print.check.success").contains("below"));
+        QVERIFY(user.exportTo("stl", folder_.filePath("unasked.stl")));
+        QCOMPARE(QSettings().value("print/leastSuccess").toDouble(), 0.0);
+    }
+
+    void printerIsChosenAndRemembered() {
+        {
+            User user(studies_, "learned.trap");
+            QVERIFY(user.waitForSolid());
+            auto* printers = user.find<QComboBox>("print.printer");
+            QCOMPARE(printers->currentText(), QString("Prusa MK4"));
+            QVERIFY(user.text("print.check.bed").contains("Prusa MK4"));
+            user.choose("print.printer", "UltiMaker S5");
+            QVERIFY(user.waitForSolid());
+            QVERIFY(user.text("print.printer.about").contains("330 × 240 mm"));
+            QVERIFY(user.text("print.check.bed").contains("fits UltiMaker S5"));
+        }
+        User user(studies_, "learned.trap");
+        QVERIFY(user.waitForSolid());
+        QCOMPARE(user.find<QComboBox>("print.printer")->currentText(), QString("UltiMaker S5"));
+    }
+
+    void ownPrinterIsMadeEditedAndRemoved() {
+        User user(studies_, "learned.trap");
+        QVERIFY(user.waitForSolid());
+        const auto edit = [&](const QString& action, const QString& title, const QString& bedX) {
+            user.action(action)->trigger();
+            user.find<QLineEdit>("printer.title")->setText(title);
+            user.find<QLineEdit>("printer.bedX")->setText(bedX);
+            user.find<QPushButton>("printer.save")->click();
+        };
+        edit("printer.new", "...", "120");
+        QVERIFY(user.text("printer.problem").contains("letter"));
+        user.find<QLineEdit>("printer.bedX")->setText("12x");
+        user.find<QLineEdit>("printer.title")->setText("Little one");
+        user.find<QPushButton>("printer.save")->click();
+        QVERIFY(user.text("printer.problem").contains("not a number"));
+        user.find<QLineEdit>("printer.bedX")->setText("5");
+        user.find<QPushButton>("printer.save")->click();
+        QVERIFY(user.text("printer.problem").contains("bedX_mm"));
+        user.find<QLineEdit>("printer.bedX")->setText("120");
+        user.find<QPushButton>("printer.save")->click();
+        QVERIFY(user.waitForSolid());
+        QCOMPARE(user.find<QComboBox>("print.printer")->currentText(), QString("Little one (your own)"));
+        QVERIFY(user.text("print.check.bed").contains("too large for Little one"));
+        QVERIFY(std::filesystem::exists(printers() / "little-one.json"));
+
+        QVERIFY(QTest::qWaitFor([&] { return user.find<QDialog>("dialog.printer") == nullptr; }, kPatience));
+        edit("printer.edit", "Little one", "350");
+        QVERIFY(user.waitForSolid());
+        QVERIFY(user.text("print.check.bed").contains("fits Little one"));
+        user.action("printer.remove")->trigger();
+        user.find<QPushButton>("printer.removeQuestion.remove")->click();
+        QVERIFY(!std::filesystem::exists(printers() / "little-one.json"));
+        QVERIFY(user.waitForSolid());
+        QVERIFY(user.find<QComboBox>("print.printer")->findText("Little one (your own)") < 0);
+    }
+
+    void longTrackIsCutIntoPiecesWithDowels_data() {
+        QTest::addColumn<QString>("study");
+        QTest::newRow("linear") << "learned.trap";
+        QTest::newRow("bowl") << "bowl.trap";
+    }
+
+    void longTrackIsCutIntoPiecesWithDowels() {
+        QFETCH(QString, study);
+        track::Printer small;
+        small.name = "small";
+        small.title = "Small";
+        small.space = {0.15, 0.12, 0.1};
+        QVERIFY(track::savePrinter(printers(), small).ok());
+        QSettings().setValue("print/printer", "small");
+        User user(studies_, study.toStdString());
+        QVERIFY(user.waitForSolid());
+        QVERIFY(user.text("print.check.bed").contains("too large for Small"));
+        const geometry::MeshReport whole = geometry::checkMesh(*user.scene().solid);
+
+        user.choose("print.split", "As few");
+        QVERIFY(user.waitForSolid());
+        QVERIFY2(user.text("print.check.bed").contains("pieces fits Small"),
+                 qPrintable(user.text("print.splitProblem")));
+        QVERIFY(user.text("print.pieces").contains("cut at section"));
+        // Cuts on the surface, and holes that are seen through it.
+        const auto& marks = user.scene().highlights;
+        QVERIFY(std::any_of(marks.begin(), marks.end(), [](const auto& mark) { return mark.through; }));
+        const base::Vec3 together = geometry::calcBoundingBox(*user.scene().solid).size();
+        user.find<QCheckBox>("print.apart")->click();
+        const base::Vec3 apart = geometry::calcBoundingBox(*user.scene().solid).size();
+        QVERIFY((apart - together).norm() > 15 * kMm);
+
+        QVERIFY(user.exportTo("stl", folder_.filePath("cut.stl")));
+        QVERIFY(QTest::qWaitFor([&] { return user.state().contains("Read back"); }, kPatience));
+        double volume = 0.0;
+        std::size_t pieces = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path().toStdString())) {
+            const std::string name = entry.path().filename().string();
+            if (!name.starts_with("cut-") || entry.path().extension() != ".stl") continue;
+            const geometry::MeshReport piece = geometry::checkMesh(geometry::readStl(entry.path()).value());
+            QVERIFY(piece.isSolid());
+            QCOMPARE(piece.nonManifoldEdges, 0);
+            volume += piece.volume;
+            ++pieces;
+            std::filesystem::remove(entry.path());
+        }
+        QVERIFY(pieces >= 2);
+        // Four holes of 3.2 x 8.2 mm in each cut.
+        const double holes =
+            4.0 * static_cast<double>(pieces - 1) * 8.2 * base::kPi * 1.6 * 1.6 * kMm * kMm * kMm;
+        QVERIFY(std::abs((whole.volume - volume) / holes - 1.0) < 0.02);
+
+        QVERIFY(user.exportTo("3mf", folder_.filePath("cut.3mf")));
+        QVERIFY(QTest::qWaitFor([&] { return user.state().contains("cut.3mf: "); }, kPatience));
+        QCOMPARE(geometry::read3mfObjects(folder_.filePath("cut.3mf").toStdString()).value().size(), pieces);
+    }
+
+    void cutsAreChosenByHand() {
+        User user(studies_, "learned.trap");
+        QVERIFY(user.waitForSolid());
+        user.choose("print.split", "Cut at");
+        QVERIFY(user.waitForSolid());
+        auto* cuts = user.find<QListWidget>("print.cuts");
+        QVERIFY(cuts->isVisibleTo(&user.window));
+        cuts->item(1)->setCheckState(Qt::Checked);
+        QVERIFY(user.waitForSolid());
+        QVERIFY(user.text("print.pieces").startsWith("2 pieces, cut at section 2"));
+        // Dowels that have no room are told of where they are set, and nothing is exported.
+        user.type("dowelDiameter", "29");
+        QVERIFY(QTest::qWaitFor([&] { return user.reason("dowelDiameter").contains("no room"); }, kPatience));
+        QVERIFY(!user.action("export.stl")->isEnabled());
+        user.type("dowelDiameter", "0");
+        QVERIFY(user.waitForSolid());
+        QVERIFY(user.reason("dowelDiameter").isEmpty());
+        QVERIFY(!user.find<QLineEdit>("field.print.dowelDepth")->isVisibleTo(&user.window));
+    }
+
+    void fileMenuExportsFromAnyPage() {
+        User user(studies_, "learned.trap");
+        user.window.showPage("track");
+        user.action("file.export.step")->trigger();
+        QVERIFY(QTest::qWaitFor([&] { return user.find<QFileDialog>("dialog.file") != nullptr; }, kPatience));
+        QVERIFY(user.find<QFileDialog>("dialog.file")->windowTitle().contains("STEP"));
+        user.find<QFileDialog>("dialog.file")->close();
+    }
+
     void folderThatCannotBeWrittenIsToldOf() {
         User user(studies_, "learned.trap");
         QVERIFY(user.waitForSolid());
@@ -245,6 +440,9 @@ class ExportPageTest : public QObject {
     }
 
  private:
+    /// Where the user's own ones are kept.
+    static std::filesystem::path printers() { return base::findOwnFolder("printers"); }
+
     QTemporaryDir folder_;
     session::SessionFixture studies_;
 };

@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QSignalSpy>
 #include <QTest>
-#include <numeric>
 
 #include "tests/ui/scene/scene_samples.h"
 #include "ui/scene/height_colours.h"
@@ -128,13 +127,24 @@ class SceneViewTest : public QObject {
         QVERIFY(samples::shareChanged(before, grab()) > 2e-4);
         view_->setContacts({});
 
-        std::vector<int> triangles(40);
-        std::iota(triangles.begin(), triangles.end(), 0);
-        view_->setHighlights({{triangles, magenta}});
+        // A region of the surface, a line on it, and one inside that is seen all the same.
+        auto patch = std::make_shared<geometry::TriangleMesh>();
+        patch->vertices = cuboidTrack_->solid.vertices;
+        patch->triangles.assign(cuboidTrack_->solid.triangles.begin(),
+                                cuboidTrack_->solid.triangles.begin() + 40);
+        view_->setHighlights({{patch, {}, magenta}});
         QVERIFY(samples::shareOfHue(grab(), magenta) > 0.01);
-        // Numbers of triangles that are not there are passed over.
-        view_->setHighlights({{{-1, 1'000'000}, magenta}});
+        view_->setHighlights({});
         QVERIFY(samples::shareChanged(before, grab()) < 1e-4);
+        const double inside = -0.5 * cuboidTrack_->baseThickness;
+        const std::vector<base::Vec3> line = {{0.02, 0.0, inside}, {0.1, 0.0, inside}};
+        view_->setHighlights({{nullptr, {line}, magenta}});
+        QVERIFY(samples::shareOfHue(grab(), magenta) < 1e-5);
+        view_->setHighlights({{nullptr, {line}, magenta, true}});
+        QVERIFY(samples::shareOfHue(grab(), magenta) > 2e-4);
+        view_->setHighlights({{nullptr, {trace.points}, magenta}});
+        QVERIFY(samples::shareOfHue(grab(), magenta) > 2e-4);
+        view_->setHighlights({});
     }
 
     void heightIsColoured() {

@@ -3,6 +3,8 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
 #include <QPixmap>
 #include <QScreen>
 #include <QSettings>
@@ -72,6 +74,18 @@ int main(int argc, char** argv) {
         window.showPage(page->face().name);
         camera.take(window, page->face().name);
     }
+    // A bed that is too small for the track, and the track in pieces for it.
+    window.showPage("export");
+    auto* printers = window.findChild<QComboBox*>("print.printer");
+    printers->setCurrentIndex(printers->findData("prusa-mini"));
+    emit printers->activated(printers->currentIndex());
+    camera.take(window, "export-too-large");
+    auto* split = window.findChild<QComboBox*>("print.split");
+    split->setCurrentIndex(1);
+    emit split->activated(1);
+    camera.take(window, "export-pieces");
+    window.findChild<QCheckBox*>("print.apart")->click();
+    camera.take(window, "export-apart");
     if (!window.desk().session()->locked()) {
         window.showPage("track");
         study::Settings settings = window.desk().session()->settings();

@@ -1,4 +1,4 @@
-#include "core/part/surface_distance.h"
+#include "core/geometry/surface_distance.h"
 
 #include <algorithm>
 #include <array>
@@ -6,12 +6,12 @@
 #include <unsupported/Eigen/BVH>
 #include <vector>
 
-namespace trapwright::part {
+namespace trapwright::geometry {
 
 namespace {
 
 using base::Vec3;
-using Box = Eigen::AlignedBox3d;
+using Bounds = Eigen::AlignedBox3d;
 using Corners = std::array<Vec3, 3>;
 
 /// Closest point of a triangle by the region of the plane that the point is over (Ericson, Real-Time
@@ -51,7 +51,9 @@ struct Nearest {
     const std::vector<Corners>& triangles;
     Vec3 point;
 
-    [[nodiscard]] double minimumOnVolume(const Box& box) const { return box.squaredExteriorDistance(point); }
+    [[nodiscard]] double minimumOnVolume(const Bounds& box) const {
+        return box.squaredExteriorDistance(point);
+    }
     [[nodiscard]] double minimumOnObject(int triangle) const {
         return calcSquaredDistance(triangles[static_cast<std::size_t>(triangle)], point);
     }
@@ -64,12 +66,12 @@ struct SurfaceDistance::Tree {
     Eigen::KdBVH<double, 3, int> boxes;
 };
 
-SurfaceDistance::SurfaceDistance(const geometry::TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
+SurfaceDistance::SurfaceDistance(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
     std::vector<int> indices;
-    std::vector<Box> boxes;
-    for (const geometry::Triangle& triangle : mesh.triangles) {
+    std::vector<Bounds> boxes;
+    for (const Triangle& triangle : mesh.triangles) {
         Corners corners;
-        Box box;
+        Bounds box;
         for (std::size_t k = 0; k < 3; ++k) {
             corners[k] = mesh.vertices[static_cast<std::size_t>(triangle[k])];
             box.extend(corners[k]);
@@ -90,4 +92,4 @@ double SurfaceDistance::calcDistance(const Vec3& point) const {
     return std::sqrt(Eigen::BVMinimize(tree_->boxes, query));
 }
 
-}  // namespace trapwright::part
+}  // namespace trapwright::geometry

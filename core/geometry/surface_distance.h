@@ -4,14 +4,14 @@
 
 #include "core/geometry/triangle_mesh.h"
 
-namespace trapwright::part {
+namespace trapwright::geometry {
 
 /// Distances from points to the surface of a mesh, through a tree of boxes (Eigen's KdBVH). Copies what it
 /// needs.
 class SurfaceDistance {
  public:
     /// The mesh must have triangles.
-    explicit SurfaceDistance(const geometry::TriangleMesh& mesh);
+    explicit SurfaceDistance(const TriangleMesh& mesh);
     ~SurfaceDistance();
     SurfaceDistance(SurfaceDistance&&) noexcept;
     SurfaceDistance& operator=(SurfaceDistance&&) noexcept;
@@ -24,4 +24,4 @@ class SurfaceDistance {
     std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace trapwright::part
+}  // namespace trapwright::geometry
