@@ -1,5 +1,6 @@
 #include <QtTest>
 
+#include "core/study/field_text.h"
 #include "core/study/validation.h"
 #include "sim/native/native_engine.h"
 #include "tests/ui/session/session_fixture.h"
@@ -145,7 +146,49 @@ class StudyTrialsTest : public QObject {
         settings = session.settings();
         settings.evolution.generations = 8;
         session.changeSettings(settings, "Generations");
-        QCOMPARE(session.estimatedSeconds(), 0.0);
+        // What a trial costs is known by then.
+        QCOMPARE(session.estimatedSeconds(), expected);
+    }
+
+    // The cost of a trial belongs to the settings that it depends on, and to no others.
+    void estimateFollowsTheSettings_data() {
+        QTest::addColumn<QString>("key");
+        QTest::addColumn<QString>("value");
+        QTest::addColumn<double>("factor");  // 0: it has to be timed again
+        QTest::newRow("twice the population") << "evolution.populationSize"
+                                              << "32" << 2.0;
+        QTest::newRow("half the trials") << "evolution.trialsPerEvaluation"
+                                         << "5" << 0.5;
+        QTest::newRow("three times the generations") << "evolution.generations"
+                                                     << "12" << 3.0;
+        QTest::newRow("more trials to validate") << "validation.trialsPerPose"
+                                                 << "5000" << 1.0;
+        QTest::newRow("another drive") << "simulation.drive.halfStroke_mm"
+                                       << "0.7" << 0.0;
+        QTest::newRow("more sections") << "track.crossSections"
+                                       << "6" << 0.0;
+    }
+    void estimateFollowsTheSettings() {
+        QFETCH(QString, key);
+        QFETCH(QString, value);
+        QFETCH(double, factor);
+        study::Settings settings = smallSettings(4);
+        settings.evolution.populationSize = 16;
+        settings.evolution.trialsPerEvaluation = 10;
+        const std::string name = key.toStdString() + ".trap";
+        auto made = StudySession::create(fixture_->path(name.c_str()), settings, cuboid(),
+                                         nativeEnvironment(*fixture_));
+        VERIFY_OK(made);
+        StudySession& session = **made;
+        session.requestEstimate();
+        QTRY_VERIFY_WITH_TIMEOUT(session.estimatedSeconds() > 0.0, 20000);
+        const double before = session.estimatedSeconds();
+        study::Settings next = session.settings();
+        VERIFY_OK(study::setField(next, key.toStdString(), value.toStdString()));
+        session.changeSettings(next, "Change");
+        QCOMPARE(session.estimatedSeconds(), factor * before);
+        QCOMPARE(session.draft().has_value(), factor > 0.0);
+        if (factor > 0.0) QVERIFY(session.draft()->seconds < 600.0);
     }
 
  private:

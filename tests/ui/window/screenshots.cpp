@@ -1,9 +1,11 @@
-// Takes a picture of every page of a study, of the welcome and of the dialogs, in the window's own process:
-// screenshots OUT STUDY WIDTHxHEIGHT THEME NAME. packaging/screenshots.sh calls it for each size and theme.
+// Takes a picture of every page of a study, of the welcome, the tour, the help and the dialogs, in the
+// window's own process: screenshots OUT STUDY WIDTHxHEIGHT THEME NAME. packaging/screenshots.sh calls it for
+// each size and theme.
 
 #include <QAction>
 #include <QApplication>
 #include <QPixmap>
+#include <QPushButton>
 #include <QScreen>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -72,6 +74,16 @@ int main(int argc, char** argv) {
         window.showPage(page->face().name);
         camera.take(window, page->face().name);
     }
+    window.findChild<QAction*>("help.tour")->trigger();
+    for (int step = 1; auto* next = window.findChild<QPushButton*>("tour.next"); ++step) {
+        camera.take(window, QString("tour-%1").arg(step));
+        next->click();
+        QTest::qWait(1);
+    }
+    window.showPage("track");
+    window.findChild<QAction*>("help.open")->trigger();
+    camera.take(*window.findChild<QWidget*>("window.help"), "help");
+    window.findChild<QWidget*>("window.help")->close();
     if (!window.desk().session()->locked()) {
         window.showPage("track");
         study::Settings settings = window.desk().session()->settings();
@@ -87,5 +99,8 @@ int main(int argc, char** argv) {
     }
     window.findChild<QAction*>("help.shortcuts")->trigger();
     camera.take(*QApplication::activeModalWidget(), "shortcuts");
+    QApplication::activeModalWidget()->close();
+    window.desk().close(true);
+    camera.take(window, "recent");
     return camera.failed() ? 1 : 0;
 }
