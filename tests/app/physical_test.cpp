@@ -51,7 +51,7 @@ class PhysicalTest : public QObject {
         const Ran trials = ask({"physical", "study.trap", "--trials"});
         QCOMPARE(trials.output.count('\n'), 4);
         QVERIFY2(trials.output.contains("\n2,1,fell-off,"), trials.all());
-        QCOMPARE(ask({"physical", "study.trap", "--csv"}).output.count('\n'), 4);
+        QCOMPARE(ask({"physical", "study.trap", "--csv"}).output.count('\n'), 5);
         QVERIFY(ask({"physical", "study.trap", "--number", "1"}).output.contains("No part"));
         QCOMPARE(ask({"physical", "study.trap", "--number", "3"}).code, 2);
     }

@@ -53,7 +53,7 @@ class StudyTrialsTest : public QObject {
         // The first ones, and more than there were.
         for (const int count : {2, 7}) {
             const std::vector<SimulatedTrials> others =
-                simulate({work::TrialKind::learning, winner, 0, count});
+                simulate({work::TrialKind::learning, winner, {0}, count});
             QCOMPARE(static_cast<int>(others[0].outcomes.size()), count);
             QVERIFY(others[0].outcomes[1] == told[0].outcomes[1]);
         }
@@ -62,7 +62,7 @@ class StudyTrialsTest : public QObject {
     void validationTrialsAreThoseOfTheTable() {
         const study::ValidationRecord& table = session_->validations().front();
         for (const study::ValidationRow& row : table.rows) {
-            work::TrialsRequest request{work::TrialKind::validation, session_->winners().back(), row.pose};
+            work::TrialsRequest request{work::TrialKind::validation, session_->winners().back(), {row.pose}};
             const std::vector<SimulatedTrials> told = simulate(request);
             QCOMPARE(told[0].outcomes.size(), std::size_t{10});
             const auto& verdicts = told[0].judged.verdicts;
@@ -76,6 +76,22 @@ class StudyTrialsTest : public QObject {
             QCOMPARE(fewer[0].outcomes.size(), std::size_t{3});
             for (std::size_t i = 0; i < 3; ++i)
                 QVERIFY(fewer[0].outcomes[i] == told[0].outcomes[i]);
+        }
+    }
+
+    // Poses that look the same are listed together: one pose after the other.
+    void trialsOfAlikePosesFollowEachOther() {
+        const study::Winner& winner = session_->winners().back();
+        const auto of = [&](std::vector<int> poses) {
+            return simulate({work::TrialKind::validation, winner, std::move(poses)})[0].outcomes;
+        };
+        const std::vector<trial::Outcome> first = of({0});
+        const std::vector<trial::Outcome> second = of({1});
+        const std::vector<SimulatedTrials> both = simulate({work::TrialKind::validation, winner, {0, 1}});
+        QCOMPARE(both.back().outcomes.size(), std::size_t{20});
+        for (std::size_t i = 0; i < 10; ++i) {
+            QVERIFY(both.back().outcomes[i] == first[i]);
+            QVERIFY(both.back().outcomes[10 + i] == second[i]);
         }
     }
 
@@ -115,7 +131,7 @@ class StudyTrialsTest : public QObject {
         QSignalSpy told(session_.get(), &StudySession::trialsSimulated);
         QSignalSpy failed(session_.get(), &StudySession::failed);
         for (int i = 0; i < 5; ++i)
-            session_->simulateTrials({work::TrialKind::learning, session_->winners().back(), 0, 500});
+            session_->simulateTrials({work::TrialKind::learning, session_->winners().back(), {0}, 500});
         session_->cancelSimulations();
         QVERIFY(waitForState(*session_, RunState::idle));
         QCOMPARE(told.count() + failed.count(), 0);
