@@ -14,6 +14,7 @@
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/study_options.h"
 #include "app/trapwright/work_failure.h"
+#include "core/study/pose_weights.h"
 #include "core/study/tables.h"
 #include "core/study/track_design.h"
 
@@ -97,8 +98,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!picked) return picked.failure();
     auto validation = validateAndSave(study->file, *inputs, *picked, std::nullopt, console);
     if (!validation) return validation.failure();
+    const std::vector<part::PoseGroup> groups = study::weighPoseGroups(*inputs->part, inputs->settings);
     console.print(fmt::format("\nThe track of generation {}, by the pose in which the parts arrive:\n{}\n",
-                              picked->generation, study::formatValidation(*validation)));
+                              picked->generation,
+                              study::formatValidation(study::tabulate(*validation, groups))));
 
     auto track = study::decodeTrack(study->settings.track, picked->record.chromosome);
     if (!track) return Failure{ExitCode::fault, track.error().message};
@@ -113,7 +116,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     }
     console.emit({{"study", path},
                   {"selection", toJson(*selection)},
-                  {"validation", toJson(*validation, *study->part)},
+                  {"validation", toJson(*validation, *study->part, groups)},
                   {"files", files}});
     return ExitCode::ok;
 }

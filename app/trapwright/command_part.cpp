@@ -10,6 +10,7 @@
 #include "app/trapwright/work_display.h"
 #include "core/base/parallel.h"
 #include "core/geometry/mass_properties.h"
+#include "core/part/stable_poses.h"
 #include "core/study/pose_drops.h"
 #include "core/study/settings.h"
 #include "core/trial/fitness.h"
@@ -21,6 +22,7 @@ namespace {
 struct Options {
     PartRequest part;
     int drops = 0;
+    bool everyPose = false;
 };
 
 constexpr double kPerMm3 = 1e9;
@@ -38,7 +40,7 @@ base::Vec3 findCentre(const LoadedPart& loaded) {
            geometry::calcBoundingBox(loaded.part->mesh).low;
 }
 
-std::string describePart(const LoadedPart& loaded) {
+std::string describePart(const LoadedPart& loaded, bool everyPose) {
     const part::Part& part = *loaded.part;
     const base::Vec3 size = geometry::calcBoundingBox(part.mesh).size() * 1e3;
     const base::Vec3 centre = findCentre(loaded) * 1e3;
@@ -67,12 +69,23 @@ std::string describePart(const LoadedPart& loaded) {
     text +=
         fmt::format("Best score    F_O {:.3f} for a perfect feeder\n",
                     trial::calcBestOrientationScore(part.symmetry, trial::OrientationDistance::symmetric));
-    text += "\nStable pose   Probability   Height of centre   Side below (direction in the part's axes)\n";
-    int number = 0;
-    for (const part::StablePose& pose : part.stablePoses) {
+    text +=
+        "\nStable pose   Alike   Probability   Height of centre   Side below (direction in the part's "
+        "axes)\n";
+    const auto addPose = [&](const std::string& name, const std::string& alike, double probability,
+                             int index) {
+        const part::StablePose& pose = part.stablePoses[static_cast<std::size_t>(index)];
         const base::Vec3 down = downDirection(pose);
-        text += fmt::format("{:>11} {:>11.1f} % {:>15.3f} mm   ({:+.3f}, {:+.3f}, {:+.3f})\n", ++number,
-                            pose.probability * 100.0, pose.height * 1e3, down.x(), down.y(), down.z());
+        text += fmt::format("{:>11} {:>7} {:>11.1f} % {:>15.3f} mm   ({:+.3f}, {:+.3f}, {:+.3f})\n", name,
+                            alike, probability * 100.0, pose.height * 1e3, down.x(), down.y(), down.z());
+    };
+    for (const part::PoseGroup& group : part::findPoseGroups(part)) {
+        addPose(part::namePoses(group.poses), std::to_string(group.poses.size()), group.probability,
+                group.poses.front());
+        if (!everyPose || group.poses.size() < 2) continue;
+        for (const int pose : group.poses)
+            addPose(std::to_string(pose + 1), "",
+                    part.stablePoses[static_cast<std::size_t>(pose)].probability, pose);
     }
     text += "\nFound and mended:\n";
     for (const std::string& note : loaded.notes)
@@ -93,6 +106,9 @@ nlohmann::ordered_json partToJson(const LoadedPart& loaded) {
                          {"rotation", toJson(pose.rotation)},
                          {"down", toJson(downDirection(pose), 1.0)}});
     }
+    nlohmann::ordered_json groups = nlohmann::ordered_json::array();
+    for (const part::PoseGroup& group : part::findPoseGroups(part))
+        groups.push_back({{"poses", numbersToJson(group.poses)}, {"probability", group.probability}});
     nlohmann::ordered_json symmetry = {{"name", part.symmetry.name},
                                        {"continuous", part.symmetry.continuous},
                                        {"rotations", part.symmetry.rotations.size()}};
@@ -110,7 +126,8 @@ nlohmann::ordered_json partToJson(const LoadedPart& loaded) {
             {"inertia_g_mm2", rows},
             {"convex_pieces", part.pieces.size()},
             {"symmetry", symmetry},
-            {"stable_poses", poses}};
+            {"stable_poses", poses},
+            {"pose_groups", groups}};
 }
 
 /// Drops the part with the Simbody engine, telling how far it is.
@@ -147,7 +164,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto loaded = loadPart(options.part);
     if (!loaded) return loaded.failure();
     nlohmann::ordered_json json = partToJson(*loaded);
-    console.print(describePart(*loaded));
+    console.print(describePart(*loaded, options.everyPose));
     if (options.drops > 0) {
         auto dropped = dropPart(*loaded->part, options.drops, console);
         if (!dropped) return dropped.failure();
@@ -174,6 +191,7 @@ void addPartCommand(CLI::App& program, Invocation& invocation) {
                     "bracket, pin, cup, bolt")
         ->required();
     addPartOptions(command, options->part);
+    command.add_flag("--poses", options->everyPose, "Also a row for each of the poses that look the same");
     command
         .add_option("--drop", options->drops,
                     "Also drop the part this often, simulated, and count the poses in which it comes to rest")

@@ -6,8 +6,9 @@
 
 #include "app/trapwright/command.h"
 #include "app/trapwright/json_records.h"
-#include "core/store/study_file.h"
+#include "app/trapwright/study_access.h"
 #include "core/study/physical_table.h"
+#include "core/study/pose_weights.h"
 
 namespace trapwright::app {
 
@@ -28,7 +29,10 @@ nlohmann::ordered_json toJson(const study::PhysicalRow& row) {
                                       {"fell_off", count.fellOff}};
     };
     nlohmann::ordered_json json{{"simulated", side(row.simulated)}, {"physical", side(row.physical)}};
-    if (row.pose >= 0) json["pose"] = row.pose;
+    if (!row.poses.empty()) {
+        json["poses"] = numbersToJson(row.poses);
+        json["weight"] = row.weight;
+    }
     if (row.p) json["p"] = *row.p;
     return json;
 }
@@ -38,12 +42,16 @@ const char* feederText(const study::FeederCount& feeders) {
     return feeders.virtualFeeder > 0 ? "virtual feeder" : "feeder";
 }
 
+nlohmann::ordered_json weightedToJson(const study::SuccessCount& count) {
+    return app::toJson(stats::WeightedRate{count.rate, count.bounds});
+}
+
 Attempt<ExitCode> run(const Options& options, const Console& console) {
-    const auto file = store::StudyFile::openReadOnly(options.study);
-    if (!file) return Failure{ExitCode::badInput, file.error().message};
-    const auto physical = file->loadPhysicalValidations();
+    auto study = openStudy(options.study, Access::read);
+    if (!study) return study.failure();
+    const auto physical = study->file.loadPhysicalValidations();
     if (!physical) return Failure{ExitCode::badInput, physical.error().message};
-    const auto simulated = file->loadValidations();
+    const auto simulated = study->file.loadValidations();
     if (!simulated) return Failure{ExitCode::badInput, simulated.error().message};
     const int count = static_cast<int>(physical->size());
     if (count == 0) {
@@ -57,7 +65,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                                                     number, options.study, count)};
     }
     const study::PhysicalValidation& one = (*physical)[static_cast<std::size_t>(number - 1)];
-    const study::PhysicalTable table = study::comparePhysical(study::findSimulated(*simulated, one), one);
+    const study::PhysicalTable table = study::comparePhysical(
+        study::findSimulated(*simulated, one), one, study::weighPoseGroups(*study->part, study->settings));
     if (options.trials) {
         console.print(study::physicalTrialsCsv(one));
     } else if (options.csv) {
@@ -81,6 +90,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                     {"unknown", table.feeders.unknown}}},
                   {"notice", table.notice},
                   {"rows", rows},
+                  {"weighted",
+                   {{"simulated", weightedToJson(table.weighted.simulated)},
+                    {"physical", weightedToJson(table.weighted.physical)}}},
                   {"total", toJson(table.total)},
                   {"verdict", table.verdict}});
     return ExitCode::ok;
@@ -92,7 +104,8 @@ void addPhysicalCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = addCommand(
         program, invocation, "physical",
-        "A printed track on the real feeder beside its simulation, pose by pose, and whether they differ.",
+        "A printed track on the real feeder beside its simulation, pose by pose, and whether they differ. "
+        "Poses that look the same are one.",
         "trapwright physical cuboid.trap",
         [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();

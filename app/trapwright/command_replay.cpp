@@ -43,7 +43,7 @@ work::TrialsRequest makeRequest(const Options& options, study::Winner individual
     if (options.kind == "selection") request.kind = work::TrialKind::selection;
     if (options.kind == "validation") request.kind = work::TrialKind::validation;
     request.winner = std::move(individual);
-    request.pose = options.pose - 1;
+    request.poses = {options.pose - 1};
     return request;
 }
 

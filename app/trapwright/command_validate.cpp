@@ -9,6 +9,7 @@
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
+#include "core/study/pose_weights.h"
 #include "core/study/tables.h"
 
 namespace trapwright::app {
@@ -23,6 +24,7 @@ struct Options {
     std::vector<double> expected;     // w x y z
     std::optional<std::string> engine;
     unsigned threads = 0;
+    bool everyPose = false;
 };
 
 Attempt<std::optional<base::Quaternion>> readExpected(const std::vector<double>& values) {
@@ -48,12 +50,14 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto record = validateAndSave(study->file, *inputs, *individual, *expected, console);
     if (!record) return record.failure();
     const base::Quaternion& goal = record->expectedOrientation;
+    const std::vector<part::PoseGroup> groups = study::weighPoseGroups(*study->part, study->settings);
     console.print(fmt::format(
         "Generation {}, individual {}, engine {}; success: finished within {:g} deg of the orientation "
         "(w, x, y, z) = ({:.3f}, {:.3f}, {:.3f}, {:.3f})\n{}",
         record->generation, record->individual, record->engine, record->tolerance / base::kDegree, goal.w(),
-        goal.x(), goal.y(), goal.z(), study::formatValidation(*record)));
-    console.emit({{"study", options.study}, {"validation", toJson(*record, *study->part)}});
+        goal.x(), goal.y(), goal.z(),
+        study::formatValidation(study::tabulate(*record, groups), options.everyPose)));
+    console.emit({{"study", options.study}, {"validation", toJson(*record, *study->part, groups)}});
     return ExitCode::ok;
 }
 
@@ -61,14 +65,17 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addValidateCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(program, invocation, "validate",
-                                   "Success of one track per stable pose of the part: trials T, failures F, "
-                                   "success P with its 95 % Clopper-Pearson bounds.",
-                                   "trapwright validate cuboid.trap --trials 1000",
-                                   [options](const Console& console) { return run(*options, console); });
+    CLI::App& command = addCommand(
+        program, invocation, "validate",
+        "Success of one track per stable pose of the part: trials T, failures F, success P with its 95 % "
+        "Clopper-Pearson bounds. "
+        "Poses that look the same are one row.",
+        "trapwright validate cuboid.trap --trials 1000",
+        [options](const Console& console) { return run(*options, console); });
     command.add_option("STUDY", options->study, "The study's file")->required();
     addIndividualOptions(command, options->choice);
     command.add_option("--trials", options->trials, "Trials per stable pose (default: as in the study)");
+    command.add_flag("--poses", options->everyPose, "Also a row for each of the poses that look the same");
     command.add_option("--tolerance", options->tolerance,
                        "Of the orientation, in degrees (default: as in the study)");
     command

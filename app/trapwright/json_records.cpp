@@ -107,7 +107,22 @@ Json toJson(const study::SelectionRecord& record) {
     return {{"engine", record.engine}, {"entries", entries}};
 }
 
-Json toJson(const study::ValidationRecord& record, const part::Part& part) {
+Json toJson(const stats::WeightedRate& weighted) {
+    return {{"share", weighted.rate ? Json(*weighted.rate) : Json()},
+            {"low", weighted.interval.low},
+            {"high", weighted.interval.high},
+            {"bounds", "95 % profile limits"}};
+}
+
+Json toJson(const study::ValidationRecord& record, const part::Part& part,
+            std::span<const part::PoseGroup> groups) {
+    const study::ValidationTable table = study::tabulate(record, groups);
+    Json alike = Json::array();
+    for (const study::ValidationGroup& group : table.groups) {
+        Json json = {{"poses", numbersToJson(group.poses)}, {"weight", group.weight}};
+        json.update(rowToJson(group.sum));
+        alike.push_back(json);
+    }
     Json rows = Json::array();
     for (const study::ValidationRow& row : record.rows) {
         Json json = {{"pose", row.pose + 1},
@@ -120,8 +135,17 @@ Json toJson(const study::ValidationRecord& record, const part::Part& part) {
             {"engine", record.engine},
             {"expected_orientation", toJson(record.expectedOrientation)},
             {"tolerance_deg", record.tolerance / base::kDegree},
+            {"groups", alike},
             {"poses", rows},
-            {"total", rowToJson(study::calcTotal(record))}};
+            {"weighted_success", toJson(table.weighted)},
+            {"total", rowToJson(table.total)}};
+}
+
+Json numbersToJson(std::span<const int> poses) {
+    Json numbers = Json::array();
+    for (const int pose : poses)
+        numbers.push_back(pose + 1);
+    return numbers;
 }
 
 Json shareToJson(int count, int trials) {

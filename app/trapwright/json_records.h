@@ -1,9 +1,11 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <vector>
 
-#include "core/part/part.h"
+#include "core/part/stable_poses.h"
+#include "core/stats/stratified.h"
 #include "core/study/records.h"
 
 namespace trapwright::app {
@@ -17,7 +19,12 @@ nlohmann::ordered_json toJson(const study::GenerationSummary& summary);
 /// Differences are the reference's value less the learning engine's.
 nlohmann::ordered_json toJson(const std::vector<study::CheckRecord>& records);
 nlohmann::ordered_json toJson(const study::SelectionRecord& record);
-nlohmann::ordered_json toJson(const study::ValidationRecord& record, const part::Part& part);
+nlohmann::ordered_json toJson(const study::ValidationRecord& record, const part::Part& part,
+                              std::span<const part::PoseGroup> groups);
+/// {"share", "low", "high", "bounds"}; no share where it is not known.
+nlohmann::ordered_json toJson(const stats::WeightedRate& weighted);
+/// Counted from 1.
+nlohmann::ordered_json numbersToJson(std::span<const int> poses);
 /// {"count", "share", "low", "high", "bounds"} of `count` successes in `trials`; "bounds" names the interval.
 nlohmann::ordered_json shareToJson(int count, int trials);
 

@@ -16,7 +16,7 @@ using base::Vec2;
 using base::Vec3;
 
 constexpr std::array<BundledPart, 6> kParts = {{
-    {"cuboid", "cuboid.stl", "ABS", "the paper's cube, 4 x 8 x 12 mm"},
+    {"cuboid", "cuboid.stl", "ABS", "a cuboid, 4 x 8 x 12 mm, the paper's first part"},
     {"cone", "cone.stl", "brass",
      "a cone-like turned part with four stable poses, after the paper's second part"},
     {"bracket", "bracket.stl", "aluminium", "an L bracket, 12 x 10 x 8 mm, 2.5 mm thick"},

@@ -8,6 +8,7 @@
 #include "core/base/csv.h"
 #include "core/stats/family.h"
 #include "core/stats/independent_rates.h"
+#include "core/stats/stratified.h"
 
 namespace trapwright::study {
 
@@ -44,6 +45,11 @@ void add(SuccessCount& sum, const SuccessCount& count) {
 
 void setBounds(SuccessCount& count) {
     count.bounds = stats::calcClopperPearson(count.successes(), count.trials);
+    if (count.trials > 0) count.rate = static_cast<double>(count.successes()) / count.trials;
+}
+
+bool has(const std::vector<int>& poses, int pose) {
+    return std::find(poses.begin(), poses.end(), pose) != poses.end();
 }
 
 stats::RatePair pairOf(const PhysicalRow& row) {
@@ -55,25 +61,62 @@ bool isCompared(const PhysicalRow& row) {
     return row.simulated.trials > 0 && row.physical.trials > 0;
 }
 
-PhysicalRow countPose(int pose, const ValidationRecord* simulated, const PhysicalValidation& physical) {
-    PhysicalRow row;
-    row.pose = pose;
-    row.planned = physical.plan.repetitions;
+/// The poses of the plan, alike ones together; without those that the plan leaves out altogether.
+std::vector<PhysicalRow> makeRows(const PhysicalPlan& plan, std::span<const part::PoseGroup> groups) {
+    std::vector<PhysicalRow> rows;
+    const auto addRow = [&](const std::vector<int>& poses, double weight) {
+        const auto planned =
+            std::count_if(plan.poses.begin(), plan.poses.end(), [&](int pose) { return has(poses, pose); });
+        if (planned == 0) return;
+        PhysicalRow& row = rows.emplace_back();
+        row.poses = poses;
+        row.weight = weight;
+        row.planned = static_cast<int>(planned) * plan.repetitions;
+    };
+    for (const part::PoseGroup& group : groups)
+        addRow(group.poses, group.probability);
+    std::vector<int> strangers;
+    for (const int pose : plan.poses) {
+        const bool known = std::any_of(groups.begin(), groups.end(),
+                                       [&](const part::PoseGroup& group) { return has(group.poses, pose); });
+        if (!known) strangers.push_back(pose);
+    }
+    std::sort(strangers.begin(), strangers.end());
+    for (const int pose : strangers)
+        addRow({pose}, 0.0);
+    return rows;
+}
+
+void countTrials(PhysicalRow& row, const ValidationRecord* simulated, const PhysicalValidation& physical) {
     if (simulated != nullptr) {
         for (const ValidationRow& other : simulated->rows) {
-            if (other.pose != pose) continue;
-            row.simulated.trials = other.trials;
+            if (!has(row.poses, other.pose)) continue;
+            row.simulated.trials += other.trials;
             fail(row.simulated, other.wrongOrientation, PhysicalOutcome::wrongOrientation);
             fail(row.simulated, other.stuck, PhysicalOutcome::stuck);
             fail(row.simulated, other.fellOff, PhysicalOutcome::fellOff);
         }
     }
     for (const PhysicalTrial& trial : physical.trials) {
-        if (trial.pose != pose) continue;
+        if (!has(row.poses, trial.pose)) continue;
         ++row.physical.trials;
         fail(row.physical, 1, trial.outcome);
     }
-    return row;
+}
+
+/// The total's counts with weighted rates.
+void weigh(PhysicalTable& table) {
+    table.weighted = table.total;
+    table.weighted.weighted = true;
+    for (SuccessCount PhysicalRow::*side : {&PhysicalRow::simulated, &PhysicalRow::physical}) {
+        std::vector<stats::Stratum> strata;
+        for (const PhysicalRow& row : table.rows)
+            strata.push_back({row.weight, {(row.*side).successes(), (row.*side).trials}});
+        const stats::WeightedRate weighted = stats::estimateWeighted(strata);
+        SuccessCount& count = table.weighted.*side;
+        count.rate = weighted.rate;
+        count.bounds = weighted.interval;
+    }
 }
 
 /// The tests of the rows of poses, adjusted for their number.
@@ -102,7 +145,7 @@ std::string probabilityText(double p) {
 }
 
 std::string shareText(const SuccessCount& count) {
-    return fmt::format("{:.1f} %", kPercent * count.successes() / count.trials);
+    return count.rate ? fmt::format("{:.1f} %", kPercent * *count.rate) : "-";
 }
 
 /// Which way the compared poses differ, whatever share of the trials each of them has: above 0 if parts do
@@ -136,17 +179,23 @@ std::string describe(const PhysicalTable& table) {
     const PhysicalRow& total = table.total;
     if (total.physical.trials == 0) return "No part has been placed on the feeder yet.";
     const bool trained = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
-    const std::string feeder =
+    std::string feeder =
         fmt::format("{} of {} parts succeeded on the {} ({}; 95 % Clopper-Pearson {:.1f} to {:.1f} %).",
                     total.physical.successes(), total.physical.trials, trained ? "virtual feeder" : "feeder",
                     shareText(total.physical), kPercent * total.physical.bounds.low,
                     kPercent * total.physical.bounds.high);
+    if (const SuccessCount& weighted = table.weighted.physical; weighted.rate && table.rows.size() > 1) {
+        feeder +=
+            fmt::format(" Weighted by how often parts land so that is {} ({:.1f} to {:.1f} %).",
+                        shareText(weighted), kPercent * weighted.bounds.low, kPercent * weighted.bounds.high);
+    }
     if (!total.p)
         return feeder + " This track has not been validated in simulation, so there is nothing to compare.";
 
     std::string poses;
     for (const PhysicalRow& row : table.rows)
-        if (row.p && *row.p < kLevel) poses += fmt::format("{}{}", poses.empty() ? "" : ", ", row.pose + 1);
+        if (row.p && *row.p < kLevel)
+            poses += fmt::format("{}{}", poses.empty() ? "" : ", ", part::namePoses(row.poses));
     const std::string where =
         poses.empty() ? ""
                       : fmt::format(" Taken by themselves, these poses differ from simulation: {}.", poses);
@@ -163,25 +212,38 @@ std::string describe(const PhysicalTable& table) {
         probabilityText(*total.p), where);
 }
 
-/// "1000      10   99.0 %       98.2 ...  99.5 %"
+/// "99.0 %    98.2 ...  99.5 %"
+std::string rateText(const SuccessCount& count) {
+    if (count.trials == 0) return fmt::format("{:>8}   {:>20}", "-", "-");
+    return fmt::format("{:>8}   {:>8.1f} ... {:>5.1f} %", shareText(count), kPercent * count.bounds.low,
+                       kPercent * count.bounds.high);
+}
+
+/// "1000      10   99.0 %    98.2 ...  99.5 %"
 std::string sideText(const SuccessCount& count) {
-    if (count.trials == 0) return fmt::format("{:>6} {:>5} {:>8}   {:>20}", 0, 0, "-", "-");
-    return fmt::format("{:>6} {:>5} {:>8}   {:>8.1f} ... {:>5.1f} %", count.trials, count.failures,
-                       shareText(count), kPercent * count.bounds.low, kPercent * count.bounds.high);
+    return fmt::format("{:>6} {:>5} {}", count.trials, count.failures, rateText(count));
 }
 
 void appendText(std::string& text, const std::string& name, const PhysicalRow& row) {
-    fmt::format_to(std::back_inserter(text), "{:<5} {}   {}   {:>6} {:>6} {:>9}   {:>6}\n", name,
+    fmt::format_to(std::back_inserter(text), "{:<15} {:>8} {}   {}   {:>6} {:>6} {:>9}   {:>6}\n", name,
+                   row.poses.empty() ? "" : fmt::format("{:.1f} %", kPercent * row.weight),
                    sideText(row.simulated), sideText(row.physical), row.physical.wrongOrientation,
                    row.physical.stuck, row.physical.fellOff,
                    row.p ? (*row.p < 0.001 ? "<0.001" : fmt::format("{:.3f}", *row.p)) : "-");
 }
 
+/// "1 2 3": what a spreadsheet does not take for a date.
+std::string posesCsv(const std::vector<int>& poses) {
+    std::string text;
+    for (const int pose : poses)
+        text += fmt::format("{}{}", text.empty() ? "" : " ", pose + 1);
+    return text;
+}
+
 std::string sideCsv(const SuccessCount& count) {
     return fmt::format("{},{},{},{},{},{},{},{}", count.trials, count.failures,
-                       count.trials > 0 ? fmt::format("{}", kPercent * count.successes() / count.trials) : "",
-                       count.wrongOrientation, count.stuck, count.fellOff, kPercent * count.bounds.low,
-                       kPercent * count.bounds.high);
+                       count.rate ? fmt::format("{}", kPercent * *count.rate) : "", count.wrongOrientation,
+                       count.stuck, count.fellOff, kPercent * count.bounds.low, kPercent * count.bounds.high);
 }
 
 std::string sideHeadings(const char* side) {
@@ -195,22 +257,21 @@ std::string sideHeadings(const char* side) {
 
 }  // namespace
 
-PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalValidation& physical) {
+PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalValidation& physical,
+                              std::span<const part::PoseGroup> groups) {
     PhysicalTable table;
-    std::vector<int> poses = physical.plan.poses;
-    std::sort(poses.begin(), poses.end());
-    table.total.pose = -1;
-    for (const int pose : poses) {
-        PhysicalRow row = countPose(pose, simulated, physical);
+    table.rows = makeRows(physical.plan, groups);
+    for (PhysicalRow& row : table.rows) {
+        countTrials(row, simulated, physical);
         add(table.total.simulated, row.simulated);
         add(table.total.physical, row.physical);
         table.total.planned += row.planned;
         setBounds(row.simulated);
         setBounds(row.physical);
-        table.rows.push_back(row);
     }
     setBounds(table.total.simulated);
     setBounds(table.total.physical);
+    weigh(table);
     testPoses(table.rows);
     testTotal(table);
     table.feeders = countFeeders(physical);
@@ -246,29 +307,34 @@ std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> v
 
 std::string formatPhysical(const PhysicalTable& table) {
     std::string text = table.notice.empty() ? "" : table.notice + "\n";
-    text += fmt::format("{:<5} {:^44}   {:^44}   {:^23}\n", "", "Simulation", "Physical", "failed");
+    text += fmt::format("{:<24} {:^44}   {:^44}   {:^23}\n", "", "Simulation", "Physical", "failed");
     fmt::format_to(
         std::back_inserter(text),
-        "{:<5} {:>6} {:>5} {:>8}   {:>20}   {:>6} {:>5} {:>8}   {:>20}   {:>6} {:>6} {:>9}   {:>6}\n", "Pose",
-        "T", "F", "P", "95 % Clopper-Pearson", "T", "F", "P", "95 % Clopper-Pearson", "wrong", "stuck",
-        "fell off", "p");
+        "{:<15} {:>8} {:>6} {:>5} {:>8}   {:>20}   {:>6} {:>5} {:>8}   {:>20}   {:>6} {:>6} {:>9}   {:>6}\n",
+        "Pose", "lands so", "T", "F", "P", "95 % Clopper-Pearson", "T", "F", "P", "95 % Clopper-Pearson",
+        "wrong", "stuck", "fell off", "p");
     for (const PhysicalRow& row : table.rows)
-        appendText(text, std::to_string(row.pose + 1), row);
-    appendText(text, "Total", table.total);
-    return text + table.verdict + "\n";
+        appendText(text, part::namePoses(row.poses), row);
+    fmt::format_to(std::back_inserter(text), "{:<37} {}   {:>12} {}\n", "Total, weighted",
+                   rateText(table.weighted.simulated), "", rateText(table.weighted.physical));
+    appendText(text, "Total, alike", table.total);
+    return text + "Weighted by how often parts land so; alike: all trials count the same.\n" + table.verdict +
+           "\n";
 }
 
 std::string physicalTableCsv(const PhysicalTable& table) {
-    std::string text =
-        "pose" + sideHeadings("simulated") + sideHeadings("physical") + ",physical_planned,p,feeder\n";
+    std::string text = "poses,lands_so_percent" + sideHeadings("simulated") + sideHeadings("physical") +
+                       ",physical_planned,p,feeder\n";
     const auto append = [&](const std::string& name, const PhysicalRow& row) {
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", name, sideCsv(row.simulated),
-                       sideCsv(row.physical), row.planned, row.p ? fmt::format("{}", *row.p) : "",
-                       feederWord(table.feeders));
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", name,
+                       row.poses.empty() ? "" : fmt::format("{}", kPercent * row.weight),
+                       sideCsv(row.simulated), sideCsv(row.physical), row.planned,
+                       row.p ? fmt::format("{}", *row.p) : "", feederWord(table.feeders));
     };
     for (const PhysicalRow& row : table.rows)
-        append(std::to_string(row.pose + 1), row);
-    append("total", table.total);
+        append(posesCsv(row.poses), row);
+    append("total weighted", table.weighted);
+    append("total all alike", table.total);
     return text;
 }
 

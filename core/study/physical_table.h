@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/part/stable_poses.h"
 #include "core/stats/binomial.h"
 #include "core/study/physical_validation.h"
 #include "core/study/records.h"
@@ -18,33 +19,39 @@ struct SuccessCount {
     int wrongOrientation = 0;
     int stuck = 0;
     int fellOff = 0;
-    stats::Interval bounds;  // 95 %, Clopper and Pearson's
+    std::optional<double> rate;  // successes over trials; weighted in the weighted total; none: not known
+    stats::Interval bounds;      // 95 %, Clopper and Pearson's; of the weighted total profile limits
 
     [[nodiscard]] int successes() const { return trials - failures; }
 };
 
 struct PhysicalRow {
-    int pose = 0;  // -1: the total
+    std::vector<int> poses;  // alike ones, rising; empty: a total
+    double weight = 0.0;     // how often parts land so
     SuccessCount simulated;
     SuccessCount physical;
+    bool weighted = false;    // the weighted total
     int planned = 0;          // physical trials
     std::optional<double> p;  // of the exact test; none without trials on either side
 };
 
-/// The paper's Tables 2 and 3: simulated and physical side by side. What differs in the rows of poses is
-/// tested by Boschloo's test and adjusted for the number of poses (Holm); in the total by Fisher's with the
-/// poses as strata, so that it holds before every pose has its share of the trials. One pose alone has
-/// Boschloo's in the total too.
+/// The paper's Tables 2 and 3: simulated and physical side by side, alike poses in one row. What differs in
+/// the rows of poses is tested by Boschloo's test and adjusted for the number of poses (Holm); in the total
+/// by Fisher's with the poses as strata, so that it holds before every pose has its share of the trials. One
+/// pose alone has Boschloo's in the total too.
 struct PhysicalTable {
-    std::vector<PhysicalRow> rows;  // poses of the plan, ascending
-    PhysicalRow total;              // simulated: of these poses
+    std::vector<PhysicalRow> rows;  // poses of the plan, in the order of the part's groups
+    PhysicalRow total;              // all trials alike; simulated: of these poses
+    PhysicalRow weighted;           // the same trials, rates weighted by how often parts land so
     FeederCount feeders;            // that made the physical trials
     std::string notice;             // feederNotice: to be said before any number
     std::string verdict;            // whether the two differ, in a sentence or two
 };
 
-/// Without `simulated` that side has no trials. Takes milliseconds for 1000 simulated trials per pose.
-PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalValidation& physical);
+/// Without `simulated` that side has no trials. `groups` are the part's (weighPoseGroups); a pose that none
+/// of them has stands for itself, with no weight. Takes milliseconds for 1000 simulated trials per pose.
+PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalValidation& physical,
+                              std::span<const part::PoseGroup> groups);
 
 /// The newest simulated validation of the individual that was printed; null if there is none.
 const ValidationRecord* findSimulated(std::span<const ValidationRecord> validations,

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "core/stats/binomial.h"
-#include "core/study/validation.h"
 
 namespace trapwright::study {
 
@@ -14,28 +13,43 @@ namespace {
 constexpr double kPercent = 100.0;
 
 /// "99.4 %   98.7 ... 99.8 %"
-std::string shareText(int successes, int trials) {
-    if (trials == 0) return fmt::format("{:>7}   {:>20}", "-", "-");
-    const stats::Interval bounds = stats::calcClopperPearson(successes, trials);
-    return fmt::format("{:5.1f} %   {:>8.1f} ... {:5.1f} %", kPercent * successes / trials,
-                       kPercent * bounds.low, kPercent * bounds.high);
+std::string shareText(double share, const stats::Interval& bounds) {
+    return fmt::format("{:5.1f} %   {:>8.1f} ... {:5.1f} %", kPercent * share, kPercent * bounds.low,
+                       kPercent * bounds.high);
 }
 
-void appendRow(std::string& text, const std::string& name, const ValidationRow& row) {
-    fmt::format_to(std::back_inserter(text), "{:<5} {:>7} {:>7}   {}   {:>6} {:>6} {:>9}\n", name, row.trials,
-                   row.failures, shareText(row.trials - row.failures, row.trials), row.wrongOrientation,
-                   row.stuck, row.fellOff);
+std::string shareText(int successes, int trials) {
+    if (trials == 0) return fmt::format("{:>7}   {:>20}", "-", "-");
+    return shareText(static_cast<double>(successes) / trials, stats::calcClopperPearson(successes, trials));
+}
+
+void appendRow(std::string& text, const std::string& name, const std::string& weight,
+               const ValidationRow& row) {
+    fmt::format_to(std::back_inserter(text), "{:<15} {:>8} {:>7} {:>7}   {}   {:>6} {:>6} {:>9}\n", name,
+                   weight, row.trials, row.failures, shareText(row.trials - row.failures, row.trials),
+                   row.wrongOrientation, row.stuck, row.fellOff);
 }
 
 }  // namespace
 
-std::string formatValidation(const ValidationRecord& record) {
-    std::string text = fmt::format("{:<5} {:>7} {:>7}   {:>7}   {:>20}   {:>6} {:>6} {:>9}\n", "Pose", "T",
-                                   "F", "P", "95 % Clopper-Pearson", "wrong", "stuck", "fell off");
-    for (const ValidationRow& row : record.rows)
-        appendRow(text, std::to_string(row.pose + 1), row);
-    appendRow(text, "Total", calcTotal(record));
-    return text;
+std::string formatValidation(const ValidationTable& table, bool everyPose) {
+    std::string text =
+        fmt::format("{:<15} {:>8} {:>7} {:>7}   {:>7}   {:>20}   {:>6} {:>6} {:>9}\n", "Pose", "lands so",
+                    "T", "F", "P", "95 % Clopper-Pearson", "wrong", "stuck", "fell off");
+    for (const ValidationGroup& group : table.groups) {
+        appendRow(text, part::namePoses(group.poses), fmt::format("{:.1f} %", kPercent * group.weight),
+                  group.sum);
+        if (!everyPose || group.rows.size() < 2) continue;
+        for (const ValidationRow& row : group.rows)
+            appendRow(text, fmt::format("  {}", row.pose + 1), "", row);
+    }
+    const stats::WeightedRate& weighted = table.weighted;
+    if (weighted.rate) {
+        fmt::format_to(std::back_inserter(text), "{:<15} {:>8} {:>7} {:>7}   {}   {:>23}\n",
+                       "Total, weighted", "", "", "", shareText(*weighted.rate, weighted.interval), "");
+    }
+    appendRow(text, "Total, alike", "", table.total);
+    return text + "Weighted by how often parts land so; alike: all trials count the same.\n";
 }
 
 std::string formatSelection(const SelectionRecord& record) {

@@ -1,5 +1,6 @@
 #include "core/study/validation.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/study/final_orientation.h"
@@ -32,6 +33,14 @@ ValidationRow makeRow(int pose, std::span<const trial::Outcome> outcomes, const 
     }
     row.failures = row.wrongOrientation + row.stuck + row.fellOff;
     return row;
+}
+
+void add(ValidationRow& sum, const ValidationRow& row) {
+    sum.trials += row.trials;
+    sum.failures += row.failures;
+    sum.wrongOrientation += row.wrongOrientation;
+    sum.stuck += row.stuck;
+    sum.fellOff += row.fellOff;
 }
 
 }  // namespace
@@ -90,14 +99,31 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner&
 ValidationRow calcTotal(const ValidationRecord& record) {
     ValidationRow total;
     total.pose = -1;
-    for (const ValidationRow& row : record.rows) {
-        total.trials += row.trials;
-        total.failures += row.failures;
-        total.wrongOrientation += row.wrongOrientation;
-        total.stuck += row.stuck;
-        total.fellOff += row.fellOff;
-    }
+    for (const ValidationRow& row : record.rows)
+        add(total, row);
     return total;
+}
+
+ValidationTable tabulate(const ValidationRecord& record, std::span<const part::PoseGroup> groups) {
+    ValidationTable table;
+    for (const part::PoseGroup& group : groups)
+        table.groups.push_back({group.poses, group.probability, {}, {}});
+    for (const ValidationRow& row : record.rows) {
+        auto own = std::find_if(table.groups.begin(), table.groups.end(), [&](const ValidationGroup& group) {
+            return std::find(group.poses.begin(), group.poses.end(), row.pose) != group.poses.end();
+        });
+        if (own == table.groups.end()) own = table.groups.insert(own, {{row.pose}, 0.0, {}, {}});
+        own->sum.pose = own->poses.front();
+        own->rows.push_back(row);
+        add(own->sum, row);
+    }
+    std::erase_if(table.groups, [](const ValidationGroup& group) { return group.rows.empty(); });
+    table.total = calcTotal(record);
+    std::vector<stats::Stratum> strata;
+    for (const ValidationGroup& group : table.groups)
+        strata.push_back({group.weight, {group.sum.trials - group.sum.failures, group.sum.trials}});
+    table.weighted = stats::estimateWeighted(strata);
+    return table;
 }
 
 }  // namespace trapwright::study

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
+#include "core/part/stable_poses.h"
+#include "core/stats/stratified.h"
 #include "core/study/evaluator.h"
 #include "core/study/records.h"
 
@@ -17,7 +21,25 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner&
                                         const std::optional<base::Quaternion>& expected,
                                         base::RunControl control);
 
-/// The sums of all rows; its pose is -1.
+/// The sums of all rows, all trials alike; its pose is -1.
 ValidationRow calcTotal(const ValidationRecord& record);
+
+/// The trials that started in poses which are alike.
+struct ValidationGroup {
+    std::vector<int> poses;  // all alike ones, rising, tried or not
+    double weight = 0.0;     // how often parts land so
+    ValidationRow sum;       // its pose is the first one
+    std::vector<ValidationRow> rows;
+};
+
+/// A validation as people read it.
+struct ValidationTable {
+    std::vector<ValidationGroup> groups;  // in the order of the part's groups
+    ValidationRow total;                  // all trials alike
+    stats::WeightedRate weighted;         // success, weighted by how often parts land so
+};
+
+/// `groups` are the part's (weighPoseGroups); a pose that none of them has stands for itself, with no weight.
+ValidationTable tabulate(const ValidationRecord& record, std::span<const part::PoseGroup> groups);
 
 }  // namespace trapwright::study

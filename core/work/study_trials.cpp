@@ -1,6 +1,7 @@
 #include "core/work/study_trials.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
@@ -25,18 +26,21 @@ base::Result<StoredTrials> findSelectionTrials(const store::StudyFile& file, con
     return trials;
 }
 
-/// Those of a pose: the trials of a validation are numbered by pose.
+/// Those of these poses: the trials of a validation are numbered by pose, as many of each.
 base::Result<StoredTrials> findValidationTrials(const store::StudyFile& file, const study::Winner& individual,
-                                                int pose) {
+                                                std::span<const int> poses) {
     const auto validations = file.loadValidations();
     if (!validations) return validations.error();
     StoredTrials trials;
-    for (const study::ValidationRecord& validation : *validations)
-        if (validation.generation == individual.generation && validation.individual == individual.individual)
-            for (const study::ValidationRow& row : validation.rows)
-                if (row.pose == pose)
-                    trials = {row.trials, validation.engine, validation.expectedOrientation,
-                              validation.tolerance};
+    for (const study::ValidationRecord& validation : *validations) {
+        if (validation.generation != individual.generation || validation.individual != individual.individual)
+            continue;
+        int count = 0;
+        for (const study::ValidationRow& row : validation.rows)
+            if (std::find(poses.begin(), poses.end(), row.pose) != poses.end()) count += row.trials;
+        if (count > 0)
+            trials = {count, validation.engine, validation.expectedOrientation, validation.tolerance};
+    }
     return trials;
 }
 
@@ -46,7 +50,7 @@ base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const 
                                             const TrialsRequest& request) {
     if (request.kind == TrialKind::selection) return findSelectionTrials(file, settings, request.winner);
     if (request.kind == TrialKind::validation)
-        return findValidationTrials(file, request.winner, request.pose);
+        return findValidationTrials(file, request.winner, request.poses);
     return StoredTrials{request.winner.record.trials,
                         engineFor(settings.simulation.engine, EngineUse::learning), std::nullopt,
                         settings.validation.tolerance};
@@ -65,10 +69,17 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
         return study::makeSelectionBatch(scene, individual.generation, individual.individual, count);
     if (request.kind == TrialKind::validation) {
         // Which stream a trial has depends on how many there were of each pose.
-        const int ofEachPose = stored.count > 0 ? stored.count : count;
-        trial::TrialBatch batch = study::makeValidationBatch(scene, individual.generation,
-                                                             individual.individual, request.pose, ofEachPose);
-        batch.trials.resize(static_cast<std::size_t>(std::min(count, ofEachPose)));
+        assert(!request.poses.empty());
+        const int poses = static_cast<int>(request.poses.size());
+        const int ofEachPose = stored.count > 0 ? stored.count / poses : count;
+        trial::TrialBatch batch = study::makeValidationBatch(
+            scene, individual.generation, individual.individual, request.poses.front(), ofEachPose);
+        for (auto pose = request.poses.begin() + 1; pose != request.poses.end(); ++pose) {
+            const trial::TrialBatch more = study::makeValidationBatch(
+                scene, individual.generation, individual.individual, *pose, ofEachPose);
+            batch.trials.insert(batch.trials.end(), more.trials.begin(), more.trials.end());
+        }
+        batch.trials.resize(std::min(static_cast<std::size_t>(count), batch.trials.size()));
         return batch;
     }
     return study::makeLearningBatch(scene, individual.generation, individual.individual, count);

@@ -22,7 +22,8 @@ enum class TrialKind { learning, selection, validation };
 struct TrialsRequest {
     TrialKind kind = TrialKind::learning;
     study::Winner winner;  // or any other individual
-    int pose = 0;          // of validation trials: index into the part's stable poses
+    // Of validation trials: indices into the part's stable poses, whose trials follow each other.
+    std::vector<int> poses = {0};
     int count = 0;         // the first ones; 0: as many as the study holds
     std::string engine{};  // empty: the one that the study holds them of
 };

@@ -68,6 +68,23 @@ class CommandsTest : public QObject {
         QVERIFY(std::abs(probability - 1.0) < 1e-9);
     }
 
+    /// A hexagon bolt lies on any of six sides, or stands on its head or its tip.
+    void boltHasThreeKindsOfPoses() {
+        const QJsonObject part = ask({"part", "bolt", "--json"}).json();
+        QCOMPARE(part["stable_poses"].toArray().size(), 8);
+        const QJsonArray groups = part["pose_groups"].toArray();
+        QCOMPARE(groups.size(), 3);
+        QCOMPARE(groups[0].toObject()["poses"].toArray(), QJsonArray({1, 2, 3, 4, 5, 6}));
+        double probability = 0.0;
+        for (const QJsonValue group : groups)
+            probability += group["probability"].toDouble();
+        QVERIFY(std::abs(probability - 1.0) < 1e-9);
+        const Ran shown = ask({"part", "bolt"});
+        QVERIFY2(shown.output.contains("    1-6       6 "), shown.all());
+        QVERIFY2(!shown.output.contains("\n          2 "), shown.all());
+        QVERIFY2(ask({"part", "bolt", "--poses"}).output.contains("\n          2 "), shown.all());
+    }
+
     /// Where the file lies in its own coordinates, and its unit.
     void unitsAndCentre() {
         QByteArray obj;
@@ -122,6 +139,11 @@ class CommandsTest : public QObject {
         QCOMPARE(validation["generation"].toInt(), generation);
         QCOMPARE(validation["poses"].toArray().size(), 6);
         QCOMPARE(validation["total"].toObject()["trials"].toInt(), 18);
+        QCOMPARE(validation["groups"].toArray().size(), 3);
+        QCOMPARE(validation["groups"].toArray()[0].toObject()["trials"].toInt(), 6);
+        const QJsonObject weighted = validation["weighted_success"].toObject();
+        QVERIFY(weighted["low"].toDouble() <= weighted["share"].toDouble() &&
+                weighted["share"].toDouble() <= weighted["high"].toDouble());
         QVERIFY(std::abs(validation["tolerance_deg"].toDouble() - 30.0) < 1e-9);
 
         const Ran exported = ask({"export", "study.trap", "track.stl", "track.3mf", "track.json", "--json"});

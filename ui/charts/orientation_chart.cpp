@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/math.h"
+#include "core/part/stable_poses.h"
 #include "ui/charts/legend.h"
 #include "ui/charts/plot.h"
 #include "ui/charts/pose_bars.h"
@@ -25,12 +26,18 @@ struct Piece {
     int finish = 0;
 };
 
-/// "1, 4", counted from 1.
-QString numbersOf(const study::PoseShare& share) {
+/// "poses 1–6", counted from 1.
+QString nameOf(const study::PoseShare& share) {
+    return (share.poses.size() > 1 ? OrientationChart::tr("poses %1") : OrientationChart::tr("pose %1"))
+        .arg(QString::fromStdString(part::namePoses(share.poses)).replace(u'-', u'–'));
+}
+
+/// "1 2": what a spreadsheet does not take for a date.
+QString spaced(const std::vector<int>& poses) {
     QStringList numbers;
-    for (const int pose : share.poses)
+    for (const int pose : poses)
         numbers.append(QString::number(pose + 1));
-    return numbers.join(", ");
+    return numbers.join(u' ');
 }
 
 /// The share of all angles that are not greater than each whole degree. [%]
@@ -43,11 +50,6 @@ std::vector<QPointF> cumulate(const std::vector<double>& angles) {
                                         static_cast<double>(angles.size()));
     }
     return points;
-}
-
-QString nameOf(const study::PoseShare& share) {
-    return (share.poses.size() > 1 ? OrientationChart::tr("poses %1") : OrientationChart::tr("pose %1"))
-        .arg(numbersOf(share));
 }
 
 std::vector<double> percentages(const std::vector<Piece>& pieces, int Piece::*count) {
@@ -147,7 +149,7 @@ QString OrientationChart::csv() const {
         u'\n';
     for (const study::PoseShare& share : shares_.poses)
         text += QStringLiteral("%1,%2,%3\n")
-                    .arg(look::csvField(numbersOf(share)))
+                    .arg(look::csvField(spaced(share.poses)))
                     .arg(share.start)
                     .arg(share.finish);
     return text;

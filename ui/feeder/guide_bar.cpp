@@ -216,16 +216,20 @@ void GuideBar::showTime() {
 QString GuideBar::sentence() const {
     const int next = guide_.made() + 1;
     const int total = guide_.total();
-    const int pose = guide_.pose().value_or(0) + 1;
+    const std::vector<int> poses = guide_.alikePoses();
+    const QString pose =
+        poses.size() > 1
+            ? tr("pose %1 (poses %2 look the same)").arg(poses.front() + 1).arg(models::poseNumbers(poses))
+            : models::poseName(poses);
     switch (guide_.stage()) {
         case Stage::none:
             return tr("Plan a validation at the left.");
         case Stage::placing:
-            return tr("Trial %1 of %2. Place the part like this: pose %3.").arg(next).arg(total).arg(pose);
+            return tr("Trial %1 of %2. Place the part like this: %3.").arg(next).arg(total).arg(pose);
         case Stage::running:
             return tr("Trial %1 of %2 runs. How does it end?").arg(next).arg(total);
         case Stage::paused:
-            return tr("Paused. Next is trial %1 of %2: pose %3.").arg(next).arg(total).arg(pose);
+            return tr("Paused. Next is trial %1 of %2: %3.").arg(next).arg(total).arg(pose);
         case Stage::done:
             return tr("All %1 trials are done.").arg(total);
     }

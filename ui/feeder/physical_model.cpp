@@ -14,24 +14,26 @@ using study::SuccessCount;
 constexpr double kPercent = 100.0;
 constexpr double kLeastShown = 0.001;
 
+/// Of the weighted total no trials are counted.
 template <int SuccessCount::*count, SuccessCount Row::*side>
 QVariant countOf(const Row& row) {
-    return (row.*side).*count;
+    return row.weighted ? QVariant() : QVariant((row.*side).*count);
 }
 
 template <int SuccessCount::*count, SuccessCount Row::*side>
 QString countText(const Row& row) {
+    if (row.weighted) return {};
     return (row.*side).trials == 0 ? QStringLiteral("–") : QString::number((row.*side).*count);
 }
 
 template <SuccessCount Row::*side>
 QVariant success(const Row& row) {
-    return models::percentValue((row.*side).successes(), (row.*side).trials);
+    return models::percentValue((row.*side).rate);
 }
 
 template <SuccessCount Row::*side>
 QString successText(const Row& row) {
-    return models::percent((row.*side).successes(), (row.*side).trials);
+    return models::percent((row.*side).rate);
 }
 
 template <SuccessCount Row::*side>
@@ -50,10 +52,27 @@ QVariantList boundsValues(const Row& row) {
 }
 
 QString poseText(const Row& row) {
-    return row.pose < 0 ? PhysicalModel::tr("Total") : QString::number(row.pose + 1);
+    if (row.weighted) return PhysicalModel::tr("Weighted");
+    return row.poses.empty() ? PhysicalModel::tr("All alike") : models::poseNumbers(row.poses);
+}
+
+QString helpOf(const Row& row) {
+    if (row.weighted) {
+        return PhysicalModel::tr(
+            "These poses together, weighted by how often parts land so. Bounds: exact "
+            "profile limits.");
+    }
+    if (row.poses.empty()) return PhysicalModel::tr("All trials alike, however often parts land so.");
+    const QString lands =
+        PhysicalModel::tr("%1 % of all parts land so.").arg(models::fixed(kPercent * row.weight, 1));
+    if (row.poses.size() == 1) return lands;
+    return lands + u' ' +
+           PhysicalModel::tr("%n poses that look the same: the part is symmetric.", nullptr,
+                             static_cast<int>(row.poses.size()));
 }
 
 QString differenceText(const Row& row) {
+    if (row.weighted) return {};
     if (!row.p) return QStringLiteral("–");
     if (*row.p < kLeastShown) return QStringLiteral("< %1").arg(kLeastShown);
     return models::fixed(*row.p, 3);
@@ -67,8 +86,10 @@ std::vector<models::Column<Row>> PhysicalModel::makeColumns() {
     constexpr auto kSimulated = &Row::simulated;
     constexpr auto kReal = &Row::physical;
     return {
-        {tr("Pose"), tr("Stable pose in which the parts were placed, counted from 1."),
-         [](const Row& r) { return r.pose < 0 ? QVariant(poseText(r)) : QVariant(r.pose + 1); }, &poseText},
+        {tr("Pose"),
+         tr("Stable poses in which the parts were placed, counted from 1; those that look the same are one "
+            "row."),
+         [](const Row& r) { return QVariant(poseText(r)); }, &poseText},
         {tr("Sim. T"), tr("Simulated trials (T)."), &countOf<&SuccessCount::trials, kSimulated>,
          &countText<&SuccessCount::trials, kSimulated>},
         {tr("F"), tr("Simulated parts that did not finish in the expected orientation (F)."),
@@ -78,10 +99,10 @@ std::vector<models::Column<Row>> PhysicalModel::makeColumns() {
         {tr("95 % [%]"), models::boundsHelp(), &bounds<kSimulated>, &boundsText<kSimulated>,
          [] { return models::boundsTitles(tr("Simulated success")); }, &boundsValues<kSimulated>},
         {tr("Real T"), tr("Trials on the real feeder (T)."), &countOf<&SuccessCount::trials, kReal>,
-         [](const Row& r) { return QString::number(r.physical.trials); }},
+         [](const Row& r) { return r.weighted ? QString() : QString::number(r.physical.trials); }},
         {tr("of"), tr("Trials on the real feeder that are planned."),
-         [](const Row& r) { return QVariant(r.planned); },
-         [](const Row& r) { return QString::number(r.planned); }},
+         [](const Row& r) { return r.weighted ? QVariant() : QVariant(r.planned); },
+         [](const Row& r) { return r.weighted ? QString() : QString::number(r.planned); }},
         {tr("F"), tr("Parts that failed on the real feeder (F)."), &countOf<&SuccessCount::failures, kReal>,
          &countText<&SuccessCount::failures, kReal>},
         {tr("P [%]"), tr("Parts that succeeded on the real feeder (P)."), &success<kReal>,
@@ -98,12 +119,13 @@ std::vector<models::Column<Row>> PhysicalModel::makeColumns() {
         {tr("p"),
          tr("How probable a difference as large as this one would be if simulated and real rates were equal; "
             "exact test, for the number of poses adjusted."),
-         [](const Row& r) { return r.p ? QVariant(*r.p) : QVariant(); }, &differenceText},
+         [](const Row& r) { return r.p && !r.weighted ? QVariant(*r.p) : QVariant(); }, &differenceText},
     };
 }
 
 void PhysicalModel::setTable(const study::PhysicalTable& table) {
     std::vector<Row> rows = table.rows;
+    rows.push_back(table.weighted);
     rows.push_back(table.total);
     reset(std::move(rows));
 }
@@ -113,8 +135,8 @@ void PhysicalModel::clear() {
 }
 
 QVariant PhysicalModel::more(const Row& row, int column, int role) const {
-    if (role == models::PoseRole) return row.pose;
-    if (role != Qt::FontRole || (row.pose >= 0 && column != Success)) return {};
+    if (role == Qt::ToolTipRole) return column == Pose ? helpOf(row) : QString();
+    if (role != Qt::FontRole || (!row.poses.empty() && column != Success)) return {};
     QFont font;
     font.setBold(true);
     return font;

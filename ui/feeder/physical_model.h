@@ -5,8 +5,9 @@
 
 namespace trapwright::feeder {
 
-/// The paper's Tables 2 and 3, simulated and real feeder side by side: a row for each stable pose, last the
-/// total. Bounds are those of Clopper and Pearson, as in the report.
+/// The paper's Tables 2 and 3, simulated and real feeder side by side: a row for each group of alike stable
+/// poses, last the totals, weighted by how often parts land so and with all trials alike. Bounds are those of
+/// Clopper and Pearson, as in the report.
 class PhysicalModel : public models::RecordModel<study::PhysicalRow> {
     Q_OBJECT
  public:
@@ -29,6 +30,8 @@ class PhysicalModel : public models::RecordModel<study::PhysicalRow> {
 
     explicit PhysicalModel(QObject* parent = nullptr);
 
+    /// The last rows, which are the totals.
+    static constexpr int kTotals = 2;
     void setTable(const study::PhysicalTable& table);
     void clear();
 

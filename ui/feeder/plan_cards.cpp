@@ -11,6 +11,7 @@
 
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/models/numbers.h"
 #include "ui/scene/when_ready.h"
 
 namespace trapwright::feeder {
@@ -24,6 +25,17 @@ constexpr auto kStyle =
     "#planCard { border: 1px solid palette(mid); border-radius: 6px; background: palette(base); }"
     "#planCard[current=\"true\"] { border: 3px solid palette(highlight); }";
 
+QString titleOf(const std::vector<int>& poses) {
+    return (poses.size() > 1 ? PlanCards::tr("Poses %1") : PlanCards::tr("Pose %1"))
+        .arg(models::poseNumbers(poses));
+}
+
+QString alikeText(const std::vector<int>& poses) {
+    if (poses.size() < 2) return {};
+    return u'\n' + PlanCards::tr("%n poses that look the same: place the part in any of them.", nullptr,
+                                 static_cast<int>(poses.size()));
+}
+
 }  // namespace
 
 PlanCards::PlanCards(QWidget* parent) : QWidget(parent), grid_(new QGridLayout(this)) {
@@ -34,9 +46,14 @@ PlanCards::PlanCards(QWidget* parent) : QWidget(parent), grid_(new QGridLayout(t
         grid_->setColumnStretch(column, 1);
 }
 
-void PlanCards::setPart(std::shared_ptr<const part::Part> part) {
-    if (part == part_) return;
+void PlanCards::setPart(std::shared_ptr<const part::Part> part, std::vector<part::PoseGroup> groups) {
+    const auto same = [](const part::PoseGroup& a, const part::PoseGroup& b) {
+        return a.poses == b.poses && a.probability == b.probability;
+    };
+    if (part == part_ && std::equal(groups.begin(), groups.end(), groups_.begin(), groups_.end(), same))
+        return;
     part_ = std::move(part);
+    groups_ = std::move(groups);
     rebuild();
 }
 
@@ -56,8 +73,8 @@ void PlanCards::showChoice() {
 
 std::vector<int> PlanCards::chosen() const {
     std::vector<int> poses;
-    for (std::size_t i = 0; i < cards_.size(); ++i)
-        if (cards_[i].box->isChecked()) poses.push_back(static_cast<int>(i));
+    for (const Card& card : cards_)
+        if (card.box->isChecked()) poses.push_back(card.poses.front());
     return poses;
 }
 
@@ -76,14 +93,14 @@ void PlanCards::rebuild() {
         delete card.frame;
     cards_.clear();
     if (part_) {
-        for (std::size_t pose = 0; pose < part_->stablePoses.size(); ++pose)
-            addCard(static_cast<int>(pose));
+        for (const part::PoseGroup& group : groups_)
+            addCard(group);
     }
     drawPictures();
     update();
 }
 
-void PlanCards::addCard(int pose) {
+void PlanCards::addCard(const part::PoseGroup& group) {
     auto* frame = new QFrame(this);
     frame->setObjectName("planCard");
     frame->setStyleSheet(kStyle);
@@ -91,10 +108,10 @@ void PlanCards::addCard(int pose) {
     picture->setAlignment(Qt::AlignCenter);
     picture->setMinimumHeight(kPicture.height());
     auto* box = new QCheckBox(frame);
-    box->setObjectName(QString("plan.pose.%1").arg(pose + 1));
-    box->setAccessibleName(tr("Pose %1").arg(pose + 1));
+    box->setObjectName(QString("plan.pose.%1").arg(group.poses.front() + 1));
+    box->setAccessibleName(titleOf(group.poses));
     box->setChecked(true);
-    auto* title = new QLabel(tr("Pose %1").arg(pose + 1), frame);
+    auto* title = new QLabel(titleOf(group.poses), frame);
     QFont bold = title->font();
     bold.setBold(true);
     title->setFont(bold);
@@ -116,7 +133,7 @@ void PlanCards::addCard(int pose) {
     layout->addLayout(words);
     layout->addWidget(bar);
     connect(box, &QCheckBox::toggled, this, &PlanCards::choiceChanged);
-    cards_.push_back({frame, picture, box, title, count, bar});
+    cards_.push_back({group.poses, group.probability, frame, picture, box, title, count, bar});
 }
 
 void PlanCards::drawPictures() {
@@ -125,23 +142,24 @@ void PlanCards::drawPictures() {
     if (stale_ || !part_) return;
     const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
     pictures_.setTheme(dark ? scene::SceneTheme::dark() : scene::SceneTheme::light());
-    for (std::size_t i = 0; i < cards_.size(); ++i) {
-        QLabel* const picture = cards_[i].picture;
-        scene::whenReady(
-            pictures_.partPicture(part_, part_->stablePoses[i].rotation, kPicture, devicePixelRatioF()),
-            picture, [picture](const QImage& drawn) { picture->setPixmap(QPixmap::fromImage(drawn)); });
+    for (const Card& card : cards_) {
+        QLabel* const picture = card.picture;
+        const part::StablePose& pose = part_->stablePoses[static_cast<std::size_t>(card.poses.front())];
+        scene::whenReady(pictures_.partPicture(part_, pose.rotation, kPicture, devicePixelRatioF()), picture,
+                         [picture](const QImage& drawn) { picture->setPixmap(QPixmap::fromImage(drawn)); });
     }
 }
 
 void PlanCards::update() {
     int place = 0;
-    for (std::size_t i = 0; i < cards_.size(); ++i) {
-        const Card& card = cards_[i];
-        const int pose = static_cast<int>(i);
+    const auto isOf = [](const Card& card, int pose) {
+        return std::find(card.poses.begin(), card.poses.end(), pose) != card.poses.end();
+    };
+    for (const Card& card : cards_) {
         const PoseProgress* found = nullptr;
         if (progress_) {
             for (const PoseProgress& one : *progress_)
-                if (one.pose == pose) found = &one;
+                if (isOf(card, one.pose)) found = &one;
         }
         const bool seen = !progress_ || found != nullptr;
         card.frame->setVisible(seen);
@@ -150,7 +168,7 @@ void PlanCards::update() {
         if (!seen) continue;
         grid_->addWidget(card.frame, place / kColumns, place % kColumns);
         ++place;
-        const bool current = current_ == pose;
+        const bool current = current_ && isOf(card, *current_);
         if (card.frame->property("current").toBool() != current) {
             card.frame->setProperty("current", current);
             card.frame->setStyleSheet(kStyle);
@@ -162,15 +180,16 @@ void PlanCards::update() {
             card.frame->setToolTip(tr("%1 of %2 trials made, %3 of them failed")
                                        .arg(found->made)
                                        .arg(found->planned)
-                                       .arg(found->failures));
+                                       .arg(found->failures) +
+                                   alikeText(card.poses));
         } else {
-            const double chance = 100.0 * part_->stablePoses[i].probability;
-            card.count->setText(tr("%1 %").arg(look::numberText(chance)));
+            const QString chance = look::numberText(100.0 * card.probability);
+            card.count->setText(tr("%1 %").arg(chance));
             card.frame->setToolTip(
-                tr("A part dropped at random comes to rest in this pose in %1 of 100 cases.")
-                    .arg(look::numberText(chance)));
+                tr("A part dropped at random comes to rest like this in %1 of 100 cases.").arg(chance) +
+                alikeText(card.poses));
         }
-        card.frame->setAccessibleName(tr("Pose %1: %2").arg(pose + 1).arg(card.count->text()));
+        card.frame->setAccessibleName(tr("%1: %2").arg(titleOf(card.poses), card.count->text()));
     }
 }
 

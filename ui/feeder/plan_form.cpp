@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "core/study/pose_weights.h"
 #include "ui/feeder/plan_cards.h"
 #include "ui/session/study_session.h"
 
@@ -94,7 +95,11 @@ void PlanForm::setSession(StudySession* session) {
 }
 
 void PlanForm::reset() {
-    cards_->setPart(session_ ? session_->part() : nullptr);
+    if (session_ && session_->part()) {
+        cards_->setPart(session_->part(), study::weighPoseGroups(*session_->part(), session_->settings()));
+    } else {
+        cards_->setPart(nullptr, {});
+    }
     cards_->showChoice();
     operator_->setText(QSettings().value(kOperatorSetting).toString());
     note_->setText(QSettings().value(kNoteSetting).toString());

@@ -13,6 +13,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "core/study/physical_table.h"
+#include "core/study/pose_weights.h"
 #include "ui/feeder/drive_link.h"
 #include "ui/feeder/expected_pose.h"
 #include "ui/feeder/plan_cards.h"
@@ -122,6 +124,7 @@ void PlanPanel::setSession(StudySession* session) {
     if (session_) {
         connect(session_, &StudySession::partChanged, form_, &PlanForm::reset);
         connect(session_, &StudySession::partChanged, this, &PlanPanel::refresh);
+        connect(session_, &StudySession::settingsChanged, this, &PlanPanel::refresh);
         connect(session_, &StudySession::chosenChanged, form_, &PlanForm::listTracks);
         connect(session_, &StudySession::generationSaved, form_, &PlanForm::listTracks);
     }
@@ -131,7 +134,11 @@ void PlanPanel::setSession(StudySession* session) {
 }
 
 void PlanPanel::refresh() {
-    cards_->setPart(session_ ? session_->part() : nullptr);
+    if (session_ && session_->part()) {
+        cards_->setPart(session_->part(), study::weighPoseGroups(*session_->part(), session_->settings()));
+    } else {
+        cards_->setPart(nullptr, {});
+    }
     listValidations();
     showProgress();
 }
@@ -161,7 +168,8 @@ void PlanPanel::showProgress() {
             session_ && session_->winners().empty()
                 ? tr("Learn a track, print it, mount it: then it can be validated here.")
                 : tr("The printed track is validated on the real feeder: the part is placed in each stable "
-                     "pose many times, and how each trial ends is counted. Plan that first."));
+                     "pose many times (poses that look the same are one), and how each trial ends is "
+                     "counted. Plan that first."));
     }
     const QString who = inHtml(now->operatorName);
     const QString track = tr("generation %1, individual %2").arg(now->generation).arg(now->individual);
@@ -175,15 +183,10 @@ void PlanPanel::showProgress() {
     facts_->setText(text);
 
     std::vector<PoseProgress> progress;
-    for (const int pose : now->plan.poses) {
-        PoseProgress one{pose, 0, now->plan.repetitions, 0};
-        for (const study::PhysicalTrial& trial : now->trials) {
-            if (trial.pose != pose) continue;
-            ++one.made;
-            if (trial.outcome != study::PhysicalOutcome::success) ++one.failures;
-        }
-        progress.push_back(one);
-    }
+    const study::PhysicalTable table = study::comparePhysical(
+        nullptr, *now, study::weighPoseGroups(*session_->part(), session_->settings()));
+    for (const study::PhysicalRow& row : table.rows)
+        progress.push_back({row.poses.front(), row.physical.trials, row.planned, row.physical.failures});
     cards_->showProgress(progress, guide_.pose());
 }
 

@@ -4,6 +4,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "core/study/pose_weights.h"
 #include "ui/feeder/placing_scene.h"
 #include "ui/feeder/trial_guide.h"
 #include "ui/look/file_dialog.h"
@@ -63,7 +64,8 @@ Report ReportCard::makeReport() const {
     report.physical = physical;
     if (const study::ValidationRecord* found = study::findSimulated(session_->validations(), physical))
         report.simulated = *found;
-    report.table = study::comparePhysical(report.simulated ? &*report.simulated : nullptr, physical);
+    report.table = study::comparePhysical(report.simulated ? &*report.simulated : nullptr, physical,
+                                          study::weighPoseGroups(*report.part, report.settings));
     report.calibrations = session_->calibrations();
     scene::PictureMaker pictures;
     pictures.setTheme(scene::SceneTheme::light());

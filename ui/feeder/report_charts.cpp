@@ -10,6 +10,7 @@
 
 #include "core/stats/binomial.h"
 #include "ui/look/okabe_ito.h"
+#include "ui/models/numbers.h"
 
 namespace trapwright::feeder {
 
@@ -97,10 +98,10 @@ double scaleLow(double lowest) {
 
 /// A rate with its bounds: a round mark for simulated, a square one for real.
 void drawRate(Frame& frame, double x, const study::SuccessCount& count, bool real) {
-    if (count.trials == 0) return;
+    if (!count.rate) return;
     QPainter& painter = frame.painter();
     const QColor colour = real ? look::kVermillion : look::kBlue;
-    const double rate = static_cast<double>(count.successes()) / count.trials;
+    const double rate = *count.rate;
     painter.setPen(QPen(colour, 3.0));
     painter.drawLine(QPointF(x, frame.y(count.bounds.low)), QPointF(x, frame.y(count.bounds.high)));
     for (const double end : {count.bounds.low, count.bounds.high})
@@ -139,6 +140,7 @@ void drawLegend(Frame& frame, const QString& feeder) {
 
 QImage successChart(const study::PhysicalTable& table, const QString& feeder, QSize pixels) {
     std::vector<study::PhysicalRow> rows = table.rows;
+    rows.push_back(table.weighted);
     rows.push_back(table.total);
     double lowest = 1.0;
     for (const study::PhysicalRow& row : rows)
@@ -150,7 +152,9 @@ QImage successChart(const study::PhysicalTable& table, const QString& feeder, QS
         const double x = frame.area().left() + (static_cast<double>(i) + 0.5) * step;
         drawRate(frame, x - 0.13 * step, rows[i].simulated, false);
         drawRate(frame, x + 0.13 * step, rows[i].physical, true);
-        frame.label(x, rows[i].pose < 0 ? Texts::tr("Total") : QString::number(rows[i].pose + 1));
+        frame.label(x, rows[i].weighted        ? Texts::tr("weighted")
+                       : rows[i].poses.empty() ? Texts::tr("all alike")
+                                               : models::poseNumbers(rows[i].poses));
     }
     frame.titleOfX(Texts::tr("Start pose"));
     drawLegend(frame, feeder);

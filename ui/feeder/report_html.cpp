@@ -255,28 +255,30 @@ QString settingsPiece(const Report& report) {
            driveDifference(report) + "</p>";
 }
 
-QString cells(const study::SuccessCount& count) {
+QString cells(const study::SuccessCount& count, bool weighted) {
     if (count.trials == 0) return "<td>–</td><td>–</td><td>–</td><td>–</td>";
     return QString("<td>%1</td><td>%2</td><td><b>%3</b></td><td>%4</td>")
-        .arg(count.trials)
-        .arg(count.failures)
-        .arg(models::percent(count.successes(), count.trials),
+        .arg(weighted ? QString() : QString::number(count.trials),
+             weighted ? QString() : QString::number(count.failures), models::percent(count.rate),
              models::boundsText(count.bounds, count.trials));
 }
 
 QString resultRow(const study::PhysicalRow& row) {
-    const bool total = row.pose < 0;
-    const QString first = total ? "<b>" + Texts::tr("Total") + "</b>"
-                                : QString("%2&nbsp;%1")
-                                      .arg(imageTag(QString("pose%1").arg(row.pose + 1), kPosePicture * 0.62))
-                                      .arg(row.pose + 1);
+    const bool total = row.poses.empty();
+    const QString first =
+        row.weighted ? "<b>" + Texts::tr("Total, weighted") + "</b>"
+        : total      ? "<b>" + Texts::tr("All trials alike") + "</b>"
+                     : QString("%2&nbsp;%1<br>%3 %")
+                      .arg(imageTag(QString("pose%1").arg(row.poses.front() + 1), kPosePicture * 0.62),
+                           models::poseNumbers(row.poses), models::percent(row.weight));
+    const auto number = [&](int count) { return row.weighted ? QString() : QString::number(count); };
     const study::SuccessCount& real = row.physical;
     return QString("<tr%1><td>%2</td>%3%4<td>%5</td><td>%6</td><td>%7</td><td>%8</td></tr>")
-        .arg(total ? " class=\"total\"" : "", first, cells(row.simulated), cells(real))
-        .arg(real.wrongOrientation)
-        .arg(real.stuck)
-        .arg(real.fellOff)
-        .arg(!row.p           ? QStringLiteral("–")
+        .arg(total ? " class=\"total\"" : "", first, cells(row.simulated, row.weighted),
+             cells(real, row.weighted))
+        .arg(number(real.wrongOrientation), number(real.stuck), number(real.fellOff))
+        .arg(row.weighted     ? QString()
+             : !row.p         ? QStringLiteral("–")
              : *row.p < 0.001 ? "&lt; 0.001"
                               : models::fixed(*row.p, 3));
 }
@@ -307,8 +309,11 @@ void addResults(std::vector<QString>& pieces, const Report& report) {
     }
     pieces.push_back(
         (count <= kMostRows ? "<h2>" + Texts::tr("Results") + "</h2>" : QString()) +
-        tableOf(report, rows + resultRow(report.table.total)) + "<p class=\"small\">" +
-        Texts::tr("T trials, F failures, P successes over trials; 95 %: bounds by Clopper and Pearson. "
+        tableOf(report, rows + resultRow(report.table.weighted) + resultRow(report.table.total)) +
+        "<p class=\"small\">" +
+        Texts::tr("Poses that look the same are one; below their picture how often parts land so, which the "
+                  "weighted total goes by (bounds: exact profile limits, Kabaila and Lloyd 2000). "
+                  "T trials, F failures, P successes over trials; 95 %: bounds by Clopper and Pearson. "
                   "p: how probable a difference as large as this one would be if both rates were equal; "
                   "Boschloo's exact test for a pose, adjusted for the number of poses (Holm), and "
                   "Fisher's with the poses as strata for the total.") +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/part/stable_poses.h"
 #include "ui/feeder/drive_link.h"
 #include "ui/feeder/drive_texts.h"
 #include "ui/session/study_session.h"
@@ -58,6 +59,14 @@ const study::PhysicalValidation* TrialGuide::validation() const {
     const auto& all = session_->physicalValidations();
     const auto place = static_cast<std::size_t>(*index_);
     return place < all.size() ? &all[place] : nullptr;
+}
+
+std::vector<int> TrialGuide::alikePoses() const {
+    const std::optional<int> next = pose();
+    if (!next) return {};
+    const std::vector<part::PoseGroup> groups = part::findPoseGroups(*session_->part());
+    const int group = part::findPoseGroup(groups, *next);
+    return group < 0 ? std::vector{*next} : groups[static_cast<std::size_t>(group)].poses;
 }
 
 std::optional<int> TrialGuide::pose() const {

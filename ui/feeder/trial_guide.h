@@ -5,6 +5,7 @@
 #include <QPointer>
 #include <QString>
 #include <optional>
+#include <vector>
 
 #include "core/study/physical_validation.h"
 
@@ -43,6 +44,8 @@ class TrialGuide : public QObject {
     [[nodiscard]] Stage stage() const { return stage_; }
     /// To be placed; none when the plan is done.
     [[nodiscard]] std::optional<int> pose() const;
+    /// That one and those that look the same; none if there is no next trial.
+    [[nodiscard]] std::vector<int> alikePoses() const;
     /// Of the plan; 0 without one.
     [[nodiscard]] int total() const;
     /// Of the plan that were made.

@@ -6,6 +6,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "core/study/pose_weights.h"
 #include "ui/feeder/calibrate_panel.h"
 #include "ui/feeder/drive_chart.h"
 #include "ui/feeder/drive_log.h"
@@ -178,12 +179,14 @@ void ValidatePage::showTable() {
         return model_.clear();
     }
     const study::PhysicalTable table =
-        study::comparePhysical(study::findSimulated(session_->validations(), *physical), *physical);
+        study::comparePhysical(study::findSimulated(session_->validations(), *physical), *physical,
+                               study::weighPoseGroups(*session_->part(), session_->settings()));
     // The verdict names the virtual feeder already; there is little room for more.
     const bool training = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
     const QString notice = training ? tr("For training.") : QString::fromStdString(table.notice);
     table_->setHead(QString("%1 %2").arg(notice, QString::fromStdString(table.verdict)).trimmed());
     model_.setTable(table);
+    table_->setPinned(PhysicalModel::kTotals);
 }
 
 void ValidatePage::applyCalibration() {

@@ -68,9 +68,8 @@ std::vector<Section> readSections(const QString& markdown) {
     bool code = false;
     for (const QString& line : markdown.split('\n')) {
         if (line.startsWith("```")) code = !code;
-        const auto level = static_cast<int>(std::find_if(line.begin(), line.end(), [](QChar c) {
-                                                return c != '#';
-                                            }) - line.begin());
+        const auto level = static_cast<int>(
+            std::find_if(line.begin(), line.end(), [](QChar c) { return c != '#'; }) - line.begin());
         if (!code && level >= 1 && level <= 6 && line.mid(level).startsWith(' ')) {
             const QString anchor = anchorOf(line.mid(level + 1));
             const int before = used[anchor]++;

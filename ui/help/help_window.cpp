@@ -261,7 +261,8 @@ void HelpWindow::showAt(const QString& page, const QString& anchor) {
     if (found == nullptr && !book_.pages().empty()) found = &book_.pages().front();
     if (found == nullptr) {
         view_->setPlainText(
-            tr("The help is not installed. It belongs into share/trapwright/resources/docs beside the program."));
+            tr("The help is not installed. It belongs into share/trapwright/resources/docs beside the "
+               "program."));
     } else {
         view_->setSource(urlOf(*found, anchor), QTextDocument::MarkdownResource);
     }

@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QFile>
 #include <QLocale>
+#include <algorithm>
 #include <cmath>
 
 namespace trapwright::look {
@@ -26,6 +27,13 @@ QString durationText(double seconds) {
     const qint64 minutes = (whole % kHour) / kMinute;
     if (whole < kDay) return tr("%1 h %2 min").arg(whole / kHour).arg(minutes);
     return tr("%1 d %2 h").arg(whole / kDay).arg(whole % kDay / kHour);
+}
+
+QString roughDurationText(double seconds) {
+    if (seconds < 10.0) return durationText(std::max(seconds, 1.0));
+    if (seconds < 60.0) return durationText(std::min(std::round(seconds / 5.0) * 5.0, 55.0));
+    if (seconds < 3600.0) return durationText(std::min(std::round(seconds / 60.0) * 60.0, 3540.0));
+    return durationText(std::round(seconds / 600.0) * 600.0);
 }
 
 QString numberText(double value, int digits) {

@@ -8,6 +8,9 @@ namespace trapwright::look {
 /// A duration as people say it: "8 s", "14 min", "2 h 5 min", "3 days 4 h". [s]
 QString durationText(double seconds);
 
+/// An estimate of a duration, no more exact than it is: "35 s", "8 min", "9 h 40 min". [s]
+QString roughDurationText(double seconds);
+
 /// A number with about this many significant digits, in the user's language, without trailing zeros.
 QString numberText(double value, int digits = 3);
 

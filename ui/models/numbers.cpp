@@ -3,6 +3,8 @@
 #include <QCoreApplication>
 #include <cmath>
 
+#include "core/part/stable_poses.h"
+
 namespace trapwright::models {
 
 namespace {
@@ -89,6 +91,24 @@ QString successHelp(const std::optional<stats::Count>& success) {
         .arg(success->successes)
         .arg(success->trials)
         .arg(boundsText(success));
+}
+
+QString percent(const std::optional<double>& share) {
+    return share ? fixed(kPercent * *share, 1) : kNothing;
+}
+
+QVariant percentValue(const std::optional<double>& share) {
+    return share ? QVariant(kPercent * *share) : QVariant();
+}
+
+QString poseNumbers(std::span<const int> poses) {
+    return QString::fromStdString(part::namePoses(poses)).replace(u'-', u'–');
+}
+
+QString poseName(std::span<const int> poses) {
+    const QString text = poses.size() > 1 ? QCoreApplication::translate("Poses", "poses %1")
+                                          : QCoreApplication::translate("Poses", "pose %1");
+    return text.arg(poseNumbers(poses));
 }
 
 }  // namespace trapwright::models

@@ -3,8 +3,8 @@
 #include <QString>
 #include <QStringList>
 #include <QVariant>
-
 #include <optional>
+#include <span>
 
 #include "core/stats/binomial.h"
 
@@ -19,6 +19,13 @@ QString percent(int successes, int trials);
 QString boundsText(const stats::Interval& bounds, int trials);
 /// In percent; nothing without trials.
 QVariant percentValue(int successes, int trials);
+/// The same of a share, if it is known.
+QString percent(const std::optional<double>& share);
+QVariant percentValue(const std::optional<double>& share);
+/// Stable poses, counted from 1: "7", "1–6".
+QString poseNumbers(std::span<const int> poses);
+/// The same in words: "pose 7", "poses 1–6".
+QString poseName(std::span<const int> poses);
 
 /// "85.0", in percent; a dash where success is not known.
 QString percent(const std::optional<stats::Count>& success);

@@ -1,9 +1,12 @@
 #include "ui/models/validation_model.h"
 
 #include <QFont>
+#include <QPixmap>
+#include <utility>
 
-#include "core/study/validation.h"
+#include "core/stats/binomial.h"
 #include "core/work/study_trials.h"
+#include "ui/look/icon.h"
 #include "ui/models/numbers.h"
 
 namespace trapwright::models {
@@ -12,12 +15,69 @@ namespace {
 
 using Row = ValidationTableRow;
 
-int successes(const Row& row) {
-    return row.row.trials - row.row.failures;
+constexpr double kPercent = 100.0;
+constexpr int kIcon = 12;
+
+Row makeRow(Row::Kind kind, std::vector<int> poses, const study::ValidationRow& row) {
+    Row made;
+    made.kind = kind;
+    made.poses = std::move(poses);
+    made.row = row;
+    const int good = row.trials - row.failures;
+    if (row.trials > 0) made.rate = static_cast<double>(good) / row.trials;
+    made.bounds = stats::calcClopperPearson(good, row.trials);
+    return made;
 }
 
-Row makeRow(const study::ValidationRow& row) {
-    return {row, stats::calcClopperPearson(row.trials - row.failures, row.trials)};
+QString nameOf(const Row& row) {
+    switch (row.kind) {
+        case Row::Kind::weighted:
+            return ValidationModel::tr("Weighted");
+        case Row::Kind::total:
+            return ValidationModel::tr("All alike");
+        case Row::Kind::pose:
+            return QStringLiteral("    ") + poseNumbers(row.poses);
+        case Row::Kind::group:
+            break;
+    }
+    return poseNumbers(row.poses);
+}
+
+QString helpOf(const Row& row) {
+    switch (row.kind) {
+        case Row::Kind::weighted:
+            return ValidationModel::tr(
+                "All poses together, weighted by how often parts land so: the share of parts that come as "
+                "they fall. Bounds: exact profile limits.");
+        case Row::Kind::total:
+            return ValidationModel::tr(
+                "All trials alike, however often parts land so. Bounds: Clopper and Pearson.");
+        case Row::Kind::pose:
+            return {};
+        case Row::Kind::group:
+            break;
+    }
+    return row.opens ? ValidationModel::tr("%n poses that look the same: the part is symmetric", nullptr,
+                                           static_cast<int>(row.poses.size()))
+                     : QString();
+}
+
+/// Of the weighted total no trials are counted.
+template <int study::ValidationRow::*count>
+QVariant countOf(const Row& row) {
+    return row.kind == Row::Kind::weighted ? QVariant() : QVariant(row.row.*count);
+}
+
+template <int study::ValidationRow::*count>
+QString countText(const Row& row) {
+    return row.kind == Row::Kind::weighted ? QString() : QString::number(row.row.*count);
+}
+
+/// Keeps names in line with those that have a sign before them.
+QVariant transparentIcon() {
+    QPixmap nothing(kIcon, kIcon);
+    nothing.fill(Qt::transparent);
+    return nothing;
 }
 
 int verdictOf(int column) {
@@ -38,57 +98,97 @@ int verdictOf(int column) {
 ValidationModel::ValidationModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
 
 std::vector<Column<ValidationTableRow>> ValidationModel::makeColumns() {
+    using study::ValidationRow;
     return {
-        {tr("Pose"), tr("Stable pose near which the parts began, counted from 1."),
-         [](const Row& r) { return r.row.pose < 0 ? QVariant(tr("Total")) : QVariant(r.row.pose + 1); },
-         [](const Row& r) { return r.row.pose < 0 ? tr("Total") : QString::number(r.row.pose + 1); }},
-        {tr("Trials"), tr("Simulated trials (T)."), [](const Row& r) { return QVariant(r.row.trials); },
-         [](const Row& r) { return QString::number(r.row.trials); }},
+        {tr("Pose"),
+         tr("Stable poses near which the parts began, counted from 1; those that look the same are one row."),
+         [](const Row& r) { return QVariant(nameOf(r).trimmed()); }, &nameOf},
+        {tr("Lands so [%]"), tr("How often parts land in this pose."),
+         [](const Row& r) { return percentValue(r.weight); },
+         [](const Row& r) { return r.weight ? fixed(kPercent * *r.weight, 1) : QString(); }},
+        {tr("Trials"), tr("Simulated trials (T)."), &countOf<&ValidationRow::trials>,
+         &countText<&ValidationRow::trials>},
         {tr("Failures"), tr("Parts that did not finish in the expected orientation (F)."),
-         [](const Row& r) { return QVariant(r.row.failures); },
-         [](const Row& r) { return QString::number(r.row.failures); }},
+         &countOf<&ValidationRow::failures>, &countText<&ValidationRow::failures>},
         {tr("Success [%]"), tr("Parts that finished in the expected orientation (P)."),
-         [](const Row& r) { return percentValue(successes(r), r.row.trials); },
-         [](const Row& r) { return percent(successes(r), r.row.trials); }},
+         [](const Row& r) { return percentValue(r.rate); }, [](const Row& r) { return percent(r.rate); }},
         {tr("95 % bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
-         [](const Row& r) { return QVariant(100.0 * r.bounds.low); },
+         [](const Row& r) { return QVariant(kPercent * r.bounds.low); },
          [](const Row& r) { return boundsText(r.bounds, r.row.trials); },
          [] { return boundsTitles(tr("Success")); },
          [](const Row& r) { return boundsValues(r.bounds, r.row.trials); }},
         {tr("Wrong"), tr("Parts that finished in another orientation."),
-         [](const Row& r) { return QVariant(r.row.wrongOrientation); },
-         [](const Row& r) { return QString::number(r.row.wrongOrientation); }},
-        {tr("Stuck"), tr("Parts that got stuck or ran out of time."),
-         [](const Row& r) { return QVariant(r.row.stuck); },
-         [](const Row& r) { return QString::number(r.row.stuck); }},
-        {tr("Fell"), tr("Parts that fell off the track."),
-         [](const Row& r) { return QVariant(r.row.fellOff); },
-         [](const Row& r) { return QString::number(r.row.fellOff); }},
+         &countOf<&ValidationRow::wrongOrientation>, &countText<&ValidationRow::wrongOrientation>},
+        {tr("Stuck"), tr("Parts that got stuck or ran out of time."), &countOf<&ValidationRow::stuck>,
+         &countText<&ValidationRow::stuck>},
+        {tr("Fell"), tr("Parts that fell off the track."), &countOf<&ValidationRow::fellOff>,
+         &countText<&ValidationRow::fellOff>},
     };
 }
 
-void ValidationModel::setValidation(const study::ValidationRecord& record) {
+void ValidationModel::setValidation(const study::ValidationTable& table) {
+    table_ = table;
+    refill();
+}
+
+void ValidationModel::refill() {
     std::vector<Row> rows;
-    rows.reserve(record.rows.size() + 1);
-    for (const study::ValidationRow& row : record.rows)
-        rows.push_back(makeRow(row));
-    rows.push_back(makeRow(study::calcTotal(record)));
+    anyOpens_ = false;
+    for (const study::ValidationGroup& group : table_.groups) {
+        Row& row = rows.emplace_back(makeRow(Row::Kind::group, group.poses, group.sum));
+        row.weight = group.weight;
+        row.opens = group.rows.size() > 1;
+        row.open = row.opens && open_.contains(group.poses);
+        anyOpens_ = anyOpens_ || row.opens;
+        if (!row.open) continue;
+        for (const study::ValidationRow& one : group.rows)
+            rows.push_back(makeRow(Row::Kind::pose, {one.pose}, one));
+    }
+    totals_ = 1;
+    if (table_.weighted.rate) {
+        Row& weighted = rows.emplace_back(makeRow(Row::Kind::weighted, {}, table_.total));
+        weighted.rate = table_.weighted.rate;
+        weighted.bounds = table_.weighted.interval;
+        ++totals_;
+    }
+    rows.push_back(makeRow(Row::Kind::total, {}, table_.total));
     reset(std::move(rows));
 }
 
+void ValidationModel::toggle(int row) {
+    if (row < 0 || row >= rowCount() || !rows()[static_cast<std::size_t>(row)].opens) return;
+    const std::vector<int> poses = rows()[static_cast<std::size_t>(row)].poses;
+    if (open_.erase(poses) == 0) open_.insert(poses);
+    refill();
+}
+
 void ValidationModel::clear() {
+    table_ = {};
+    totals_ = 0;
     reset({});
 }
 
 QVariant ValidationModel::more(const ValidationTableRow& row, int column, int role) const {
-    if (role == PoseRole) return row.row.pose;
-    if (role == VerdictRole) return verdictOf(column);
-    if (role == Qt::FontRole && row.row.pose < 0) {
-        QFont font;
-        font.setBold(true);
-        return font;
+    const bool total = row.poses.empty();
+    switch (role) {
+        case VerdictRole:
+            return row.kind == Row::Kind::weighted ? -1 : verdictOf(column);
+        case Qt::ToolTipRole:
+            return column == Pose ? helpOf(row) : QString();
+        case Qt::DecorationRole:
+            if (column != Pose || !anyOpens_ || total) return {};
+            if (row.opens) return look::icon(row.open ? "unfold" : "fold");
+            return transparentIcon();
+        case Qt::FontRole:
+            if (total) {
+                QFont font;
+                font.setBold(true);
+                return font;
+            }
+            return {};
+        default:
+            return {};
     }
-    return {};
 }
 
 }  // namespace trapwright::models

@@ -1,35 +1,55 @@
 #pragma once
 
 #include <optional>
+#include <set>
 
-#include "core/stats/binomial.h"
-#include "core/study/records.h"
+#include "core/study/validation.h"
 #include "ui/models/record_model.h"
 
 namespace trapwright::models {
 
 struct ValidationTableRow {
-    study::ValidationRow row;  // pose -1: the total
-    stats::Interval bounds;    // of the success rate; [0, 1] without trials
+    enum class Kind { group, pose, weighted, total };
+
+    Kind kind = Kind::group;
+    std::vector<int> poses;        // of the row; none: a total
+    std::optional<double> weight;  // how often parts land so
+    study::ValidationRow row;
+    std::optional<double> rate;  // of success
+    stats::Interval bounds;      // 95 %, of it; [0, 1] without trials
+    bool opens = false;          // a group of several poses
+    bool open = false;
 };
 
-/// The paper's Tables 2 and 3: a row for each stable pose, last the total. In the columns that count failures
-/// VerdictRole says of which kind, PoseRole of which pose.
+/// The paper's Tables 2 and 3: a row for each group of alike stable poses, which opens to its poses; last the
+/// totals, weighted by how often parts land so and with all trials alike. In the columns that count failures
+/// VerdictRole says of which kind.
 class ValidationModel : public RecordModel<ValidationTableRow> {
     Q_OBJECT
  public:
-    enum Columns { Pose, Trials, Failures, Success, Bounds, WrongOrientation, Stuck, FellOff };
+    enum Columns { Pose, Weight, Trials, Failures, Success, Bounds, WrongOrientation, Stuck, FellOff };
 
     explicit ValidationModel(QObject* parent = nullptr);
 
-    void setValidation(const study::ValidationRecord& record);
+    /// The groups that are open stay open.
+    void setValidation(const study::ValidationTable& table);
     void clear();
+    /// Opens or closes the group in this row; of other rows nothing.
+    void toggle(int row);
+    /// The last rows, which are the totals.
+    [[nodiscard]] int totals() const { return totals_; }
 
  protected:
     [[nodiscard]] QVariant more(const ValidationTableRow& row, int column, int role) const override;
 
  private:
     static std::vector<Column<ValidationTableRow>> makeColumns();
+    void refill();
+
+    study::ValidationTable table_;
+    std::set<std::vector<int>> open_;  // groups, by their poses
+    bool anyOpens_ = false;
+    int totals_ = 0;
 };
 
 }  // namespace trapwright::models

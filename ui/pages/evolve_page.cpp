@@ -7,7 +7,6 @@
 #include <QSettings>
 #include <QSpinBox>
 #include <QThread>
-#include <QTimer>
 #include <QVBoxLayout>
 
 #include "core/study/selection.h"
@@ -30,12 +29,10 @@
 
 namespace trapwright::pages {
 
-using session::RunState;
 using session::StudySession;
 
 namespace {
 
-constexpr int kEstimateDelay = 400;  // [ms] after the last change of a setting
 constexpr auto kThreadsSetting = "threads";
 
 }  // namespace
@@ -43,7 +40,6 @@ constexpr auto kThreadsSetting = "threads";
 EvolvePage::EvolvePage(RunActions& run, QWidget* parent)
     : Page({"evolve", tr("Evolve"), "evolve", tr("Learn tracks, watch, stop, and look at what was learned")},
            parent),
-      estimateDelay_(new QTimer(this)),
       followAction_(new QAction(look::icon("to-end"), tr("Follow the best"), this)),
       card_(new RunCard(run, this)),
       form_(new SettingsForm({{"evolve.run", tr("Run"), {"evolution.generations", "simulation.engine"}}}, {},
@@ -71,9 +67,6 @@ EvolvePage::EvolvePage(RunActions& run, QWidget* parent)
     layout->addWidget(makeComparison());
     layout->addStretch(1);
 
-    estimateDelay_->setSingleShot(true);
-    estimateDelay_->setInterval(kEstimateDelay);
-    connect(estimateDelay_, &QTimer::timeout, this, &EvolvePage::askForEstimate);
     connect(&build_, &session::TrackBuild::built, this,
             [this](const std::shared_ptr<const track::Track>& track) {
                 track_ = track;
@@ -107,9 +100,7 @@ QWidget* EvolvePage::makeThreads(QWidget* parent) {
     layout->addWidget(threads_);
     connect(threads_, &QSpinBox::valueChanged, this, [this](int threads) {
         QSettings().setValue(kThreadsSetting, threads);
-        if (!session_) return;
-        session_->setThreads(static_cast<unsigned>(threads));
-        estimateDelay_->start();
+        if (session_) session_->setThreads(static_cast<unsigned>(threads));
     });
     return row;
 }
@@ -217,7 +208,6 @@ void EvolvePage::setSession(StudySession* session) {
 void EvolvePage::activate(scene::SceneView& scene) {
     scene_ = &scene;
     showPicked();
-    estimateDelay_->start();
 }
 
 void EvolvePage::deactivate() {
@@ -235,15 +225,8 @@ void EvolvePage::refresh() {
             [locked](const std::string& key) { return !locked || key == "evolution.generations"; });
         form_->setProblems(session_->problems(), session_->recommendations());
         summary_->show(session_->settings(), locked);
-        if (session_->state() == RunState::idle) estimateDelay_->start();
     }
     showPicked();
-}
-
-void EvolvePage::askForEstimate() {
-    if (!session_ || scene_ == nullptr || session_->state() != RunState::idle) return;
-    const auto known = static_cast<int>(session_->summaries().size());
-    if (known < session_->settings().evolution.generations) session_->requestEstimate();
 }
 
 void EvolvePage::askForComparison() {

@@ -13,7 +13,6 @@
 class QLabel;
 class QPushButton;
 class QSpinBox;
-class QTimer;
 
 namespace trapwright::look {
 class FoldingGroup;
@@ -59,7 +58,6 @@ class EvolvePage : public Page {
     void connectViews();
 
     void refresh();
-    void askForEstimate();
     void askForComparison();
     void changeSettings();
 
@@ -80,7 +78,6 @@ class EvolvePage : public Page {
     session::TrackBuild build_;
     std::optional<Design> design_;  // what track_ is built from, or being built from
     std::shared_ptr<const track::Track> track_;
-    QTimer* estimateDelay_;
     QAction* followAction_;
 
     RunCard* card_;

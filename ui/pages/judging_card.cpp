@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "core/part/stable_poses.h"
 #include "ui/look/text.h"
 #include "ui/session/study_session.h"
 
@@ -134,9 +135,13 @@ void JudgingCard::update() {
                                                session_->winners().size());
     compareText_->setText(
         tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials)));
-    validateText_->setText(tr("%1 stable poses, %2 trials each")
-                               .arg(session_->part()->stablePoses.size())
-                               .arg(locale.toString(settings.trialsPerPose)));
+    const std::size_t poses = session_->part()->stablePoses.size();
+    const std::size_t groups = part::findPoseGroups(*session_->part()).size();
+    const QString trials = locale.toString(settings.trialsPerPose);
+    validateText_->setText(
+        groups == poses
+            ? tr("%1 stable poses, %2 trials each").arg(poses).arg(trials)
+            : tr("%1 stable poses, %2 that differ, %3 trials each").arg(poses).arg(groups).arg(trials));
 }
 
 void JudgingCard::showProgress() {

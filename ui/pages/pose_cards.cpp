@@ -4,17 +4,20 @@
 #include <QFrame>
 #include <QGridLayout>
 #include <QLabel>
-#include <QProgressBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 
+#include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/models/numbers.h"
 #include "ui/scene/when_ready.h"
 
 namespace trapwright::pages {
 
 namespace {
 
+constexpr double kPercent = 100.0;
 constexpr int kColumns = 3;
 constexpr QSize kPicture(92, 76);
 
@@ -31,6 +34,7 @@ PoseCards::PoseCards(QWidget* parent) : QWidget(parent), grid_(new QGridLayout(t
 void PoseCards::show(std::shared_ptr<const part::Part> part) {
     if (part == part_) return;
     part_ = std::move(part);
+    open_.clear();
     rebuild();
 }
 
@@ -48,39 +52,98 @@ void PoseCards::rebuild() {
     // Pictures cost some milliseconds each: drawn only when they are seen.
     stale_ = !isVisible();
     if (stale_) return;
-    qDeleteAll(findChildren<QFrame*>("poseCard", Qt::FindDirectChildrenOnly));
+    openers_.clear();
+    for (const char* name : {"poseCard", "singlePoseCard"})
+        qDeleteAll(findChildren<QFrame*>(name, Qt::FindDirectChildrenOnly));
     if (!part_) return;
 
     const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
     pictures_.setTheme(dark ? scene::SceneTheme::dark() : scene::SceneTheme::light());
-    int index = 0;
-    for (const part::StablePose& pose : part_->stablePoses) {
-        auto* card = new QFrame(this);
-        card->setObjectName("poseCard");
-        card->setStyleSheet(
-            "#poseCard { border: 1px solid palette(mid); border-radius: 6px; background: palette(base); }");
-        auto* picture = new QLabel(card);
-        picture->setFixedHeight(kPicture.height());
-        picture->setAlignment(Qt::AlignCenter);
-        scene::whenReady(pictures_.partPicture(part_, pose.rotation, kPicture, devicePixelRatioF()), picture,
-                         [picture](const QImage& drawn) { picture->setPixmap(QPixmap::fromImage(drawn)); });
-        auto* chance = new QLabel(tr("%1 %").arg(look::numberText(100.0 * pose.probability)), card);
-        QFont bold = chance->font();
-        bold.setBold(true);
-        chance->setFont(bold);
-        chance->setAlignment(Qt::AlignHCenter);
-        card->setAccessibleName(tr("Stable pose %1: %2").arg(index + 1).arg(chance->text()));
-        card->setToolTip(tr("A part dropped at random comes to rest in this pose in %1 of 100 cases.")
-                             .arg(look::numberText(100.0 * pose.probability)));
-
-        auto* layout = new QVBoxLayout(card);
-        layout->setContentsMargins(4, 4, 4, 6);
-        layout->setSpacing(0);
-        layout->addWidget(picture);
-        layout->addWidget(chance);
-        grid_->addWidget(card, index / kColumns, index % kColumns);
-        ++index;
+    place_ = 0;
+    for (const part::PoseGroup& group : part::findPoseGroups(*part_)) {
+        QFrame* card = addCard("poseCard", group.poses.front(), group.probability);
+        card->setAccessibleName(
+            tr("Stable %1: %2 %")
+                .arg(models::poseName(group.poses), look::numberText(kPercent * group.probability)));
+        card->setToolTip(tr("A part dropped at random comes to rest like this in %1 of 100 cases.")
+                             .arg(look::numberText(kPercent * group.probability)));
+        if (group.poses.size() < 2) continue;
+        addOpener(*card, group);
+        if (!open_.contains(group.poses)) continue;
+        for (const int pose : group.poses) {
+            const double probability = part_->stablePoses[static_cast<std::size_t>(pose)].probability;
+            QFrame* single = addCard("singlePoseCard", pose, probability);
+            auto* number = new QLabel(tr("Pose %1").arg(pose + 1), single);
+            number->setAlignment(Qt::AlignHCenter);
+            number->setForegroundRole(QPalette::PlaceholderText);
+            single->layout()->addWidget(number);
+            single->setAccessibleName(
+                tr("Pose %1: %2 %").arg(pose + 1).arg(look::numberText(kPercent * probability)));
+            single->setToolTip(tr("One of %1 poses that look the same").arg(group.poses.size()));
+        }
     }
+}
+
+QFrame* PoseCards::addCard(const QString& name, int pose, double probability) {
+    auto* card = new QFrame(this);
+    card->setObjectName(name);
+    card->setStyleSheet(
+        "#poseCard { border: 1px solid palette(mid); border-radius: 6px; background: palette(base); }"
+        "#singlePoseCard { border: 1px dashed palette(mid); border-radius: 6px; }");
+    auto* picture = new QLabel(card);
+    picture->setFixedHeight(kPicture.height());
+    picture->setAlignment(Qt::AlignCenter);
+    const base::Quaternion& rotation = part_->stablePoses[static_cast<std::size_t>(pose)].rotation;
+    scene::whenReady(pictures_.partPicture(part_, rotation, kPicture, devicePixelRatioF()), picture,
+                     [picture](const QImage& drawn) { picture->setPixmap(QPixmap::fromImage(drawn)); });
+    auto* chance = new QLabel(tr("%1 %").arg(look::numberText(kPercent * probability)), card);
+    QFont bold = chance->font();
+    bold.setBold(true);
+    chance->setFont(bold);
+    chance->setAlignment(Qt::AlignHCenter);
+    auto* layout = new QVBoxLayout(card);
+    layout->setContentsMargins(4, 4, 4, 6);
+    layout->setSpacing(0);
+    layout->addWidget(picture);
+    layout->addWidget(chance);
+    grid_->addWidget(card, place_ / kColumns, place_ % kColumns, Qt::AlignTop);
+    ++place_;
+    return card;
+}
+
+void PoseCards::addOpener(QFrame& card, const part::PoseGroup& group) {
+    const bool open = open_.contains(group.poses);
+    auto* opener = new QToolButton(&card);
+    opener->setObjectName("poseCard.open");
+    opener->setText(tr("%1 alike").arg(group.poses.size()));
+    opener->setIcon(look::icon(open ? "unfold" : "fold"));
+    opener->setIconSize({12, 12});
+    opener->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    opener->setAutoRaise(true);
+    opener->setCheckable(true);
+    opener->setChecked(open);
+    opener->setToolTip(
+        tr("%1 poses that look the same, because the part is symmetric: show each").arg(group.poses.size()));
+    opener->setAccessibleName(opener->toolTip());
+    card.layout()->addWidget(opener);
+    card.layout()->setAlignment(opener, Qt::AlignHCenter);
+    connect(opener, &QToolButton::clicked, this, [this, poses = group.poses] {
+        if (open_.erase(poses) == 0) open_.insert(poses);
+        // The button that was pressed is built anew.
+        QMetaObject::invokeMethod(
+            this,
+            [this, poses] {
+                rebuild();
+                focusOpener(poses);
+            },
+            Qt::QueuedConnection);
+    });
+    openers_[group.poses] = opener;
+}
+
+/// A keyboard goes on where it was.
+void PoseCards::focusOpener(const std::vector<int>& poses) {
+    if (const auto found = openers_.find(poses); found != openers_.end()) found->second->setFocus();
 }
 
 }  // namespace trapwright::pages

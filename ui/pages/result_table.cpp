@@ -5,11 +5,13 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QScrollBar>
 #include <QStackedLayout>
 #include <QStyledItemDelegate>
 #include <QTableView>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "core/base/file.h"
 #include "ui/look/file_dialog.h"
@@ -64,6 +66,7 @@ ResultTable::ResultTable(const QString& name, const QString& title, QAbstractIte
       empty_(new QLabel),
       head_(new QHBoxLayout),
       view_(new LinkTable),
+      foot_(new LinkTable),
       stack_(new QStackedLayout) {
     setObjectName(name);
     setAccessibleName(title);
@@ -77,20 +80,17 @@ ResultTable::ResultTable(const QString& name, const QString& title, QAbstractIte
     empty_->setMargin(16);
     empty_->setForegroundRole(QPalette::PlaceholderText);
 
-    view_->setObjectName(name + ".table");
-    view_->setAccessibleName(title);
-    view_->setModel(&model_);
-    view_->setMouseTracking(true);
-    view_->setSelectionMode(QAbstractItemView::SingleSelection);
-    view_->setShowGrid(false);
-    view_->setWordWrap(false);
-    view_->setTabKeyNavigation(false);
-    view_->verticalHeader()->hide();
-    view_->verticalHeader()->setDefaultSectionSize(view_->fontMetrics().height() + 8);
-    view_->horizontalHeader()->setHighlightSections(false);
+    setUpView(*view_, name + ".table");
+    setUpView(*foot_, name + ".totals");
+    foot_->horizontalHeader()->hide();
+    foot_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    foot_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    foot_->setFrameShape(QFrame::NoFrame);
+    connect(view_->horizontalHeader(), &QHeaderView::sectionResized, this,
+            [this](int column, int, int width) { foot_->setColumnWidth(column, width); });
+    connect(view_->horizontalScrollBar(), &QScrollBar::valueChanged, foot_->horizontalScrollBar(),
+            &QScrollBar::setValue);
     look::keepHeadersWhole(*view_->horizontalHeader());
-    connect(view_, &QTableView::clicked, this, &ResultTable::cellChosen);
-    connect(view_, &QTableView::activated, this, &ResultTable::cellChosen);
 
     auto* save = new QToolButton(this);
     save->setObjectName(name + ".save");
@@ -103,7 +103,13 @@ ResultTable::ResultTable(const QString& name, const QString& title, QAbstractIte
     head_->addWidget(text_, 1);
     head_->addWidget(save);
     stack_->addWidget(empty_);
-    stack_->addWidget(view_);
+    auto* filled = new QWidget;
+    auto* tables = new QVBoxLayout(filled);
+    tables->setContentsMargins(0, 0, 0, 0);
+    tables->setSpacing(0);
+    tables->addWidget(view_, 1);
+    tables->addWidget(foot_);
+    stack_->addWidget(filled);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(2);
@@ -111,6 +117,48 @@ ResultTable::ResultTable(const QString& name, const QString& title, QAbstractIte
     column->addLayout(stack_, 1);
     connect(&model_, &QAbstractItemModel::modelReset, this, &ResultTable::showEmpty);
     showEmpty();
+}
+
+void ResultTable::setUpView(QTableView& view, const QString& name) {
+    view.setObjectName(name);
+    view.setAccessibleName(accessibleName());
+    view.setModel(&model_);
+    view.setMouseTracking(true);
+    view.setSelectionMode(QAbstractItemView::SingleSelection);
+    view.setShowGrid(false);
+    view.setWordWrap(false);
+    view.setTabKeyNavigation(false);
+    view.setIconSize({12, 12});
+    view.verticalHeader()->hide();
+    view.verticalHeader()->setDefaultSectionSize(view.fontMetrics().height() + 8);
+    view.horizontalHeader()->setHighlightSections(false);
+    connect(&view, &QTableView::clicked, this, &ResultTable::cellChosen);
+    connect(&view, &QTableView::activated, this, &ResultTable::cellChosen);
+}
+
+void ResultTable::setPinned(int rows) {
+    pinned_ = rows;
+    arrange();
+}
+
+/// Every row is in one of the two views, and the columns are as wide in both.
+void ResultTable::arrange() {
+    const int rows = model_.rowCount();
+    const int pinned = std::min(pinned_, rows);
+    for (int row = 0; row < rows; ++row) {
+        view_->setRowHidden(row, row >= rows - pinned);
+        foot_->setRowHidden(row, row < rows - pinned);
+    }
+    foot_->setVisible(pinned > 0);
+    foot_->setFixedHeight(foot_->verticalHeader()->length());
+    view_->resizeColumnsToContents();
+    if (pinned == 0) return;
+    foot_->resizeColumnsToContents();
+    for (int column = 0; column < model_.columnCount(); ++column) {
+        const int width = std::max(view_->columnWidth(column), foot_->columnWidth(column));
+        view_->setColumnWidth(column, width);
+        foot_->setColumnWidth(column, width);
+    }
 }
 
 void ResultTable::setHead(const QString& text) {
@@ -122,14 +170,16 @@ void ResultTable::setEmptyText(const QString& text) {
 }
 
 void ResultTable::setLinkColumns(const QSet<int>& columns) {
-    static_cast<LinkTable*>(view_)->columns = columns;
-    view_->setItemDelegate(new LinkDelegate(columns, view_));
+    for (QTableView* view : {view_, foot_}) {
+        static_cast<LinkTable*>(view)->columns = columns;
+        view->setItemDelegate(new LinkDelegate(columns, view));
+    }
 }
 
 void ResultTable::showEmpty() {
     const bool empty = model_.rowCount() == 0;
     stack_->setCurrentIndex(empty ? 0 : 1);
-    if (!empty) view_->resizeColumnsToContents();
+    arrange();
     findChild<QToolButton*>(objectName() + ".save")->setEnabled(!empty);
 }
 

@@ -22,9 +22,13 @@ class ResultTable : public QWidget {
     void setHead(const QString& text);
     void setEmptyText(const QString& text);
     void setLinkColumns(const QSet<int>& columns);
+    /// So many of the last rows stay in sight below the others: totals.
+    void setPinned(int rows);
     /// Where actions go, right of the sentence.
     [[nodiscard]] QHBoxLayout& headRow() { return *head_; }
     [[nodiscard]] QTableView& view() { return *view_; }
+    /// The pinned rows; the same model.
+    [[nodiscard]] QTableView& pinnedView() { return *foot_; }
 
  signals:
     /// A cell was clicked, or Enter was pressed on it.
@@ -32,7 +36,9 @@ class ResultTable : public QWidget {
     void failed(const QString& what, const QString& message);
 
  private:
+    void setUpView(QTableView& view, const QString& name);
     void showEmpty();
+    void arrange();
     void askAndSave();
 
     QAbstractItemModel& model_;
@@ -40,7 +46,9 @@ class ResultTable : public QWidget {
     QLabel* empty_;
     QHBoxLayout* head_;
     QTableView* view_;
+    QTableView* foot_;
     QStackedLayout* stack_;
+    int pinned_ = 0;
 };
 
 }  // namespace trapwright::pages

@@ -6,6 +6,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "core/study/pose_weights.h"
 #include "ui/charts/orientation_chart.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/text.h"
@@ -123,6 +124,8 @@ void ReviewPage::setSession(StudySession* session) {
         if (!last.entries.empty())
             choice_->setWinner(last.entries.front().generation, last.entries.front().individual);
     });
+    // What totals are weighted by.
+    connect(session_, &StudySession::settingsChanged, this, &ReviewPage::showValidation);
     connect(session_, &StudySession::validationSaved, this, [this] {
         choice_->refresh();
         showValidation();
@@ -195,12 +198,17 @@ void ReviewPage::showValidation() {
         return validation_.clear();
     }
     shownValidation_->setHead(
-        tr("Simulated by %1, success within %2°. Choose a number of failures to see them.")
+        tr("Simulated by %1, success within %2°. Choose a number of failures to see them; a row of several "
+           "poses that look the same opens to each of them.")
             .arg(fromText(found->engine), look::numberText(found->tolerance / base::kDegree)));
-    validation_.setValidation(*found);
+    const study::ValidationTable table =
+        study::tabulate(*found, study::weighPoseGroups(*session_->part(), session_->settings()));
+    validation_.setValidation(table);
+    shownValidation_->setPinned(validation_.totals());
 }
 
 void ReviewPage::goToFailures(const QModelIndex& cell) {
+    if (cell.column() == ValidationModel::Pose) return validation_.toggle(cell.row());
     if (cell.data(models::ValueRole).toInt() == 0) return;
     std::set<TrialVerdict> verdicts;
     if (cell.data(models::VerdictRole).toInt() >= 0) {
@@ -210,13 +218,14 @@ void ReviewPage::goToFailures(const QModelIndex& cell) {
     } else {
         return;
     }
-    // Of the total: the first pose that has such failures.
-    int pose = cell.data(models::PoseRole).toInt();
-    for (int row = 0; pose < 0 && row < validation_.rowCount(); ++row) {
+    // Of the total: the first poses that have such failures.
+    std::vector<int> poses = validation_.rows()[static_cast<std::size_t>(cell.row())].poses;
+    for (int row = 0; poses.empty() && row < validation_.rowCount(); ++row) {
         const QModelIndex same = validation_.index(row, cell.column());
-        if (same.data(models::ValueRole).toInt() > 0) pose = same.data(models::PoseRole).toInt();
+        if (same.data(models::ValueRole).toInt() > 0)
+            poses = validation_.rows()[static_cast<std::size_t>(row)].poses;
     }
-    review_.goToTrials(pose, verdicts);
+    review_.goToTrials(poses, verdicts);
 }
 
 }  // namespace trapwright::pages

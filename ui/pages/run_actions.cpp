@@ -1,6 +1,9 @@
 #include "ui/pages/run_actions.h"
 
+#include <QTimer>
+
 #include "ui/look/icon.h"
+#include "ui/look/text.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -8,6 +11,8 @@ namespace trapwright::pages {
 using session::RunState;
 
 namespace {
+
+constexpr int kEstimateDelay = 400;  // [ms] after the last change of a setting
 
 QAction* makeAction(QObject* parent, const QString& name, const QString& icon, const QString& text,
                     const QKeySequence& key, const QString& tip) {
@@ -22,8 +27,10 @@ QAction* makeAction(QObject* parent, const QString& name, const QString& icon, c
 
 RunActions::RunActions(QObject* parent)
     : QObject(parent),
+      estimateDelay_(new QTimer(this)),
       start_(makeAction(this, "run.start", "start", tr("&Start learning"), Qt::Key_F5,
                         tr("Continue from the last saved generation"))),
+      draft_(makeAction(this, "run.draft", "draft", tr("&Draft in 10 minutes"), Qt::SHIFT | Qt::Key_F5, {})),
       pause_(makeAction(this, "run.pause", "pause", tr("&Pause"), Qt::Key_F6,
                         tr("Wait in the middle of the generation; nothing is lost"))),
       stopAfterGeneration_(makeAction(this, "run.stopAfterGeneration", "stop-after",
@@ -37,7 +44,14 @@ RunActions::RunActions(QObject* parent)
             session_->resume();
         } else {
             session_->startLearning();
+            emit started();
         }
+    });
+    connect(draft_, &QAction::triggered, this, &RunActions::startDraft);
+    estimateDelay_->setSingleShot(true);
+    estimateDelay_->setInterval(kEstimateDelay);
+    connect(estimateDelay_, &QTimer::timeout, this, [this] {
+        if (session_ && session_->state() == RunState::idle) session_->requestEstimate();
     });
     connect(pause_, &QAction::triggered, this, [this] {
         if (session_) session_->pause();
@@ -59,8 +73,19 @@ void RunActions::setSession(session::StudySession* session) {
         connect(session_, &session::StudySession::settingsChanged, this, &RunActions::update);
         connect(session_, &session::StudySession::partChanged, this, &RunActions::update);
         connect(session_, &session::StudySession::generationSaved, this, &RunActions::update);
+        connect(session_, &session::StudySession::estimated, this, &RunActions::update);
     }
     update();
+}
+
+void RunActions::startDraft() {
+    const auto draft = session_ ? session_->draft() : std::nullopt;
+    if (!draft) return;
+    study::Settings settings = session_->settings();
+    settings.evolution = draft->evolution;
+    session_->changeSettings(settings, tr("Draft in 10 minutes"));
+    session_->startLearning();
+    emit started();
 }
 
 void RunActions::update() {
@@ -84,6 +109,24 @@ void RunActions::update() {
                                       : tr("&Start learning"));
     start_->setToolTip(obstacle.isEmpty() ? tr("Continue from the last saved generation") : obstacle);
     start_->setEnabled(paused || (idle && obstacle.isEmpty()));
+    const auto draft = session_ ? session_->draft() : std::nullopt;
+    const bool timed = session_ && session_->estimatedSeconds() > 0.0;
+    draft_->setEnabled(idle && obstacle.isEmpty() && draft.has_value());
+    if (!obstacle.isEmpty()) {
+        draft_->setToolTip(obstacle);
+    } else if (draft) {
+        draft_->setToolTip(tr("About %1 on this machine: %2 generations of %3 × %4 trials")
+                               .arg(look::roughDurationText(draft->seconds))
+                               .arg(draft->evolution.generations)
+                               .arg(draft->evolution.populationSize)
+                               .arg(draft->evolution.trialsPerEvaluation));
+    } else if (generations > 0) {
+        draft_->setToolTip(tr("A draft is made in a study without generations"));
+    } else {
+        draft_->setToolTip(timed ? tr("Trials of this part take too long for a draft on this machine")
+                                 : tr("Trials are being timed on this machine"));
+    }
+    if (state == RunState::idle && session_ && !timed && obstacle.isEmpty()) estimateDelay_->start();
     pause_->setEnabled(state == RunState::learning);
     stopAfterGeneration_->setEnabled(state == RunState::learning || paused);
     stopNow_->setEnabled(!idle && state != RunState::stopping);

@@ -4,14 +4,17 @@
 #include <QObject>
 #include <QPointer>
 
+class QTimer;
+
 namespace trapwright::session {
 class StudySession;
 }
 
 namespace trapwright::pages {
 
-/// The actions that start and end learning, for the menu, the tool bar and the Evolve page alike. Each is
-/// enabled when the open study can take it; where Start is not, its tool tip tells why.
+/// The actions that start and end learning, for the menu, the tool bar and the pages alike. Each is enabled
+/// when the open study can take it; where Start is not, its tool tip tells why. Has the study timed as soon
+/// as it rests, so that what starting means is known before.
 class RunActions : public QObject {
     Q_OBJECT
  public:
@@ -21,15 +24,24 @@ class RunActions : public QObject {
 
     /// Starts learning, or goes on with it when it is paused.
     QAction* start() { return start_; }
+    /// Takes over the settings of a draft and learns with them. Its tool tip tells how long that takes here.
+    QAction* draft() { return draft_; }
     QAction* pause() { return pause_; }
     QAction* stopAfterGeneration() { return stopAfterGeneration_; }
     QAction* stopNow() { return stopNow_; }
 
+ signals:
+    /// The user started learning, or had it go on; what follows is told by the session.
+    void started();
+
  private:
     void update();
+    void startDraft();
 
     QPointer<session::StudySession> session_;
+    QTimer* estimateDelay_;
     QAction* start_;
+    QAction* draft_;
     QAction* pause_;
     QAction* stopAfterGeneration_;
     QAction* stopNow_;

@@ -26,7 +26,11 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
       title_(new QLabel(this)),
       detail_(new QLabel(this)),
       speed_(new QLabel(this)),
-      bar_(new QProgressBar(this)) {
+      bar_(new QProgressBar(this)),
+      draft_(new QWidget(this)),
+      draftTime_(new QLabel(draft_)),
+      run_(run) {
+    setObjectName("evolve.card");
     title_->setObjectName("evolve.state");
     QFont font = title_->font();
     font.setPointSizeF(font.pointSizeF() * 1.3);
@@ -42,6 +46,16 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     bar_->setAccessibleName(tr("Progress of the whole run"));
     bar_->setTextVisible(false);
     bar_->setFixedHeight(8);
+
+    draftTime_->setObjectName("evolve.draftTime");
+    draftTime_->setWordWrap(true);
+    draftTime_->setForegroundRole(QPalette::PlaceholderText);
+    auto* draft = new QVBoxLayout(draft_);
+    draft->setContentsMargins(0, 0, 0, 6);
+    draft->setSpacing(2);
+    draft->addWidget(makeButton(run.draft(), "evolve.draft"));
+    draft->addWidget(draftTime_);
+    connect(run.draft(), &QAction::changed, this, &RunCard::showDraft);
 
     auto* buttons = new QGridLayout;
     buttons->setSpacing(6);
@@ -61,7 +75,9 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     layout->addWidget(bar_);
     layout->addWidget(speed_);
     layout->addSpacing(4);
+    layout->addWidget(draft_);
     layout->addLayout(buttons);
+    showDraft();
     update();
 }
 
@@ -101,6 +117,7 @@ void RunCard::announce() {
 void RunCard::update() {
     const RunState state = session_ ? session_->state() : RunState::idle;
     const bool idle = state == RunState::idle || state == RunState::simulating;
+    draft_->setVisible(idle && session_ && session_->summaries().empty() && session_->problems().empty());
     bar_->setVisible(!idle);
     speed_->setVisible(!idle);
     showSuccess();
@@ -133,6 +150,11 @@ QString RunCard::workText() const {
     return left == 1 ? each : each.arg(left);
 }
 
+/// What the action tells when it is pointed at.
+void RunCard::showDraft() {
+    draftTime_->setText(run_.draft()->toolTip() + '.');
+}
+
 void RunCard::showIdle() {
     const int known = static_cast<int>(session_->summaries().size());
     const int wanted = session_->settings().evolution.generations;
@@ -151,9 +173,11 @@ void RunCard::showIdle() {
     const double seconds = session_->estimatedSeconds();
     const QString work = workText();
     if (seconds <= 0.0) {
-        detail_->setText(known == 0 ? tr("%1 in all.").arg(work) : tr("%1 left.").arg(work));
+        detail_->setText(known == 0 ? tr("%1 in all. How long that takes here is being measured.").arg(work)
+                                    : tr("%1 left.").arg(work));
     } else {
-        detail_->setText(tr("About <b>%1</b> for %2.").arg(look::durationText(std::max(seconds, 1.0)), work));
+        detail_->setText(
+            tr("About <b>%1</b> on this machine for %2.").arg(look::roughDurationText(seconds), work));
     }
 }
 

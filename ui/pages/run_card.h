@@ -35,6 +35,7 @@ class RunCard : public QWidget {
     void announce();
     void showSuccess();
     void showIdle();
+    void showDraft();
     void showRun(session::RunState state);
     [[nodiscard]] QString workText() const;
 
@@ -44,6 +45,9 @@ class RunCard : public QWidget {
     QLabel* detail_;
     QLabel* speed_;
     QProgressBar* bar_;
+    QWidget* draft_;
+    QLabel* draftTime_;
+    RunActions& run_;
 };
 
 }  // namespace trapwright::pages

@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "core/study/pose_weights.h"
 #include "core/study/validation.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
@@ -182,9 +183,17 @@ void TrackChoice::showFacts() {
         if (validation.generation == winner_->generation && validation.individual == winner_->individual)
             validated = &validation;
     if (validated != nullptr) {
-        const study::ValidationRow total = study::calcTotal(*validated);
-        facts.emplace_back(tr("Validation"),
-                           models::shareText(stats::Count{total.trials - total.failures, total.trials}));
+        const study::ValidationTable table =
+            study::tabulate(*validated, study::weighPoseGroups(*session_->part(), session_->settings()));
+        const int good = table.total.trials - table.total.failures;
+        if (table.weighted.rate) {
+            facts.emplace_back(tr("Validation"),
+                               tr("%1 % (%2 %), weighted by how often parts land so")
+                                   .arg(models::percent(table.weighted.rate),
+                                        models::boundsText(table.weighted.interval, table.total.trials)));
+        }
+        facts.emplace_back(table.weighted.rate ? tr("All trials alike") : tr("Validation"),
+                           models::shareText(stats::Count{good, table.total.trials}));
     }
     facts_->show(facts);
 }

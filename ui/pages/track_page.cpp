@@ -1,5 +1,6 @@
 #include "ui/pages/track_page.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QEvent>
 #include <QHBoxLayout>
@@ -7,14 +8,18 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "core/study/presets.h"
+#include "core/work/estimate.h"
 #include "ui/look/icon.h"
+#include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/pages/drive_card.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/problem_text.h"
+#include "ui/pages/run_actions.h"
 #include "ui/pages/settings_form.h"
 #include "ui/pages/track_in_scene.h"
 #include "ui/session/study_session.h"
@@ -42,10 +47,11 @@ QString contactTitle(std::string_view name) {
 
 }  // namespace
 
-TrackPage::TrackPage(QWidget* parent)
+TrackPage::TrackPage(RunActions& run, QWidget* parent)
     : Page({"track", tr("Track"), "track",
             tr("What the track is made of, how it vibrates and how it is learned")},
            parent),
+      run_(run),
       form_(new SettingsForm(trackGroups(), {}, this)),
       drive_(new DriveCard(form_)),
       contact_(new QComboBox(form_)),
@@ -108,6 +114,13 @@ QWidget* TrackPage::makeHead() {
     addPreset("cuboid", tr("The paper's Table 1, cuboid"));
     addPreset("cone", tr("The paper's Table 1, cone-like part"));
     menu->addSeparator();
+    draftPreset_ = menu->addAction(tr("Draft in 10 minutes"));
+    draftPreset_->setObjectName("preset.draft");
+    connect(draftPreset_, &QAction::triggered, this, &TrackPage::useDraft);
+    QAction* full = menu->addAction(tr("Full learning, 200 generations of 100 × 100 trials"));
+    full->setObjectName("preset.full");
+    connect(full, &QAction::triggered, this, &TrackPage::useFullLearning);
+    menu->addSeparator();
     QAction* paper = menu->addAction(tr("The paper's own choices throughout"));
     paper->setObjectName("preset.paper");
     connect(paper, &QAction::triggered, this, &TrackPage::usePaperMode);
@@ -149,9 +162,55 @@ QWidget* TrackPage::makeHead() {
     auto* layout = new QVBoxLayout(head);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addLayout(row);
+    layout->addWidget(makeStart(head));
     layout->addWidget(problems_);
     layout->addWidget(locked_);
     return head;
+}
+
+/// How long learning takes, told before it starts, and the two ways to start it.
+QWidget* TrackPage::makeStart(QWidget* parent) {
+    auto* start = new QWidget(parent);
+    start->setObjectName("track.starting");
+    time_ = new QLabel(start);
+    time_->setObjectName("track.time");
+    time_->setWordWrap(true);
+    auto* buttons = new QHBoxLayout;
+    for (const auto& [action, name] :
+         {std::pair{run_.draft(), "track.draft"}, std::pair{run_.start(), "track.start"}}) {
+        auto* button = new QToolButton(start);
+        button->setDefaultAction(action);
+        button->setObjectName(name);
+        look::drawAsButton(*button);
+        button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        button->setFocusPolicy(Qt::StrongFocus);
+        buttons->addWidget(button);
+    }
+    auto* layout = new QVBoxLayout(start);
+    layout->setContentsMargins(0, 4, 0, 4);
+    layout->setSpacing(4);
+    layout->addWidget(time_);
+    layout->addLayout(buttons);
+    connect(run_.draft(), &QAction::changed, this, &TrackPage::showTime);
+    connect(run_.start(), &QAction::changed, this, &TrackPage::showTime);
+    return start;
+}
+
+void TrackPage::showTime() {
+    const auto draft = session_ ? session_->draft() : std::nullopt;
+    draftPreset_->setEnabled(draft.has_value());
+    const double seconds = session_ ? session_->estimatedSeconds() : 0.0;
+    time_->setVisible(session_ && session_->problems().empty() &&
+                      session_->state() == session::RunState::idle);
+    if (seconds <= 0.0) {
+        time_->setText(tr("How long learning takes on this machine is being measured."));
+    } else if (draft) {
+        time_->setText(tr("Learning takes about <b>%1</b> on this machine, a draft about <b>%2</b>.")
+                           .arg(look::roughDurationText(seconds), look::roughDurationText(draft->seconds)));
+    } else {
+        time_->setText(
+            tr("Learning takes about <b>%1</b> on this machine.").arg(look::roughDurationText(seconds)));
+    }
 }
 
 void TrackPage::addContactChoice() {
@@ -187,6 +246,7 @@ void TrackPage::setSession(session::StudySession* session) {
         connect(session_, &StudySession::settingsChanged, this, &TrackPage::refresh);
         connect(session_, &StudySession::partChanged, this, &TrackPage::refresh);
         connect(session_, &StudySession::stateChanged, this, &TrackPage::refresh);
+        connect(session_, &StudySession::estimated, this, &TrackPage::showTime);
         connect(session_, &StudySession::generationSaved, this, [this] {
             if (locked_->isHidden() == session_->locked()) refresh();
         });
@@ -207,6 +267,7 @@ void TrackPage::refresh() {
     form_->QWidget::setVisible(session_ != nullptr);
     locked_->setVisible(session_ && session_->locked());
     problems_->hide();
+    showTime();
     help_->setText(tr("Point at a field to read what it means."));
     if (!session_) return;
 
@@ -272,6 +333,21 @@ void TrackPage::usePreset(const QString& name, const QString& title) {
     settings->part = session_->settings().part;
     settings->feeder = session_->settings().feeder;
     edit(*settings, title);
+}
+
+void TrackPage::useDraft() {
+    const auto draft = session_ ? session_->draft() : std::nullopt;
+    if (!draft) return;
+    study::Settings settings = session_->settings();
+    settings.evolution = draft->evolution;
+    edit(settings, tr("Draft in 10 minutes"));
+}
+
+void TrackPage::useFullLearning() {
+    if (!session_) return;
+    study::Settings settings = session_->settings();
+    settings.evolution = work::fullEvolution(settings.evolution);
+    edit(settings, tr("Full learning"));
 }
 
 void TrackPage::usePaperMode() {

@@ -15,13 +15,14 @@ class QLabel;
 namespace trapwright::pages {
 
 class DriveCard;
+class RunActions;
 class SettingsForm;
 
 /// Step 2: what the track is made of, how it vibrates and how it is learned; the scene follows every edit.
 class TrackPage : public Page {
     Q_OBJECT
  public:
-    explicit TrackPage(QWidget* parent = nullptr);
+    explicit TrackPage(RunActions& run, QWidget* parent = nullptr);
 
     void setSession(session::StudySession* session) override;
     void activate(scene::SceneView& scene) override;
@@ -32,6 +33,7 @@ class TrackPage : public Page {
 
  private:
     QWidget* makeHead();
+    QWidget* makeStart(QWidget* parent);
     void addContactChoice();
     void refresh();
     void showProblems();
@@ -39,9 +41,13 @@ class TrackPage : public Page {
     void edit(const study::Settings& settings, const QString& what);
     void usePreset(const QString& name, const QString& title);
     void usePaperMode();
+    void useFullLearning();
+    void useDraft();
+    void showTime();
     void showTrack();
     void showTitle();
 
+    RunActions& run_;
     QPointer<session::StudySession> session_;
     scene::SceneView* scene_ = nullptr;  // while the page is shown
     session::TrackBuild build_;
@@ -53,6 +59,8 @@ class TrackPage : public Page {
     QWidget* locked_;
     QLabel* title_;
     QLabel* size_;
+    QLabel* time_;
+    QAction* draftPreset_;
     QLabel* problems_;
     QLabel* help_;
 };

@@ -35,6 +35,7 @@ constexpr int kNarrow = 240;
 
 TrialList::TrialList()
     : source_(new QComboBox(this)),
+      pose_(new QComboBox(this)),
       table_(new QTableView(this)),
       empty_(new QLabel),
       stack_(new QStackedLayout),
@@ -48,6 +49,11 @@ TrialList::TrialList()
     source_->setAccessibleName(tr("Trials"));
     source_->setToolTip(tr("Which of the simulated trials are listed"));
     connect(source_, &QComboBox::activated, this, &TrialList::sourceChosen);
+    pose_->setObjectName("trials.pose");
+    pose_->setAccessibleName(tr("Start pose"));
+    pose_->setToolTip(tr("In which of the poses that look the same the parts began"));
+    pose_->hide();
+    connect(pose_, &QComboBox::activated, this, &TrialList::applyPose);
 
     empty_->setAlignment(Qt::AlignCenter);
     empty_->setWordWrap(true);
@@ -61,6 +67,7 @@ TrialList::TrialList()
     column->setContentsMargins(8, 8, 8, 8);
     column->setSpacing(6);
     column->addWidget(source_);
+    column->addWidget(pose_);
     column->addWidget(makeChips());
     column->addLayout(stack_, 1);
     column->addWidget(makeFoot());
@@ -155,6 +162,37 @@ void TrialList::setSources(const std::vector<TrialSource>& sources, int current)
         source_->addItem(tr("%1 (%2)").arg(source.name, QLocale().toString(source.count)));
     source_->setVisible(!sources.empty());
     source_->setCurrentIndex(current);
+    listPoses(current >= 0 && current < static_cast<int>(sources.size())
+                  ? sources[static_cast<std::size_t>(current)].request.poses
+                  : std::vector<int>());
+}
+
+void TrialList::listPoses(const std::vector<int>& poses) {
+    const bool several = poses.size() > 1;
+    std::vector<int> listed;
+    for (int i = 1; i < pose_->count(); ++i)
+        listed.push_back(pose_->itemData(i).toInt());
+    pose_->setVisible(several);
+    table_->setColumnHidden(TrialModel::Pose, !several);
+    if (several && listed == poses) return;
+    pose_->clear();
+    if (several) {
+        pose_->addItem(tr("All %1 alike poses").arg(poses.size()));
+        for (const int pose : poses)
+            pose_->addItem(tr("Pose %1").arg(pose + 1), pose);
+    }
+    applyPose();
+}
+
+void TrialList::setPose(std::optional<int> pose) {
+    pose_->setCurrentIndex(pose ? std::max(0, pose_->findData(*pose)) : 0);
+    applyPose();
+}
+
+void TrialList::applyPose() {
+    const QVariant pose = pose_->currentData();
+    filter_.setPose(pose.isValid() ? std::optional(pose.toInt()) : std::nullopt);
+    if (ghosts_->value() > 0) emit chosenChanged();
 }
 
 void TrialList::setEmptyText(const QString& text) {

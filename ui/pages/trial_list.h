@@ -43,6 +43,8 @@ class TrialList : public QWidget {
     [[nodiscard]] const models::TrialFilter& filter() const { return filter_; }
 
     void setVerdicts(const std::set<work::TrialVerdict>& verdicts);
+    /// Of trials that began in poses which look the same only those of this one; none: of all.
+    void setPose(std::optional<int> pose);
     /// Selects this trial alone.
     void select(int trial);
     /// The first that is shown; none if none is.
@@ -67,11 +69,14 @@ class TrialList : public QWidget {
     void sizeColumns();
     void fitColumns();
     void applyChips();
+    void applyPose();
+    void listPoses(const std::vector<int>& poses);
     void showCounts(int wanted);
 
     models::TrialModel model_;
     models::TrialFilter filter_;
     QComboBox* source_;
+    QComboBox* pose_;                 // to choose one of several that look the same
     QHash<int, QToolButton*> chips_;  // by verdict
     QTableView* table_;
     QLabel* empty_;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "core/study/pose_weights.h"
+#include "core/study/validation.h"
 #include "core/trial/fitness.h"
 #include "ui/charts/orientation_chart.h"
+#include "ui/models/numbers.h"
 #include "ui/pages/transport_bar.h"
 
 namespace trapwright::pages {
@@ -17,17 +20,22 @@ namespace {
 constexpr double kInterval = 1e-3;  // between the samples of a replay [s]
 
 bool isSame(const work::TrialsRequest& a, const work::TrialsRequest& b) {
-    return a.kind == b.kind && a.pose == b.pose && a.winner.generation == b.winner.generation &&
+    return a.kind == b.kind && a.poses == b.poses && a.winner.generation == b.winner.generation &&
            a.winner.individual == b.winner.individual;
 }
 
 std::vector<models::TrialRow> makeRows(const SimulatedTrials& trials, const part::SymmetryGroup& symmetry) {
     std::vector<models::TrialRow> rows;
+    // As many of each pose, one pose after the other.
+    const std::vector<int>& poses = trials.request.poses;
+    const std::size_t ofEachPose =
+        std::max<std::size_t>(1, static_cast<std::size_t>(trials.wanted) / poses.size());
     for (std::size_t i = 0; i < trials.outcomes.size(); ++i) {
         const trial::Outcome& outcome = trials.outcomes[i];
-        models::TrialRow row{static_cast<int>(i),
-                             trials.request.kind == TrialKind::validation ? trials.request.pose : -1,
-                             trials.judged.verdicts[i], outcome};
+        const int pose = trials.request.kind == TrialKind::validation
+                             ? poses[std::min(i / ofEachPose, poses.size() - 1)]
+                             : -1;
+        models::TrialRow row{static_cast<int>(i), pose, trials.judged.verdicts[i], outcome};
         if (outcome.ending == trial::Ending::finished)
             row.angle = trial::calcOrientationAngle(outcome.farthest.rotation, trials.judged.expected,
                                                     symmetry, trial::OrientationDistance::symmetric);
@@ -138,14 +146,18 @@ void TrialReview::setScene(scene::SceneView* scene) {
     wantTrials();
 }
 
-void TrialReview::goToTrials(int pose, const std::set<work::TrialVerdict>& verdicts) {
+void TrialReview::goToTrials(const std::vector<int>& poses, const std::set<work::TrialVerdict>& verdicts) {
     const auto wanted = std::find_if(sources_.begin(), sources_.end(), [&](const TrialSource& source) {
-        return source.request.kind == TrialKind::validation && source.request.pose == pose;
+        const std::vector<int>& own = source.request.poses;
+        return source.request.kind == TrialKind::validation && !poses.empty() &&
+               std::find(own.begin(), own.end(), poses.front()) != own.end();
     });
     if (wanted == sources_.end()) return;
     list_->setVerdicts(verdicts);
     const auto index = static_cast<int>(wanted - sources_.begin());
+    const bool oneOfSeveral = poses.size() == 1 && wanted->request.poses.size() > 1;
     if (index != source_) setSource(index);
+    list_->setPose(oneOfSeveral ? std::optional(poses.front()) : std::nullopt);
     playWanted_ = true;
     playFirstShown();
 }
@@ -172,10 +184,16 @@ void TrialReview::makeSources() {
         for (const study::ValidationRecord& validation : session_->validations())
             if (isWinner(validation)) last = &validation;
         if (last != nullptr) {
-            for (const study::ValidationRow& row : last->rows)
-                sources_.push_back({tr("Validation, pose %1").arg(row.pose + 1),
-                                    {TrialKind::validation, *winner_, row.pose},
-                                    row.trials});
+            const study::ValidationTable table =
+                study::tabulate(*last, study::weighPoseGroups(*session_->part(), session_->settings()));
+            for (const study::ValidationGroup& group : table.groups) {
+                std::vector<int> poses;
+                for (const study::ValidationRow& row : group.rows)
+                    poses.push_back(row.pose);
+                sources_.push_back({tr("Validation, %1").arg(models::poseName(poses)),
+                                    {TrialKind::validation, *winner_, poses},
+                                    group.sum.trials});
+            }
         }
     }
     list_->setSources(sources_, source_);

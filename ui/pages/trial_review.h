@@ -45,9 +45,9 @@ class TrialReview : public QObject {
     /// Where replays are seen; null while they are not.
     void setScene(scene::SceneView* scene);
 
-    /// Lists the validation's trials of a pose that ended so, and plays the first of them as soon as it is
-    /// known.
-    void goToTrials(int pose, const std::set<work::TrialVerdict>& verdicts);
+    /// Lists the validation's trials of these poses that ended so, and plays the first of them as soon as it
+    /// is known. One pose of several that look the same is listed alone.
+    void goToTrials(const std::vector<int>& poses, const std::set<work::TrialVerdict>& verdicts);
 
  signals:
     void failed(const QString& what, const QString& message);

@@ -130,14 +130,14 @@ void addTrackLabels(std::vector<OverlayItem>& items, const SceneContents& conten
 
 void addPoseLabels(std::vector<OverlayItem>& items, const SceneContents& contents, const Camera& camera,
                    const QSizeF& screen) {
-    const part::Part& part = *contents.stablePoses;
-    const PoseRow row = makePoseRow(part);
+    const PoseRow row = makePoseRow(*contents.stablePoses);
     for (std::size_t i = 0; i < row.labels.size(); ++i) {
         const auto place = camera.project(row.labels[i], screen);
         if (!place) continue;
-        const double percent = 100.0 * part.stablePoses[i].probability;
+        const double percent = 100.0 * row.groups[i].probability;
         const QString share = QLocale().toString(percent, 'f', percent < 9.95 ? 1 : 0) + QStringLiteral(" %");
-        items.push_back(makeHeading({QString::number(i + 1), share}, *place, true, contents.theme));
+        const QString name = QString::fromStdString(part::namePoses(row.groups[i].poses)).replace(u'-', u'–');
+        items.push_back(makeHeading({name, share}, *place, true, contents.theme));
     }
 }
 

@@ -40,7 +40,9 @@ PoseRow makePoseRow(const part::Part& part) {
     std::vector<geometry::Box> boxes;
     double width = -gap;
     double depth = 0.0;
-    for (const part::StablePose& stable : part.stablePoses) {
+    row.groups = part::findPoseGroups(part);
+    for (const part::PoseGroup& group : row.groups) {
+        const part::StablePose& stable = part.stablePoses[static_cast<std::size_t>(group.poses.front())];
         row.poses.push_back({facingFront(part, stable.rotation), Vec3::Zero()});
         boxes.push_back(boxOf(part, row.poses.back()));
         width += boxes.back().size().x() + gap;

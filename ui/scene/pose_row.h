@@ -2,15 +2,17 @@
 
 #include <vector>
 
-#include "core/part/part.h"
+#include "core/part/stable_poses.h"
 
 namespace trapwright::scene {
 
-/// A part in its stable poses side by side on a flat, most probable first, left to right as seen from the
-/// front (paper, Figure 5). In the room, in metres; the flat lies at z = 0 around the origin.
+/// A part in its stable poses side by side on a flat, one of each group of alike ones, most probable first,
+/// left to right as seen from the front (paper, Figure 5). In the room, in metres; the flat lies at z = 0
+/// around the origin.
 struct PoseRow {
-    std::vector<base::Pose> poses;   // by stable pose
-    std::vector<base::Vec3> labels;  // by stable pose: the place on the flat where its label belongs
+    std::vector<part::PoseGroup> groups;
+    std::vector<base::Pose> poses;   // by group: its first stable pose
+    std::vector<base::Vec3> labels;  // by group: the place on the flat where its label belongs
     geometry::Box flat;              // of no height: what the flat has to cover
 };
 

@@ -66,9 +66,10 @@ void SceneView::State::pick(const QPointF& place) {
     };
     int picked = -1;
     if (contents.stablePoses) {
-        const std::vector<base::Pose> poses = makePoseRow(*contents.stablePoses).poses;
-        for (std::size_t i = 0; i < poses.size(); ++i) {
-            if (isNearer(findHit(contents.stablePoses->mesh, poses[i], ray))) picked = static_cast<int>(i);
+        const PoseRow row = makePoseRow(*contents.stablePoses);
+        for (std::size_t i = 0; i < row.poses.size(); ++i) {
+            if (isNearer(findHit(contents.stablePoses->mesh, row.poses[i], ray)))
+                picked = row.groups[i].poses.front();
         }
         if (picked >= 0) emit view.stablePosePicked(picked);
         return;

@@ -202,8 +202,10 @@ unsigned StudySession::threads() const {
 }
 
 void StudySession::setThreads(unsigned threads) {
+    if (state_->threads == threads) return;
     state_->threads = threads;
-    state_->estimatedSeconds = 0.0;
+    state_->forgetCost();
+    emit estimated(0.0);
 }
 
 base::Status StudySession::saveAs(const std::filesystem::path& path) {

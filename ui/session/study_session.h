@@ -41,6 +41,12 @@ struct SimulatedTrials {
     work::JudgedTrials judged;             // likewise
 };
 
+/// Learning cut down to what a user waits for.
+struct LearningDraft {
+    study::EvolutionSettings evolution;
+    double seconds = 0.0;  // of learning, estimated
+};
+
 /// One open study. Lives in the GUI thread and never makes it wait: a thread of its own learns, selects and
 /// validates and writes the file; another simulates trials and replays, also while the first one learns; a
 /// third writes down what is noted of the feeder meanwhile; what the GUI reads comes through a second,
@@ -170,11 +176,15 @@ class StudySession : public QObject {
     void replay(const work::TrialsRequest& request, int trial, double interval);
     /// Nothing is heard of what simulateTrials() and replay() were asked for so far.
     void cancelSimulations();
-    /// Times a few individuals, then tells by estimated() how long the run will take from here. Does nothing
-    /// while something goes on or the study has problems.
+    /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
+    /// from here. Does nothing while something goes on or the study has problems; what begins meanwhile ends
+    /// it. What is known then holds for any number of individuals, trials and generations.
     void requestEstimate();
-    /// The last estimate [s]; 0 if there is none for the present settings.
+    /// The last estimate [s]; 0 if there is none for the present settings, or nothing is left.
     [[nodiscard]] double estimatedSeconds() const;
+    /// What can be learned in less than ten minutes (work::draftEvolution). None before the estimate, once
+    /// there are generations, or where nothing useful fits.
+    [[nodiscard]] std::optional<LearningDraft> draft() const;
 
     /// Copies the study to a new file and goes on with that one. An error if something goes on, or if the
     /// path exists.
@@ -202,6 +212,7 @@ class StudySession : public QObject {
     void trialsSimulated(const trapwright::session::SimulatedTrials& trials);
     void replayed(const trapwright::work::TrialsRequest& request, int trial,
                   const std::shared_ptr<const trapwright::trial::Trajectory>& trajectory);
+    /// 0: the estimate before does not hold any more.
     void estimated(double seconds);
     /// `what` could not be done (a short phrase), and why and what to do.
     void failed(const QString& what, const QString& message);

@@ -1,3 +1,4 @@
+#include "core/work/estimate.h"
 #include "ui/session/study_session_state.h"
 
 namespace trapwright::session {
@@ -55,9 +56,10 @@ void StudySession::pushPart(const PartVersion& version, const QString& what) {
 
 void StudySession::applySettings(const study::Settings& settings) {
     // The part has commands of its own.
-    const study::PartSettings part = state_->settings.part;
+    const study::Settings before = state_->settings;
     state_->settings = settings;
-    state_->settings.part = part;
+    state_->settings.part = before.part;
+    if (!work::costTheSame(before, state_->settings)) state_->forgetCost();
     if (state_->run) state_->run->learning.setGenerations(settings.evolution.generations);
     saveDesign(nullptr);
     emit settingsChanged();
@@ -66,6 +68,7 @@ void StudySession::applySettings(const study::Settings& settings) {
 void StudySession::applyPart(const PartVersion& version) {
     state_->part = version;
     state_->settings.part = version.settings;
+    state_->forgetCost();
     saveDesign(version.stored);
     emit partChanged();
     emit settingsChanged();
@@ -73,8 +76,6 @@ void StudySession::applyPart(const PartVersion& version) {
 
 void StudySession::saveDesign(const std::shared_ptr<const store::StoredPart>& part) {
     state_->findProblems();
-    state_->estimatedSeconds = 0.0;
-    state_->estimate.cancel();
     state_->writer.setPending(state_->settings, part);
     state_->work->post([this] { savePending(); });
 }

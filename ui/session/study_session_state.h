@@ -83,11 +83,11 @@ struct StudySession::State {
     RunState told = RunState::idle;      // by stateChanged()
     std::shared_ptr<Run> run;            // null while that thread is idle
     QTimer tick;
-    int simulations = 0;          // that are not done
-    base::RunControl simulated;   // of those that are wanted
-    base::RunControl estimate;    // of the last one
-    base::RunControl speedTable;  // likewise
-    double estimatedSeconds = 0.0;
+    int simulations = 0;           // that are not done
+    base::RunControl simulated;    // of those that are wanted
+    base::RunControl estimate;     // of the last one
+    base::RunControl speedTable;   // likewise
+    double secondsPerTrial = 0.0;  // while learning; 0: not known for these settings
 
     StudyWriter writer;
     std::unique_ptr<StudyLedger> ledger;
@@ -96,6 +96,11 @@ struct StudySession::State {
     std::unique_ptr<WorkThread> simulating;  // the one that does not
 
     void findProblems();
+    /// A trial costs something else from now on, or other work has its turn.
+    void forgetCost() {
+        secondsPerTrial = 0.0;
+        estimate.cancel();
+    }
     /// Where the reader could not be opened again.
     [[nodiscard]] base::Error cannotRead() const;
     /// Called on any thread; throws nothing.

@@ -7,7 +7,7 @@ namespace trapwright::session {
 
 namespace {
 
-constexpr double kEstimateBudget = 0.5;  // [s]
+constexpr double kEstimateBudget = 1.0;  // [s]
 constexpr int kAtOnce = 60;              // trials, before others have their turn
 
 QString noTrials() {
@@ -51,6 +51,8 @@ void StudySession::makeAgain(const QString& what, const work::TrialsRequest& req
 /// `simulate` works on the thread for it, after what was posted before.
 void StudySession::postSimulation(const QString& what, const base::RunControl& control,
                                   std::function<Deliver()> simulate) {
+    // Who waits for trials shall not wait for an estimate; it is asked for again.
+    state_->estimate.cancel();
     countSimulations(1);
     state_->simulating->post([this, what, control, simulate = std::move(simulate)] {
         auto deliver = control.cancelled() ? Deliver(std::function<void()>()) : simulate();
@@ -130,29 +132,36 @@ void StudySession::countSimulations(int change) {
 
 void StudySession::requestEstimate() {
     state_->estimate.cancel();
-    if (state_->run || !state_->problems.empty()) return;
+    if (state_->run || state_->simulations > 0 || !state_->problems.empty()) return;
     state_->estimate = base::RunControl();
     state_->simulating->post([this, control = state_->estimate, settings = state_->settings,
-                              part = state_->part.part, threads = state_->threads,
-                              done = static_cast<int>(state_->summaries.size())] {
+                              part = state_->part.part, threads = state_->threads] {
         if (control.cancelled()) return;
         const auto inputs =
             State::makeInputs(state_->environment, settings, part, work::EngineUse::learning, threads);
         if (!inputs) return;
-        const auto seconds = work::estimateLearning(*inputs, kEstimateBudget, control);
+        const auto seconds = work::timeTrial(*inputs, kEstimateBudget, control);
         if (!seconds) return;
-        const int generations = settings.evolution.generations;
-        const double left = *seconds * std::max(generations - done, 0) / generations;
-        tell(this, [this, control, left] {
+        tell(this, [this, control, seconds = *seconds] {
             if (control.cancelled()) return;
-            state_->estimatedSeconds = left;
-            emit estimated(left);
+            state_->secondsPerTrial = seconds;
+            emit estimated(estimatedSeconds());
         });
     });
 }
 
 double StudySession::estimatedSeconds() const {
-    return state_->estimatedSeconds;
+    const study::EvolutionSettings& evolution = state_->settings.evolution;
+    const int left = evolution.generations - static_cast<int>(state_->summaries.size());
+    return work::learningTime(evolution, std::max(left, 0), state_->secondsPerTrial);
+}
+
+std::optional<LearningDraft> StudySession::draft() const {
+    if (state_->secondsPerTrial <= 0.0 || !state_->summaries.empty()) return std::nullopt;
+    const auto evolution = work::draftEvolution(state_->settings.evolution, state_->secondsPerTrial);
+    if (!evolution) return std::nullopt;
+    return LearningDraft{*evolution,
+                         work::learningTime(*evolution, evolution->generations, state_->secondsPerTrial)};
 }
 
 }  // namespace trapwright::session

@@ -1,5 +1,6 @@
 #include "ui/window/main_window.h"
 
+#include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileInfo>
@@ -8,17 +9,21 @@
 #include <QSettings>
 #include <QTimer>
 #include <QUndoGroup>
+#include <utility>
 
+#include "ui/help/help_window.h"
 #include "ui/look/icon.h"
 #include "ui/look/message_bar.h"
 #include "ui/look/text.h"
 #include "ui/pages/page.h"
 #include "ui/session/part_import.h"
+#include "ui/window/help_place.h"
 #include "ui/window/page_docks.h"
 #include "ui/window/page_list.h"
 #include "ui/window/rail.h"
 #include "ui/window/scene_frame.h"
 #include "ui/window/status_line.h"
+#include "ui/window/tour.h"
 #include "ui/window/welcome.h"
 
 namespace trapwright::window {
@@ -63,10 +68,21 @@ MainWindow::MainWindow(session::Environment environment)
 
     Welcome& welcome = frame_->welcome();
     connect(&welcome, &Welcome::importWanted, this, &MainWindow::askForPart);
+    connect(&welcome, &Welcome::draftWanted, this, &MainWindow::askForDraft);
+    connect(&welcome, &Welcome::tourWanted, this, &MainWindow::startTour);
+    connect(&welcome, &Welcome::helpWanted, this, &MainWindow::showHelp);
+    connect(&welcome, &Welcome::forgetWanted, this,
+            [this](const QString& path) { desk_.recent().remove(QFile::encodeName(path).toStdString()); });
     connect(&welcome, &Welcome::openWanted, this, &MainWindow::askForStudy);
     connect(&welcome, &Welcome::exampleWanted, this, [this] { openExample("cuboid", true); });
     connect(&welcome, &Welcome::studyWanted, this,
             [this](const QString& path) { openStudy(QFile::encodeName(path).toStdString()); });
+
+    // Learning is watched where it is shown.
+    connect(&run_, &pages::RunActions::started, this, [this] {
+        const QString page = pages_[page_]->face().name;
+        if (page == "part" || page == "track") showPage("evolve");
+    });
 
     addFileMenu();
     addEditMenu();
@@ -80,7 +96,10 @@ MainWindow::MainWindow(session::Environment environment)
     setSession(nullptr);
     updateTitle();
     // After the window is seen: it reads the disk.
-    QTimer::singleShot(0, this, &MainWindow::offerRecovery);
+    QTimer::singleShot(0, this, [this] {
+        offerRecovery();
+        offerTour();
+    });
 }
 
 MainWindow::~MainWindow() {
@@ -143,7 +162,7 @@ void MainWindow::connectPage(pages::Page& page) {
     connect(&page, &pages::Page::studyWanted, this, [this](const work::LoadedPart& part) {
         whenClosable([this, part] {
             report(tr("No study can be made"), desk_.createDraft(part));
-            showPage("part");
+            showPage(std::exchange(pageAfterImport_, kFirstPage));
         });
     });
     connect(&page, &pages::Page::forkWanted, this, [this] {
@@ -224,6 +243,32 @@ std::optional<std::size_t> MainWindow::findPlace(const QString& name) const {
     for (std::size_t i = 0; i < pages_.size(); ++i)
         if (pages_[i]->face().name == name) return i;
     return std::nullopt;
+}
+
+void MainWindow::offerTour() {
+    constexpr auto kOffered = "tour/offered";
+    if (desk_.session() != nullptr || desk_.isOpening() || !frame_->messages().text().isEmpty()) return;
+    if (QSettings().value(kOffered).toBool()) return;
+    QSettings().setValue(kOffered, true);
+    frame_->messages().show(look::MessageKind::info, tr("New here?"),
+                            tr("A tour shows the window in five steps. It is in the Help menu as well."),
+                            {{tr("Take the tour"), [this] { startTour(); }}});
+}
+
+void MainWindow::startTour() {
+    if (tour_ != nullptr) return;
+    if (desk_.session() == nullptr) {
+        return openExample("cuboid", false, [this] { startTour(); });
+    }
+    tour_ = new Tour(*this, windowTour(), [this](const QString& page) { showPage(page); });
+    tour_->start();
+}
+
+void MainWindow::showHelp() {
+    if (help_ == nullptr) help_ = new help::HelpWindow(this);
+    const HelpPlace place = findHelp(help_->book(), QApplication::focusWidget(),
+                                     desk_.session() != nullptr ? pages_[page_]->face().name : QString());
+    help_->showAt(place.page, place.anchor);
 }
 
 void MainWindow::report(const QString& what, const base::Status& status) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QMainWindow>
+#include <QPointer>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -14,6 +15,10 @@
 class QMenu;
 class QUndoGroup;
 
+namespace trapwright::help {
+class HelpWindow;
+}
+
 namespace trapwright::pages {
 class Page;
 }
@@ -21,6 +26,7 @@ class Page;
 namespace trapwright::window {
 
 class PageDocks;
+class Tour;
 class Rail;
 class SceneFrame;
 class StatusLine;
@@ -65,12 +71,19 @@ class MainWindow : public QMainWindow {
         const QString& name) const;  // in the order of the rail
 
     void askForPart();
+    void askForDraft();
     void askForStudy();
     void askForSaveAs(const std::function<void()>& afterwards);
     void importPart(const std::filesystem::path& file, bool asNewStudy);
     void openStudy(const std::filesystem::path& file, bool learn = false);
-    void openExample(const QString& name, bool learn);
+    void openExample(
+        const QString& name, bool learn, const std::function<void()>& afterwards = [] {});
     void offerRecovery();
+    void offerTour();
+    /// Through the open study, or through an example where none is open.
+    void startTour();
+    /// The help at what has the focus.
+    void showHelp();
     /// Calls `afterwards` once nothing would be lost any more: asks about a run and about a draft.
     void whenClosable(const std::function<void()>& afterwards);
     void whenIdle(const std::function<void()>& afterwards);
@@ -96,6 +109,9 @@ class MainWindow : public QMainWindow {
     QMenu* recentMenu_ = nullptr;
     QMenu* docksMenu_ = nullptr;
     QList<QAction*> studyActions_;  // that need an open study
+    QString pageAfterImport_ = QStringLiteral("part");
+    QPointer<Tour> tour_;
+    help::HelpWindow* help_ = nullptr;  // once it was asked for
     bool mayClose_ = false;
 };
 

@@ -143,12 +143,14 @@ void MainWindow::addViewMenu() {
 
 void MainWindow::addRunMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&Run"));
-    menu.addActions({run_.start(), run_.pause(), run_.stopAfterGeneration(), run_.stopNow()});
+    menu.addActions({run_.start(), run_.draft(), run_.pause(), run_.stopAfterGeneration(), run_.stopNow()});
 }
 
 void MainWindow::addHelpMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&Help"));
-    addItem(menu, "help.shortcuts", "keyboard", tr("&Keyboard shortcuts"), Qt::Key_F1, this,
+    addItem(menu, "help.open", "help", tr("&Help on this place"), Qt::Key_F1, this, &MainWindow::showHelp);
+    addItem(menu, "help.tour", "tour", tr("&Tour"), {}, this, &MainWindow::startTour);
+    addItem(menu, "help.shortcuts", "keyboard", tr("&Keyboard shortcuts"), Qt::CTRL | Qt::Key_F1, this,
             [this] { showShortcuts(this, findShortcuts(*this)); });
     addItem(menu, "help.about", "info", tr("&About Trapwright"), {}, this, [this] {
         auto* box = new QMessageBox(this);
@@ -194,7 +196,8 @@ void MainWindow::showRecent() {
     recentMenu_->clear();
     for (const QString& study : studies) {
         addItem(*recentMenu_, "recent." + study, {}, look::pathText(study.toStdString()).replace('&', "&&"),
-                {}, this, [this, study] { openStudy(QFile::encodeName(study).toStdString()); });
+                {}, this, [this, study] { openStudy(QFile::encodeName(study).toStdString()); })
+            ->setEnabled(QFile::exists(study));
     }
     recentMenu_->addSeparator();
     addItem(*recentMenu_, "recent.clear", {}, tr("&Clear this list"), {}, &desk_.recent(),

@@ -17,6 +17,11 @@ using session::RunState;
 
 namespace {
 
+// Small enough that the example's first winners are seen within some seconds on two cores.
+constexpr int kExamplePopulation = 40;
+constexpr int kExampleTrials = 40;
+constexpr int kExampleGenerations = 60;
+
 QString studyFilter() {
     return MainWindow::tr("Studies (*.trap)");
 }
@@ -46,6 +51,14 @@ void MainWindow::askForPart() {
                      [this](const std::filesystem::path& file) { importPart(file, true); });
 }
 
+/// A part to learn quickly with: once it is imported, Evolve tells how long a draft takes, and offers it.
+void MainWindow::askForDraft() {
+    look::askForFile(this, pages::partQuestion(), [this](const std::filesystem::path& file) {
+        importPart(file, true);
+        pageAfterImport_ = "evolve";
+    });
+}
+
 void MainWindow::askForStudy() {
     look::askForFile(this, {"study", tr("Open a study"), tr("Open"), studyFilter(), {}, {}},
                      [this](const std::filesystem::path& file) { openStudy(file); });
@@ -61,6 +74,7 @@ void MainWindow::askForSaveAs(const std::function<void()>& afterwards) {
 }
 
 void MainWindow::importPart(const std::filesystem::path& file, bool asNewStudy) {
+    pageAfterImport_ = "part";
     const auto import = [this, file] {
         frame_->messages().clear();
         pages::Page* page = findPage("part");
@@ -77,7 +91,6 @@ void MainWindow::openStudy(const std::filesystem::path& file, bool learn) {
     if (desk_.session() != nullptr && desk_.session()->path() == file) return;
     whenClosable([this, file, learn] {
         desk_.open(file, [this, file, learn](const base::Status& opened) {
-            if (!opened && !std::filesystem::exists(file)) desk_.recent().remove(file);
             report(tr("The study cannot be opened"), opened);
             if (!opened || !learn) return;
             showPage("evolve");
@@ -86,8 +99,8 @@ void MainWindow::openStudy(const std::filesystem::path& file, bool learn) {
     });
 }
 
-void MainWindow::openExample(const QString& name, bool learn) {
-    whenClosable([this, name, learn] {
+void MainWindow::openExample(const QString& name, bool learn, const std::function<void()>& afterwards) {
+    whenClosable([this, name, learn, afterwards] {
         auto* import = new session::PartImport(this);
         connect(import, &session::PartImport::failed, this,
                 [this, import](const work::PartRequest&, const QString& message) {
@@ -95,11 +108,17 @@ void MainWindow::openExample(const QString& name, bool learn) {
                     fail(tr("The example cannot be opened"), message);
                 });
         connect(import, &session::PartImport::finished, this,
-                [this, import, learn](const work::LoadedPart& part) {
+                [this, import, learn, afterwards](const work::LoadedPart& part) {
                     import->deleteLater();
                     const base::Status created = desk_.createDraft(part);
                     report(tr("The example cannot be opened"), created);
-                    if (!created || !learn) return;
+                    if (!created) return;
+                    if (!learn) return afterwards();
+                    study::Settings settings = desk_.session()->settings();
+                    settings.evolution.populationSize = kExamplePopulation;
+                    settings.evolution.trialsPerEvaluation = kExampleTrials;
+                    settings.evolution.generations = kExampleGenerations;
+                    desk_.session()->changeSettings(settings, tr("Example"));
                     showPage("evolve");
                     desk_.session()->startLearning();
                 });

@@ -10,8 +10,8 @@
 namespace trapwright::window {
 
 std::vector<pages::Page*> makePages(pages::RunActions& run, const session::Environment& environment) {
-    return {new pages::PartPage,   new pages::TrackPage,  new pages::EvolvePage(run),
-            new pages::ReviewPage, new pages::ExportPage, new feeder::ValidatePage(environment)};
+    return {new pages::PartPage,   new pages::TrackPage(run), new pages::EvolvePage(run),
+            new pages::ReviewPage, new pages::ExportPage,     new feeder::ValidatePage(environment)};
 }
 
 }  // namespace trapwright::window

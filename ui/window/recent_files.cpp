@@ -2,7 +2,7 @@
 
 #include <QFile>
 #include <QSettings>
-#include <algorithm>
+#include <QVariantMap>
 
 #include "ui/look/text.h"
 
@@ -42,11 +42,7 @@ void RecentFiles::clear() {
 }
 
 QStringList RecentFiles::list() const {
-    QStringList files = stored();
-    files.erase(
-        std::remove_if(files.begin(), files.end(), [](const QString& file) { return !QFile::exists(file); }),
-        files.end());
-    return files;
+    return stored();
 }
 
 void RecentFiles::setPage(const std::filesystem::path& file, const QString& page) {

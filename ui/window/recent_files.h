@@ -7,7 +7,7 @@
 namespace trapwright::window {
 
 /// The studies that were open recently, newest first, remembered between starts; and which page of each study
-/// was shown last. Those that are gone are left out.
+/// was shown last. Some may be gone, or on a disk that is not there at the moment.
 class RecentFiles : public QObject {
     Q_OBJECT
  public:

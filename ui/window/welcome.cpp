@@ -1,23 +1,29 @@
 #include "ui/window/welcome.h"
 
 #include <QEvent>
-#include <QFileInfo>
+#include <QGridLayout>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
-#include <QPushButton>
+#include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "ui/look/icon.h"
-#include "ui/look/text.h"
+#include "ui/look/theme.h"
+#include "ui/window/study_card.h"
+#include "ui/window/study_covers.h"
 
 namespace trapwright::window {
 
 namespace {
 
 constexpr int kChoiceWidth = 216;
-constexpr int kChoiceHeight = 160;
-constexpr int kChoiceIcon = 48;
-constexpr int kRecentShown = 5;
+constexpr int kChoiceHeight = 152;
+constexpr int kChoiceIcon = 40;
+constexpr int kGap = 16;
+constexpr int kColumns = 4;
+constexpr int kRecentShown = 8;
 
 /// A large button with a picture, a title and a sentence.
 class Choice : public QPushButton {
@@ -43,8 +49,8 @@ class Choice : public QPushButton {
         textLabel->setForegroundRole(QPalette::PlaceholderText);
 
         auto* layout = new QVBoxLayout(this);
-        layout->setContentsMargins(16, 20, 16, 12);
-        layout->setSpacing(8);
+        layout->setContentsMargins(14, 16, 14, 10);
+        layout->setSpacing(6);
         layout->addWidget(icon_, 0, Qt::AlignHCenter);
         layout->addWidget(titleLabel, 0, Qt::AlignHCenter);
         layout->addWidget(textLabel, 1);
@@ -72,90 +78,211 @@ class Choice : public QPushButton {
 
 Welcome::Welcome(QWidget* parent)
     : QWidget(parent),
-      choices_(new QWidget(this)),
-      recent_(new QWidget(this)),
-      recentList_(new QVBoxLayout(recent_)) {
+      area_(new QScrollArea(this)),
+      choices_(new QWidget),
+      recent_(new QWidget),
+      recentGrid_(new QGridLayout),
+      covers_(new StudyCovers(StudyCard::kPicture, this)) {
     setObjectName("welcome");
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Window);
+    setFocusPolicy(Qt::StrongFocus);
 
     auto* title = new QLabel(tr("A track for your part"), this);
     QFont font = title->font();
     font.setPointSizeF(font.pointSizeF() * 2.0);
     font.setWeight(QFont::DemiBold);
     title->setFont(font);
-    auto* hint = new QLabel(tr("Or drop a part or a study anywhere in this window."), this);
-    hint->setForegroundRole(QPalette::PlaceholderText);
 
     auto* row = new QHBoxLayout(choices_);
     row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(16);
+    row->setSpacing(kGap);
+    QPushButton* example =
+        addChoice("example", "example", tr("Watch an example"), tr("A 4 × 8 × 12 mm cuboid; learns at once"));
+    QPushButton* draft = addChoice("draft", "draft", tr("Draft in 10 minutes"),
+                                   tr("Your part, quick learning; its time is told before it starts"));
     QPushButton* import =
         addChoice("import", "import", tr("Import a part"), tr("STL, STEP, 3MF, OBJ, PLY, glTF or IGES"));
     QPushButton* open =
         addChoice("open", "open", tr("Open a study"), tr("Go on with learning, look at tracks, export"));
-    QPushButton* example =
-        addChoice("example", "example", tr("Watch an example"), tr("A 4 × 8 × 12 mm cuboid; learns at once"));
+    connect(example, &QPushButton::clicked, this, &Welcome::exampleWanted);
+    connect(draft, &QPushButton::clicked, this, &Welcome::draftWanted);
     connect(import, &QPushButton::clicked, this, &Welcome::importWanted);
     connect(open, &QPushButton::clicked, this, &Welcome::openWanted);
-    connect(example, &QPushButton::clicked, this, &Welcome::exampleWanted);
+    auto* heading = new QLabel(tr("Recent"), recent_);
+    QFont bold = heading->font();
+    bold.setBold(true);
+    heading->setFont(bold);
+    recentGrid_->setSpacing(kGap);
+    recentGrid_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    auto* recentLayout = new QVBoxLayout(recent_);
+    recentLayout->setContentsMargins(0, 0, 0, 0);
+    recentLayout->setSpacing(8);
+    recentLayout->addWidget(heading);
+    recentLayout->addLayout(recentGrid_);
+    recent_->setFixedWidth(kColumns * kChoiceWidth + (kColumns - 1) * kGap);
 
-    recentList_->setContentsMargins(0, 8, 0, 0);
-    recentList_->setSpacing(2);
-    recent_->setFixedWidth(3 * kChoiceWidth + 2 * 16);
-
-    auto* layout = new QVBoxLayout(this);
-    layout->setSpacing(20);
+    auto* contents = new QWidget(area_);
+    auto* layout = new QVBoxLayout(contents);
+    layout->setContentsMargins(kGap, kGap, kGap, kGap);
+    layout->setSpacing(kGap);
     layout->addStretch(2);
     layout->addWidget(title, 0, Qt::AlignHCenter);
     layout->addWidget(choices_, 0, Qt::AlignHCenter);
-    layout->addWidget(hint, 0, Qt::AlignHCenter);
+    layout->addWidget(makeNotes(), 0, Qt::AlignHCenter);
     layout->addWidget(recent_, 0, Qt::AlignHCenter);
     layout->addStretch(3);
+    area_->setWidget(contents);
+    area_->setWidgetResizable(true);
+    area_->setFrameShape(QFrame::NoFrame);
+    area_->setFocusPolicy(Qt::NoFocus);
+    auto* whole = new QVBoxLayout(this);
+    whole->setContentsMargins(0, 0, 0, 0);
+    whole->addWidget(area_);
+    connect(covers_, &StudyCovers::ready, this, &Welcome::showCovers);
 }
 
 QPushButton* Welcome::addChoice(const QString& name, const QString& icon, const QString& title,
                                 const QString& text) {
     auto* button = new Choice(icon, title, text, choices_);
     button->setObjectName("welcome." + name);
+    button->installEventFilter(this);
     choices_->layout()->addWidget(button);
+    choiceCards_.push_back(button);
     return button;
 }
 
-void Welcome::setRecent(const QStringList& studies, const QStringList& drafts) {
-    while (QLayoutItem* item = recentList_->takeAt(0)) {
-        if (item->widget() != nullptr) item->widget()->deleteLater();
-        delete item;
-    }
-    recent_->setVisible(!studies.isEmpty() || !drafts.isEmpty());
-    if (recent_->isHidden()) return;
+QWidget* Welcome::makeNotes() {
+    auto* notes =
+        new QLabel(tr("Drop a part or a study anywhere in this window. New here? <a href=\"tour\">Take the "
+                      "tour</a> or read the <a href=\"help\">help</a> (F1)."),
+                   this);
+    notes->setObjectName("welcome.notes");
+    notes->setForegroundRole(QPalette::PlaceholderText);
+    notes->setTextInteractionFlags(Qt::TextBrowserInteraction);
+    notes->setFocusPolicy(Qt::TabFocus);
+    connect(notes, &QLabel::linkActivated, this, [this](const QString& link) {
+        if (link == "tour") {
+            emit tourWanted();
+        } else {
+            emit helpWanted();
+        }
+    });
+    return notes;
+}
 
-    auto* heading = new QLabel(tr("Lately"), recent_);
-    QFont font = heading->font();
-    font.setBold(true);
-    heading->setFont(font);
-    recentList_->addWidget(heading);
-    const auto addLink = [&](const QString& path, const QString& place) {
-        const QString name = QFileInfo(path).completeBaseName();
-        auto* link = new QPushButton(recent_);
-        link->setObjectName("welcome.recent");
-        link->setFlat(true);
-        link->setCursor(Qt::PointingHandCursor);
-        link->setText(name + "    " + place);
-        link->setAccessibleName(tr("Open %1").arg(name));
-        link->setToolTip(path);
-        link->setStyleSheet(
-            "QPushButton { text-align: left; padding: 5px 6px; border: 1px solid transparent; border-radius: "
-            "4px; }"
-            "QPushButton:hover { background: palette(base); }"
-            "QPushButton:focus { border-color: palette(highlight); }");
-        connect(link, &QPushButton::clicked, this, [this, path] { emit studyWanted(path); });
-        recentList_->addWidget(link);
+void Welcome::setRecent(const QStringList& studies, const QStringList& drafts) {
+    const QWidget* focus = window()->focusWidget();
+    const bool hadFocus = isVisible() && (focus == nullptr || focus == this || isAncestorOf(focus));
+    for (StudyCard* card : recentCards_) {
+        card->hide();
+        card->setObjectName({});
+        card->deleteLater();
+    }
+    recentCards_.clear();
+    const auto add = [this](const QString& study, bool draft) {
+        const auto place = static_cast<int>(recentCards_.size());
+        if (place == kRecentShown) return;
+        auto* card = new StudyCard(study, draft, recent_);
+        card->installEventFilter(this);
+        connect(card, &StudyCard::openWanted, this, &Welcome::studyWanted);
+        connect(card, &StudyCard::removeWanted, this, &Welcome::forgetWanted, Qt::QueuedConnection);
+        recentGrid_->addWidget(card, place / kColumns, place % kColumns);
+        card->show();  // at once, so that it can have the focus
+        recentCards_.push_back(card);
     };
     for (const QString& draft : drafts)
-        addLink(draft, tr("not saved yet"));
-    for (const QString& study : studies.mid(0, kRecentShown))
-        addLink(study, look::pathText(QFileInfo(study).absolutePath().toStdString()));
+        add(draft, true);
+    for (const QString& study : studies)
+        add(study, false);
+    recent_->setVisible(!recentCards_.empty());
+    if (isVisible()) askForCovers();
+    if (hadFocus) focusLater();
+}
+
+void Welcome::askForCovers() {
+    covers_->setLook(look::schemeOf(palette()) == look::Scheme::dark, devicePixelRatioF());
+    QStringList studies;
+    for (const StudyCard* card : recentCards_)
+        studies << card->study();
+    covers_->want(studies);
+    showCovers();
+}
+
+void Welcome::showCovers() {
+    for (StudyCard* card : recentCards_)
+        if (const auto cover = covers_->find(card->study())) card->setCover(*cover);
+}
+
+std::vector<QPushButton*> Welcome::cards() const {
+    std::vector<QPushButton*> all = choiceCards_;
+    all.insert(all.end(), recentCards_.begin(), recentCards_.end());
+    return all;
+}
+
+/// To the next card in the direction of the key. Rows are as wide as each other, the last may be shorter.
+void Welcome::goTo(QPushButton* from, int key) {
+    const std::vector<QPushButton*> all = cards();
+    const auto place = static_cast<int>(std::find(all.begin(), all.end(), from) - all.begin());
+    const auto last = static_cast<int>(all.size()) - 1;
+    int next = place;
+    if (key == Qt::Key_Left) next = place - 1;
+    if (key == Qt::Key_Right) next = place + 1;
+    if (key == Qt::Key_Up) next = place - kColumns;
+    if (key == Qt::Key_Down)
+        next = place / kColumns < last / kColumns ? std::min(place + kColumns, last) : place;
+    if (next < 0 || next > last) return;
+    all[static_cast<std::size_t>(next)]->setFocus(Qt::TabFocusReason);
+    area_->ensureWidgetVisible(all[static_cast<std::size_t>(next)]);
+}
+
+/// Once what is about to be shown and hidden is.
+void Welcome::focusLater() {
+    QMetaObject::invokeMethod(this, &Welcome::focusFirst, Qt::QueuedConnection);
+}
+
+/// The study that was open last, else the first way to begin.
+void Welcome::focusFirst() {
+    QPushButton* first = recentCards_.empty() ? choiceCards_.front() : recentCards_.front();
+    first->setFocus(Qt::OtherFocusReason);
+}
+
+bool Welcome::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::KeyPress) return QWidget::eventFilter(watched, event);
+    auto* card = qobject_cast<QPushButton*>(watched);
+    const auto* press = static_cast<QKeyEvent*>(event);
+    if (card == nullptr || (press->modifiers() & ~Qt::KeypadModifier) != Qt::NoModifier)
+        return QWidget::eventFilter(watched, event);
+    switch (press->key()) {
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+            card->click();
+            return true;
+        case Qt::Key_Left:
+        case Qt::Key_Right:
+        case Qt::Key_Up:
+        case Qt::Key_Down:
+            goTo(card, press->key());
+            return true;
+        default:
+            return QWidget::eventFilter(watched, event);
+    }
+}
+
+void Welcome::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    askForCovers();
+    focusLater();
+}
+
+void Welcome::focusInEvent(QFocusEvent* event) {
+    QWidget::focusInEvent(event);
+    focusFirst();
+}
+
+void Welcome::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && isVisible()) askForCovers();
 }
 
 }  // namespace trapwright::window

@@ -91,7 +91,8 @@ class PhysicalTableTest : public QObject {
     // The paper's Table 2.
     void cuboid() {
         const ValidationRecord record = simulated({0, 10, 5, 9, 7, 7}, 1000);
-        const study::PhysicalTable table = study::comparePhysical(&record, physical({0, 0, 0, 0, 0, 0}, 100));
+        const study::PhysicalTable table =
+            study::comparePhysical(&record, physical({0, 0, 0, 0, 0, 0}, 100), {});
         QCOMPARE(table.rows.size(), std::size_t{6});
         QCOMPARE(table.total.simulated.failures, 38);
         QCOMPARE(table.total.simulated.trials, 6000);
@@ -107,14 +108,14 @@ class PhysicalTableTest : public QObject {
         QVERIFY2(contains(table.verdict, "600 of 600") && contains(table.verdict, "better"),
                  table.verdict.c_str());
         const std::string text = study::formatPhysical(table);
-        QVERIFY2(contains(text, "99.4 %") && contains(text, "100.0 %") && contains(text, "Total"),
+        QVERIFY2(contains(text, "99.4 %") && contains(text, "100.0 %") && contains(text, "Total, alike"),
                  text.c_str());
     }
 
     // Table 3.
     void cone() {
         const ValidationRecord record = simulated({25, 40, 37, 24}, 1000);
-        const study::PhysicalTable table = study::comparePhysical(&record, physical({1, 3, 2, 0}, 100));
+        const study::PhysicalTable table = study::comparePhysical(&record, physical({1, 3, 2, 0}, 100), {});
         QVERIFY(std::abs(table.total.physical.bounds.low - 0.9676) < 5e-5);
         QVERIFY(std::abs(table.total.physical.bounds.high - 0.9945) < 5e-5);
         QVERIFY2(std::abs(table.total.p.value() - 0.0652) < 0.008,
@@ -124,7 +125,7 @@ class PhysicalTableTest : public QObject {
 
     void oneBadPoseIsNamed() {
         const ValidationRecord record = simulated({10, 10, 10}, 1000);
-        const study::PhysicalTable table = study::comparePhysical(&record, physical({1, 60, 1}, 100));
+        const study::PhysicalTable table = study::comparePhysical(&record, physical({1, 60, 1}, 100), {});
         QVERIFY(table.total.p.value() < 0.001 && table.rows[1].p.value() < 0.001);
         QVERIFY2(contains(table.verdict, "worse") && contains(table.verdict, "less than 0.001") &&
                      contains(table.verdict, "poses differ from simulation: 2."),
@@ -139,21 +140,21 @@ class PhysicalTableTest : public QObject {
         half.trials.resize(110);  // 100 of pose 1; 10 failures of pose 2
         for (std::size_t i = 105; i < 110; ++i)
             half.trials[i].outcome = PhysicalOutcome::success;
-        const study::PhysicalTable table = study::comparePhysical(&record, half);
+        const study::PhysicalTable table = study::comparePhysical(&record, half, {});
         QVERIFY(table.total.p.value() > 0.9);
         QCOMPARE(table.total.planned, 200);
         QVERIFY2(contains(table.verdict, "no difference"), table.verdict.c_str());
     }
 
     void oneSideAlone() {
-        const study::PhysicalTable nothing = study::comparePhysical(nullptr, physical({}, 0));
+        const study::PhysicalTable nothing = study::comparePhysical(nullptr, physical({}, 0), {});
         QVERIFY(!nothing.total.p && contains(nothing.verdict, "No part"));
-        const study::PhysicalTable alone = study::comparePhysical(nullptr, physical({1}, 10));
+        const study::PhysicalTable alone = study::comparePhysical(nullptr, physical({1}, 10), {});
         QVERIFY(!alone.total.p && !alone.rows[0].p);
         QVERIFY2(contains(alone.verdict, "9 of 10") && contains(alone.verdict, "nothing to compare"),
                  alone.verdict.c_str());
         const ValidationRecord record = simulated({10}, 1000);
-        const study::PhysicalTable one = study::comparePhysical(&record, physical({1}, 10));
+        const study::PhysicalTable one = study::comparePhysical(&record, physical({1}, 10), {});
         QCOMPARE(one.total.p.value(), one.rows[0].p.value());
     }
 
@@ -194,7 +195,7 @@ class PhysicalTableTest : public QObject {
                 : i < virtualOnes + real ? study::FeederKind::real
                                          : study::FeederKind::unknown;
         }
-        const study::PhysicalTable table = study::comparePhysical(nullptr, validation);
+        const study::PhysicalTable table = study::comparePhysical(nullptr, validation, {});
         QCOMPARE(table.feeders.unknown, unknown);
         QCOMPARE(table.notice.empty(), notice.isEmpty());
         QVERIFY2(contains(table.notice, notice.toUtf8().constData()), table.notice.c_str());
@@ -229,20 +230,75 @@ class PhysicalTableTest : public QObject {
         validation.trials[0].note = "slow, \"humming\"";
         validation.trials[0].time = "2026-03-31T12:00:00Z";
         validation.trials[0].setPoint = 0.5;
-        const std::string table = study::physicalTableCsv(study::comparePhysical(&record, validation));
-        QCOMPARE(std::count(table.begin(), table.end(), '\n'), 4);
+        const std::string table = study::physicalTableCsv(study::comparePhysical(&record, validation, {}));
+        QCOMPARE(std::count(table.begin(), table.end(), '\n'), 5);
         const auto columns = [](const std::string& line) {
             return std::count(line.begin(), line.end(), ',');
         };
         const std::string heading = table.substr(0, table.find('\n'));
-        QCOMPARE(columns(table), 4 * columns(heading));
-        QVERIFY2(contains(table, "\n1,100,3,97,3,0,0,"), table.c_str());
+        QCOMPARE(columns(table), 5 * columns(heading));
+        QVERIFY2(contains(table, "\n1,0,100,3,97,3,0,0,"), table.c_str());
         const std::string trials = study::physicalTrialsCsv(validation);
         QVERIFY2(contains(trials,
                           "\n1,1,wrong-orientation,0,50,0,2026-03-31T12:00:00Z,\"slow, "
                           "\"\"humming\"\"\",unknown,,\n"),
                  trials.c_str());
         QCOMPARE(std::count(trials.begin(), trials.end(), '\n'), 5);
+    }
+
+    // A hexagon bolt: six alike poses lying, one on its head, one on its tip.
+    void alikePosesAreOneRow() {
+        const std::vector<part::PoseGroup> groups = {{{0, 1, 2, 3, 4, 5}, 0.906}, {{6}, 0.083}, {{7}, 0.011}};
+        const ValidationRecord record = simulated({10, 20, 10, 20, 10, 20, 100, 1000}, 1000);
+        PhysicalValidation feeder;
+        feeder.plan.poses = {0, 6, 7};
+        QCOMPARE(study::orderOfTrials(feeder.plan).size(), std::size_t{300});
+        for (const int pose : study::orderOfTrials(feeder.plan)) {
+            study::PhysicalTrial& trial = feeder.trials.emplace_back();
+            trial.number = static_cast<int>(feeder.trials.size()) - 1;
+            trial.pose = pose;
+            if (pose == 7) trial.outcome = PhysicalOutcome::stuck;
+        }
+        const study::PhysicalTable table = study::comparePhysical(&record, feeder, groups);
+        QCOMPARE(table.rows.size(), std::size_t{3});
+        QCOMPARE(table.rows[0].poses, groups[0].poses);
+        QCOMPARE(table.rows[0].planned, 100);
+        QCOMPARE(table.rows[0].simulated.trials, 6000);
+        QCOMPARE(table.rows[0].simulated.failures, 90);
+        QCOMPARE(table.rows[0].physical.trials, 100);
+        QCOMPARE(table.total.physical.trials, 300);
+        QCOMPARE(table.total.planned, 300);
+        QVERIFY(std::abs(*table.total.physical.rate - 200.0 / 300.0) < 1e-12);
+        QVERIFY(std::abs(*table.weighted.physical.rate - 0.989) < 1e-12);
+        QVERIFY(std::abs(*table.weighted.simulated.rate - (0.906 * 0.985 + 0.083 * 0.9)) < 1e-12);
+        QVERIFY(table.weighted.physical.bounds.low < 0.989 && table.weighted.physical.bounds.high > 0.989);
+        const std::string text = study::formatPhysical(table);
+        QVERIFY2(contains(text, "\n1-6 ") && contains(text, "90.6 %") && contains(text, "Total, weighted") &&
+                     contains(text, "98.9 %") && contains(text, "Total, alike"),
+                 text.c_str());
+        QVERIFY2(contains(table.verdict, "200 of 300") && contains(table.verdict, "Weighted"),
+                 table.verdict.c_str());
+        const std::string csv = study::physicalTableCsv(table);
+        QVERIFY2(contains(csv, "\n1 2 3 4 5 6,90.6"), csv.c_str());
+    }
+
+    // Studies of older programs planned every one of the alike poses.
+    void olderPlansAreGroupedToo() {
+        const std::vector<part::PoseGroup> groups = {{{0, 1}, 0.7}, {{2}, 0.3}};
+        const study::PhysicalTable table = study::comparePhysical(nullptr, physical({3, 5, 0}, 100), groups);
+        QCOMPARE(table.rows.size(), std::size_t{2});
+        QCOMPARE(table.rows[0].planned, 200);
+        QCOMPARE(table.rows[0].physical.trials, 200);
+        QCOMPARE(table.rows[0].physical.failures, 8);
+        QCOMPARE(table.total.planned, 300);
+        // A pose that the plan leaves out has no row and no weight.
+        const study::PhysicalTable some = study::comparePhysical(nullptr, physical({3, 5}, 100), groups);
+        QCOMPARE(some.rows.size(), std::size_t{1});
+        QVERIFY(std::abs(*some.weighted.physical.rate - 0.96) < 1e-12);
+        // Nor is a rate known before each kind was tried.
+        PhysicalValidation begun = physical({0, 0, 0}, 100);
+        begun.trials.resize(150);
+        QVERIFY(!study::comparePhysical(nullptr, begun, groups).weighted.physical.rate);
     }
 };
 

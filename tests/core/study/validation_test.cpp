@@ -3,6 +3,7 @@
 #include <QtTest>
 #include <set>
 
+#include "core/study/pose_weights.h"
 #include "core/study/runner.h"
 #include "core/study/selection.h"
 #include "core/study/tables.h"
@@ -258,16 +259,61 @@ class ValidationTest : public QObject {
         for (int i = 0; i < 6; ++i)
             record.rows.push_back({i, 1000, failures[static_cast<std::size_t>(i)],
                                    failures[static_cast<std::size_t>(i)], 0, 0});
-        const QStringList lines = QString::fromStdString(study::formatValidation(record)).split('\n');
+        const QStringList lines =
+            QString::fromStdString(study::formatValidation(study::tabulate(record, {}))).split('\n');
         const auto words = [&](int line) { return lines[line].simplified(); };
-        QCOMPARE(lines.size(), 9);
-        QVERIFY(words(0).startsWith("Pose T F P 95 % Clopper-Pearson"));
-        QCOMPARE(words(1), QString("1 1000 0 100.0 % 99.6 ... 100.0 % 0 0 0"));
-        QVERIFY(words(2).startsWith("2 1000 10 99.0 % "));
-        QVERIFY(words(3).startsWith("3 1000 5 99.5 % "));
-        QVERIFY(words(7).startsWith("Total 6000 38 99.4 % 99.1 ... 99.6 %"));
+        QCOMPARE(lines.size(), 10);
+        QVERIFY(words(0).startsWith("Pose lands so T F P 95 % Clopper-Pearson"));
+        QCOMPARE(words(1), QString("1 0.0 % 1000 0 100.0 % 99.6 ... 100.0 % 0 0 0"));
+        QVERIFY(words(2).startsWith("2 0.0 % 1000 10 99.0 % "));
+        QVERIFY(words(3).startsWith("3 0.0 % 1000 5 99.5 % "));
+        QVERIFY(words(7).startsWith("Total, alike 6000 38 99.4 % 99.1 ... 99.6 %"));
         for (int i = 1; i < 8; ++i)
             QCOMPARE(lines[i].size(), lines[0].size());
+    }
+
+    void alikePosesAreOneRow() {
+        study::ValidationRecord record;
+        const std::vector<int> failures = {0, 10, 5, 9, 7, 7};
+        for (int i = 0; i < 6; ++i)
+            record.rows.push_back({i, 1000, failures[static_cast<std::size_t>(i)],
+                                   failures[static_cast<std::size_t>(i)], 0, 0});
+        const std::vector<part::PoseGroup> groups = {{{0, 1}, 0.645}, {{2, 3}, 0.243}, {{4, 5}, 0.112}};
+        const study::ValidationTable table = study::tabulate(record, groups);
+        QCOMPARE(table.groups.size(), std::size_t{3});
+        QCOMPARE(table.groups[1].sum.trials, 2000);
+        QCOMPARE(table.groups[1].sum.failures, 14);
+        QCOMPARE(table.groups[1].rows.size(), std::size_t{2});
+        QCOMPARE(table.total.failures, 38);
+        const double rate = 1.0 - 0.645 * 0.005 - 0.243 * 0.007 - 0.112 * 0.007;
+        QVERIFY(std::abs(table.weighted.rate.value() - rate) < 1e-12);
+        const QStringList lines = QString::fromStdString(study::formatValidation(table)).split('\n');
+        QVERIFY2(lines[1].simplified().startsWith("1-2 64.5 % 2000 10 99.5 % "), qPrintable(lines[1]));
+        QVERIFY2(lines[4].simplified().startsWith("Total, weighted 99.4 % "), qPrintable(lines[4]));
+        QVERIFY2(lines[5].simplified().startsWith("Total, alike 6000 38 99.4 %"), qPrintable(lines[5]));
+        QVERIFY(lines[6].startsWith("Weighted by how often"));
+        for (int i = 1; i < 6; ++i)
+            QCOMPARE(lines[i].size(), lines[0].size());
+        const QStringList all = QString::fromStdString(study::formatValidation(table, true)).split('\n');
+        QCOMPARE(all.size(), lines.size() + 6);
+        QVERIFY2(all[2].simplified().startsWith("1 1000 0 100.0 %"), qPrintable(all[2]));
+    }
+
+    void weightsSumToOne() {
+        part::Part part = *fake::block();
+        const std::vector<double> weights = study::poseWeights(part, {});
+        QCOMPARE(weights.size(), part.stablePoses.size());
+        QVERIFY(std::abs(weights[0] - 0.645) < 1e-9);
+        part.stablePoses[0].probability = 1.5;
+        double sum = 0.0;
+        for (const double weight : study::poseWeights(part, {}))
+            sum += weight;
+        QVERIFY(std::abs(sum - 1.0) < 1e-12);
+        QVERIFY(study::poseWeights(part::Part(), {}).empty());
+        double joint = 0.0;
+        for (const part::PoseGroup& group : study::weighPoseGroups(part, {}))
+            joint += group.probability;
+        QVERIFY(std::abs(joint - 1.0) < 1e-12);
     }
 
     void selectionTableListsTheBestFirst() {
@@ -308,7 +354,8 @@ class ValidationTest : public QObject {
         single.settings = inputs.settings;
         const auto again = study::validate(single, *best, std::nullopt, {});
         VERIFY_OK(again);
-        QCOMPARE(study::formatValidation(*again), study::formatValidation(*table));
+        QCOMPARE(study::formatValidation(study::tabulate(*again, {})),
+                 study::formatValidation(study::tabulate(*table, {})));
     }
 };
 

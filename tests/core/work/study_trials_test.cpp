@@ -34,28 +34,28 @@ class StudyTrialsTest : public QObject {
         const auto selected = find({TrialKind::selection, winner_});
         QCOMPARE(selected.count, 9);
         QCOMPARE(selected.engine, std::string("fake"));
-        const auto validated = find({TrialKind::validation, winner_, 2});
+        const auto validated = find({TrialKind::validation, winner_, {2}});
         QCOMPARE(validated.count, 5);
         QVERIFY(validated.expected);
         study::Winner other = winner_;
         other.individual += 1;
         QCOMPARE(find({TrialKind::selection, other}).count, 0);
-        QCOMPARE(find({TrialKind::validation, other, 2}).count, 0);
-        QCOMPARE(find({TrialKind::validation, winner_, 7}).count, 0);
+        QCOMPARE(find({TrialKind::validation, other, {2}}).count, 0);
+        QCOMPARE(find({TrialKind::validation, winner_, {7}}).count, 0);
     }
 
     void trialsAreTheSameAgain() {
         // Counted from the table's own definition: trial i of pose p is trial 5 p + i of the stream.
-        const auto all = make({TrialKind::validation, winner_, 2});
+        const auto all = make({TrialKind::validation, winner_, {2}});
         QCOMPARE(all.trials.size(), std::size_t{5});
-        const auto few = make({TrialKind::validation, winner_, 2, 3});
+        const auto few = make({TrialKind::validation, winner_, {2}, 3});
         QCOMPARE(few.trials.size(), std::size_t{3});
         for (std::size_t i = 0; i < 3; ++i) {
             QCOMPARE(few.trials[i].stream.trial, static_cast<std::uint32_t>(10 + i));
             QVERIFY(few.trials[i].start.pose == all.trials[i].start.pose);
         }
-        QCOMPARE(make({TrialKind::validation, winner_, 2, 50}).trials.size(), std::size_t{5});
-        QCOMPARE(make({TrialKind::learning, winner_, 0, 50}).trials.size(), std::size_t{50});
+        QCOMPARE(make({TrialKind::validation, winner_, {2}, 50}).trials.size(), std::size_t{5});
+        QCOMPARE(make({TrialKind::learning, winner_, {0}, 50}).trials.size(), std::size_t{50});
         QCOMPARE(make({TrialKind::selection, winner_}).trials.size(), std::size_t{9});
     }
 

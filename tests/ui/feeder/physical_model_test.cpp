@@ -16,9 +16,9 @@ class PhysicalModelTest : public QObject {
         PhysicalModel model;
         const QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
         study::PhysicalValidation physical = plan();
-        model.setTable(study::comparePhysical(nullptr, physical));
+        model.setTable(study::comparePhysical(nullptr, physical, {}));
         add(physical, 3, study::PhysicalOutcome::success);
-        model.setTable(study::comparePhysical(nullptr, physical));
+        model.setTable(study::comparePhysical(nullptr, physical, {}));
         model.clear();
         QCOMPARE(model.rowCount(), 0);
     }
@@ -33,11 +33,16 @@ class PhysicalModelTest : public QObject {
         add(physical, 0, study::PhysicalOutcome::stuck);
         study::ValidationRecord simulated;
         simulated.rows = {{0, 200, 3, 3, 0, 0}, {1, 200, 3, 0, 3, 0}};
+        const std::vector<part::PoseGroup> groups = {{{0}, 0.9}, {{1}, 0.1}};
         PhysicalModel model;
-        model.setTable(study::comparePhysical(&simulated, physical));
-        QCOMPARE(model.rowCount(), 3);
-        const auto total = [&](int column) { return model.index(2, column).data().toString(); };
-        QCOMPARE(total(PhysicalModel::Pose), QString("Total"));
+        model.setTable(study::comparePhysical(&simulated, physical, groups));
+        QCOMPARE(model.rowCount(), 4);
+        QCOMPARE(model.index(2, PhysicalModel::Pose).data().toString(), QString("Weighted"));
+        QCOMPARE(model.index(2, PhysicalModel::Trials).data().toString(), QString());
+        // All three failures are of the second pose, in which one part of ten lands.
+        QCOMPARE(model.index(2, PhysicalModel::Success).data().toString(), QString("99.9"));
+        const auto total = [&](int column) { return model.index(3, column).data().toString(); };
+        QCOMPARE(total(PhysicalModel::Pose), QString("All alike"));
         QCOMPARE(total(PhysicalModel::SimulatedTrials), QString("400"));
         QCOMPARE(total(PhysicalModel::SimulatedFailures), QString("6"));
         QCOMPARE(total(PhysicalModel::SimulatedSuccess), QString("98.5"));
@@ -61,7 +66,7 @@ class PhysicalModelTest : public QObject {
 
     void withoutTrialsThereAreDashes() {
         PhysicalModel model;
-        model.setTable(study::comparePhysical(nullptr, plan()));
+        model.setTable(study::comparePhysical(nullptr, plan(), {}));
         QCOMPARE(model.index(0, PhysicalModel::Success).data().toString(), QString("–"));
         QCOMPARE(model.index(0, PhysicalModel::SimulatedBounds).data().toString(), QString("–"));
         QCOMPARE(model.index(0, PhysicalModel::Difference).data().toString(), QString("–"));

@@ -154,6 +154,16 @@ class DocsTest : public QObject {
             QVERIFY2(name == "index" || contents.contains(name + ".md)"), qPrintable(name));
     }
 
+    void everyCommandIsTold() {
+        const QString page = readText(kRoot + "/resources/docs/help/command-line.md");
+        const QStringList sources = QDir(kRoot + "/app/trapwright").entryList({"command_*.cpp"}, QDir::Files);
+        QVERIFY(sources.size() > 10);
+        for (const QString& source : sources) {
+            const QString command = source.section('_', 1).section('.', 0, 0).replace('_', '-');
+            QVERIFY2(page.contains("| `trapwright " + command), qPrintable(command));
+        }
+    }
+
     void theGlossaryHasEverySymbol() {
         const QString glossary = readText(kRoot + "/resources/docs/help/glossary.md");
         for (const char* symbol : {"F", "F_C", "F_D", "F_O", "O(x)", "d_i", "N", "P", "s", "b", "p_x", "p_dm",
@@ -164,12 +174,18 @@ class DocsTest : public QObject {
     void wordsAreFound_data() {
         QTest::addColumn<QString>("words");
         QTest::addColumn<QString>("place");
-        QTest::newRow("a title") << "film strip" << "evolve#film-strip";
-        QTest::newRow("several words, any case") << "BOSCHLOO holm" << "validate#results";
-        QTest::newRow("a setting") << "halfStroke_mm" << "settings#half-stroke-simulationdrivehalfstroke_mm";
-        QTest::newRow("in a table") << "crossover rate, a strategy value" << "glossary#symbols";
-        QTest::newRow("nothing") << "xylophone" << "";
-        QTest::newRow("no words") << "  " << "";
+        QTest::newRow("a title") << "film strip"
+                                 << "evolve#film-strip";
+        QTest::newRow("several words, any case") << "BOSCHLOO holm"
+                                                 << "validate#results";
+        QTest::newRow("a setting") << "halfStroke_mm"
+                                   << "settings#half-stroke-simulationdrivehalfstroke_mm";
+        QTest::newRow("in a table") << "crossover rate, a strategy value"
+                                    << "glossary#symbols";
+        QTest::newRow("nothing") << "xylophone"
+                                 << "";
+        QTest::newRow("no words") << "  "
+                                  << "";
     }
     void wordsAreFound() {
         QFETCH(QString, words);

@@ -11,14 +11,12 @@
 #include "ui/models/csv.h"
 #include "ui/models/generation_model.h"
 #include "ui/models/individual_model.h"
-#include "ui/models/pose_model.h"
 #include "ui/models/selection_model.h"
 #include "ui/models/validation_model.h"
 
 using namespace trapwright;
 using models::GenerationModel;
 using models::IndividualModel;
-using models::PoseModel;
 using models::SelectionModel;
 using models::ValidationModel;
 
@@ -48,14 +46,14 @@ study::IndividualRecord individual(double fitness, const std::vector<double>& st
 }
 
 /// Table 2 of the paper, the cube's simulation column.
-study::ValidationRecord paperTable() {
+study::ValidationTable paperTable(const std::vector<part::PoseGroup>& groups = {}) {
     study::ValidationRecord record;
     const std::vector<int> failures = {0, 10, 5, 9, 7, 7};
     for (int pose = 0; pose < 6; ++pose) {
         const int failed = failures[static_cast<std::size_t>(pose)];
         record.rows.push_back({pose, 1000, failed, failed, 0, 0});
     }
-    return record;
+    return study::tabulate(record, groups);
 }
 
 }  // namespace
@@ -191,11 +189,11 @@ class RecordModelsTest : public QObject {
         QCOMPARE(model.rowCount(), 7);
         QCOMPARE(textAt(model, 0, ValidationModel::Pose), QString("1"));
         QCOMPARE(textAt(model, 1, ValidationModel::Success), QString("99.0"));
-        QCOMPARE(textAt(model, 6, ValidationModel::Pose), QString("Total"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Pose), QString("All alike"));
         QCOMPARE(textAt(model, 6, ValidationModel::Trials), QString("6000"));
         QCOMPARE(textAt(model, 6, ValidationModel::Failures), QString("38"));
         QCOMPARE(textAt(model, 6, ValidationModel::Success), QString("99.4"));
-        QCOMPARE(model.index(6, 0).data(models::PoseRole).toInt(), -1);
+        QCOMPARE(model.totals(), 1);
         QVERIFY(model.index(6, 0).data(Qt::FontRole).value<QFont>().bold());
     }
 
@@ -211,6 +209,38 @@ class RecordModelsTest : public QObject {
         QCOMPARE(textAt(model, 0, ValidationModel::Bounds), QString("99.6 … 100.0"));
     }
 
+    // The cuboid's opposite faces look the same.
+    void alikePosesAreOneRowThatOpens() {
+        ValidationModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setValidation(paperTable({{{0, 1}, 0.645}, {{2, 3}, 0.243}, {{4, 5}, 0.112}}));
+        QCOMPARE(model.rowCount(), 5);
+        QCOMPARE(model.totals(), 2);
+        QCOMPARE(textAt(model, 0, ValidationModel::Pose), QString("1–2"));
+        QCOMPARE(textAt(model, 0, ValidationModel::Weight), QString("64.5"));
+        QCOMPARE(textAt(model, 0, ValidationModel::Trials), QString("2000"));
+        QCOMPARE(textAt(model, 1, ValidationModel::Failures), QString("14"));
+        QCOMPARE(textAt(model, 3, ValidationModel::Pose), QString("Weighted"));
+        QCOMPARE(textAt(model, 3, ValidationModel::Trials), QString());
+        const double rate = 100.0 * (1.0 - 0.645 * 0.005 - 0.355 * 0.007);
+        QVERIFY(std::abs(valueAt(model, 3, ValidationModel::Success) - rate) < 1e-9);
+        QVERIFY(valueAt(model, 3, ValidationModel::Bounds) < rate);
+        QVERIFY(model.index(3, 0).data(Qt::ToolTipRole).toString().contains("weighted by how often"));
+        QCOMPARE(textAt(model, 4, ValidationModel::Failures), QString("38"));
+
+        model.toggle(1);
+        QCOMPARE(model.rowCount(), 7);
+        QCOMPARE(textAt(model, 2, ValidationModel::Pose).trimmed(), QString("3"));
+        QCOMPARE(textAt(model, 3, ValidationModel::Failures), QString("9"));
+        QCOMPARE(model.rows()[3].poses, std::vector<int>{3});
+        model.toggle(3);  // one pose does not open
+        QCOMPARE(model.rowCount(), 7);
+        model.setValidation(paperTable({{{0, 1}, 0.645}, {{2, 3}, 0.243}, {{4, 5}, 0.112}}));
+        QCOMPARE(model.rowCount(), 7);  // what is open stays open
+        model.toggle(1);
+        QCOMPARE(model.rowCount(), 5);
+    }
+
     void failedCountsLeadToTheirTrials() {
         ValidationModel model;
         model.setValidation(paperTable());
@@ -222,14 +252,14 @@ class RecordModelsTest : public QObject {
         QCOMPARE(verdictAt(ValidationModel::Stuck), static_cast<int>(work::TrialVerdict::stuck));
         QCOMPARE(verdictAt(ValidationModel::FellOff), static_cast<int>(work::TrialVerdict::fellOff));
         QCOMPARE(verdictAt(ValidationModel::Trials), -1);
-        QCOMPARE(model.index(2, ValidationModel::Stuck).data(models::PoseRole).toInt(), 2);
+        QCOMPARE(model.rows()[2].poses, std::vector<int>{2});
     }
 
     void withoutTrialsThereIsNoRate() {
         study::ValidationRecord record;
         record.rows.push_back({});
         ValidationModel model;
-        model.setValidation(record);
+        model.setValidation(study::tabulate(record, {}));
         QCOMPARE(textAt(model, 0, ValidationModel::Success), QString("–"));
         QCOMPARE(textAt(model, 0, ValidationModel::Bounds), QString("–"));
         QVERIFY(!model.index(0, ValidationModel::Success).data(models::ValueRole).isValid());
@@ -251,40 +281,14 @@ class RecordModelsTest : public QObject {
         QCOMPARE(model.index(0, 0).data(models::IndividualRole).toInt(), 17);
     }
 
-    void posesHaveProbabilitiesAndPictures() {
-        part::PartOptions options;
-        options.density = 1000.0;
-        const auto prepared = part::buildPart(part::makeBox({4e-3, 8e-3, 12e-3}), options);
-        QVERIFY(prepared.ok());
-        PoseModel model;
-        const QAbstractItemModelTester tester(&model, kFatal);
-        model.setPart(prepared->part);
-        double sum = 0.0;
-        for (int row = 0; row < model.rowCount(); ++row)
-            sum += valueAt(model, row, PoseModel::Probability);
-        QVERIFY(std::abs(sum - 100.0) < 1e-6);
-        QCOMPARE(textAt(model, 0, PoseModel::Height), QString("2.00"));  // lies on its largest face
-
-        QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
-        QPixmap picture(8, 8);
-        picture.fill(Qt::red);
-        model.setPicture(0, picture);
-        model.setPicture(100, picture);  // of no pose
-        QCOMPARE(changed.count(), 1);
-        QVERIFY(model.index(0, PoseModel::Pose).data(Qt::DecorationRole).isValid());
-        QVERIFY(!model.index(1, PoseModel::Pose).data(Qt::DecorationRole).isValid());
-        model.setPart(prepared->part);
-        QVERIFY(!model.index(0, PoseModel::Pose).data(Qt::DecorationRole).isValid());
-    }
-
     void tablesBecomeCsv() {
         ValidationModel model;
         model.setValidation(paperTable());
         const QStringList lines = models::toCsv(model).split('\n');
         QCOMPARE(lines.size(), 9);
-        QVERIFY(lines[0].startsWith("Pose,Trials,Failures,Success [%]"));
-        QVERIFY(lines[2].startsWith("2,1000,10,99,"));
-        QVERIFY(lines[7].startsWith("Total,6000,38,"));
+        QVERIFY(lines[0].startsWith("Pose,Lands so [%],Trials,Failures,Success [%]"));
+        QVERIFY(lines[2].startsWith("2,0,1000,10,99,"));
+        QVERIFY(lines[7].startsWith("All alike,,6000,38,"));
     }
 };
 

@@ -256,24 +256,51 @@ class ReviewPageTest : public QObject {
         ReviewUser user(study_);
         QVERIFY(user.validate());
         const study::ValidationRecord& table = user.session()->validations().back();
-        QCOMPARE(user.validation().model()->rowCount(), static_cast<int>(table.rows.size()) + 1);
+        // Three kinds of poses, and two totals that are in sight below them.
+        const auto& model = static_cast<ValidationModel&>(*user.validation().model());
+        QCOMPARE(model.rowCount(), 5);
+        const auto* totals = user.find<QTableView>("review.validation.totals");
+        QVERIFY(totals->isVisible());
+        QVERIFY(user.validation().isRowHidden(4) && user.validation().isRowHidden(3));
+        QVERIFY(!totals->isRowHidden(3) && !totals->isRowHidden(4) && totals->isRowHidden(0));
+        QVERIFY(totals->visualRect(model.index(4, 0)).bottom() <= totals->viewport()->height());
+        // All open: each pose has its own row.
+        for (int i = model.rowCount() - 1; i >= 0; --i)
+            if (model.rows()[static_cast<std::size_t>(i)].opens)
+                user.click(user.validation(), i, ValidationModel::Pose);
+        QCOMPARE(model.rowCount(), static_cast<int>(table.rows.size()) + 5);
         int row = -1;
-        for (std::size_t i = 0; i < table.rows.size(); ++i)
-            if (table.rows[i].wrongOrientation > 0) row = static_cast<int>(i);
+        for (int i = 0; i < model.rowCount(); ++i) {
+            const models::ValidationTableRow& one = model.rows()[static_cast<std::size_t>(i)];
+            if (one.kind == models::ValidationTableRow::Kind::pose && one.row.wrongOrientation > 0) row = i;
+        }
         QVERIFY2(row >= 0, "The study of this test has no such failure.");
         user.validation().scrollTo(user.validation().model()->index(row, 0));
         user.click(user.validation(), row, ValidationModel::WrongOrientation);
         QTRY_VERIFY_WITH_TIMEOUT(user.player().playing(), kPatience);
         QCOMPARE(user.scene().partPoses.size(), std::size_t{1});
-        const auto& wanted = table.rows[static_cast<std::size_t>(row)];
-        QVERIFY(
-            user.find<QComboBox>("trials.source")->currentText().contains(QString::number(wanted.pose + 1)));
+        const study::ValidationRow wanted = model.rows()[static_cast<std::size_t>(row)].row;
+        QVERIFY(user.find<QComboBox>("trials.source")->currentText().contains("poses "));
+        QVERIFY(user.find<QComboBox>("trials.pose")->isVisible());
+        QCOMPARE(user.find<QComboBox>("trials.pose")->currentData().toInt(), wanted.pose);
         // All of them in the end, and nothing else.
         const QAbstractItemModel& shown = *user.trials().model();
         QTRY_COMPARE_WITH_TIMEOUT(shown.rowCount(), wanted.wrongOrientation, kPatience);
         for (int i = 0; i < shown.rowCount(); ++i)
             QCOMPARE(shown.index(i, 0).data(models::VerdictRole).toInt(),
                      static_cast<int>(TrialVerdict::wrongOrientation));
+        for (int i = 0; i < shown.rowCount(); ++i)
+            QCOMPARE(shown.index(i, 0).data(models::PoseRole).toInt(), wanted.pose);
+        // The group's row lists those of its other pose as well.
+        const auto group = std::find_if(model.rows().begin(), model.rows().end(), [&](const auto& one) {
+            return one.opens && std::find(one.poses.begin(), one.poses.end(), wanted.pose) != one.poses.end();
+        });
+        QVERIFY(group != model.rows().end());
+        const int all = group->row.wrongOrientation;
+        const int groupRow = static_cast<int>(group - model.rows().begin());
+        user.validation().scrollTo(model.index(groupRow, 0));
+        user.click(user.validation(), groupRow, ValidationModel::WrongOrientation);
+        QTRY_COMPARE_WITH_TIMEOUT(shown.rowCount(), all, kPatience);
         QVERIFY(user.message().isEmpty());
     }
 

@@ -20,13 +20,15 @@ class PoseRowTest : public QObject {
         QFETCH(QString, name);
         const auto part = samples::loadPart(qPrintable(name));
         const scene::PoseRow row = scene::makePoseRow(*part);
-        QCOMPARE(row.poses.size(), part->stablePoses.size());
+        QCOMPARE(row.poses.size(), part::findPoseGroups(*part).size());
+        QCOMPARE(row.labels.size(), row.poses.size());
         double left = row.flat.low.x();
         for (std::size_t i = 0; i < row.poses.size(); ++i) {
             const geometry::Box box = scene::boxOf(*part, row.poses[i]);
             QVERIFY(std::abs(box.low.z()) < 1e-9);
             // The stable pose's own height, found another way.
-            QVERIFY(std::abs(row.poses[i].position.z() - part->stablePoses[i].height) < 1e-5);
+            const auto stable = static_cast<std::size_t>(row.groups[i].poses.front());
+            QVERIFY(std::abs(row.poses[i].position.z() - part->stablePoses[stable].height) < 1e-5);
             QVERIFY(box.low.x() > left);
             QVERIFY(box.low.y() > row.flat.low.y() && box.high.y() < row.flat.high.y());
             QVERIFY(row.labels[i].y() < box.low.y());

@@ -1,5 +1,6 @@
 #include <QtTest>
 
+#include "core/study/field_text.h"
 #include "core/study/validation.h"
 #include "sim/native/native_engine.h"
 #include "tests/ui/session/session_fixture.h"
@@ -52,7 +53,7 @@ class StudyTrialsTest : public QObject {
         // The first ones, and more than there were.
         for (const int count : {2, 7}) {
             const std::vector<SimulatedTrials> others =
-                simulate({work::TrialKind::learning, winner, 0, count});
+                simulate({work::TrialKind::learning, winner, {0}, count});
             QCOMPARE(static_cast<int>(others[0].outcomes.size()), count);
             QVERIFY(others[0].outcomes[1] == told[0].outcomes[1]);
         }
@@ -61,7 +62,7 @@ class StudyTrialsTest : public QObject {
     void validationTrialsAreThoseOfTheTable() {
         const study::ValidationRecord& table = session_->validations().front();
         for (const study::ValidationRow& row : table.rows) {
-            work::TrialsRequest request{work::TrialKind::validation, session_->winners().back(), row.pose};
+            work::TrialsRequest request{work::TrialKind::validation, session_->winners().back(), {row.pose}};
             const std::vector<SimulatedTrials> told = simulate(request);
             QCOMPARE(told[0].outcomes.size(), std::size_t{10});
             const auto& verdicts = told[0].judged.verdicts;
@@ -75,6 +76,22 @@ class StudyTrialsTest : public QObject {
             QCOMPARE(fewer[0].outcomes.size(), std::size_t{3});
             for (std::size_t i = 0; i < 3; ++i)
                 QVERIFY(fewer[0].outcomes[i] == told[0].outcomes[i]);
+        }
+    }
+
+    // Poses that look the same are listed together: one pose after the other.
+    void trialsOfAlikePosesFollowEachOther() {
+        const study::Winner& winner = session_->winners().back();
+        const auto of = [&](std::vector<int> poses) {
+            return simulate({work::TrialKind::validation, winner, std::move(poses)})[0].outcomes;
+        };
+        const std::vector<trial::Outcome> first = of({0});
+        const std::vector<trial::Outcome> second = of({1});
+        const std::vector<SimulatedTrials> both = simulate({work::TrialKind::validation, winner, {0, 1}});
+        QCOMPARE(both.back().outcomes.size(), std::size_t{20});
+        for (std::size_t i = 0; i < 10; ++i) {
+            QVERIFY(both.back().outcomes[i] == first[i]);
+            QVERIFY(both.back().outcomes[10 + i] == second[i]);
         }
     }
 
@@ -114,7 +131,7 @@ class StudyTrialsTest : public QObject {
         QSignalSpy told(session_.get(), &StudySession::trialsSimulated);
         QSignalSpy failed(session_.get(), &StudySession::failed);
         for (int i = 0; i < 5; ++i)
-            session_->simulateTrials({work::TrialKind::learning, session_->winners().back(), 0, 500});
+            session_->simulateTrials({work::TrialKind::learning, session_->winners().back(), {0}, 500});
         session_->cancelSimulations();
         QVERIFY(waitForState(*session_, RunState::idle));
         QCOMPARE(told.count() + failed.count(), 0);
@@ -145,7 +162,49 @@ class StudyTrialsTest : public QObject {
         settings = session.settings();
         settings.evolution.generations = 8;
         session.changeSettings(settings, "Generations");
-        QCOMPARE(session.estimatedSeconds(), 0.0);
+        // What a trial costs is known by then.
+        QCOMPARE(session.estimatedSeconds(), expected);
+    }
+
+    // The cost of a trial belongs to the settings that it depends on, and to no others.
+    void estimateFollowsTheSettings_data() {
+        QTest::addColumn<QString>("key");
+        QTest::addColumn<QString>("value");
+        QTest::addColumn<double>("factor");  // 0: it has to be timed again
+        QTest::newRow("twice the population") << "evolution.populationSize"
+                                              << "32" << 2.0;
+        QTest::newRow("half the trials") << "evolution.trialsPerEvaluation"
+                                         << "5" << 0.5;
+        QTest::newRow("three times the generations") << "evolution.generations"
+                                                     << "12" << 3.0;
+        QTest::newRow("more trials to validate") << "validation.trialsPerPose"
+                                                 << "5000" << 1.0;
+        QTest::newRow("another drive") << "simulation.drive.halfStroke_mm"
+                                       << "0.7" << 0.0;
+        QTest::newRow("more sections") << "track.crossSections"
+                                       << "6" << 0.0;
+    }
+    void estimateFollowsTheSettings() {
+        QFETCH(QString, key);
+        QFETCH(QString, value);
+        QFETCH(double, factor);
+        study::Settings settings = smallSettings(4);
+        settings.evolution.populationSize = 16;
+        settings.evolution.trialsPerEvaluation = 10;
+        const std::string name = key.toStdString() + ".trap";
+        auto made = StudySession::create(fixture_->path(name.c_str()), settings, cuboid(),
+                                         nativeEnvironment(*fixture_));
+        VERIFY_OK(made);
+        StudySession& session = **made;
+        session.requestEstimate();
+        QTRY_VERIFY_WITH_TIMEOUT(session.estimatedSeconds() > 0.0, 20000);
+        const double before = session.estimatedSeconds();
+        study::Settings next = session.settings();
+        VERIFY_OK(study::setField(next, key.toStdString(), value.toStdString()));
+        session.changeSettings(next, "Change");
+        QCOMPARE(session.estimatedSeconds(), factor * before);
+        QCOMPARE(session.draft().has_value(), factor > 0.0);
+        if (factor > 0.0) QVERIFY(session.draft()->seconds < 600.0);
     }
 
  private:

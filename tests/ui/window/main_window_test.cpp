@@ -30,9 +30,9 @@ class MainWindowTest : public QObject {
     void initTestCase() { tests::useFolder(folder_, "main_window_test"); }
     void init() { QSettings().clear(); }
 
-    void withoutAStudyThereAreThreeWaysToBegin() {
+    void withoutAStudyThereAreFourWaysToBegin() {
         User user;
-        for (const char* name : {"welcome.import", "welcome.open", "welcome.example"})
+        for (const char* name : {"welcome.example", "welcome.draft", "welcome.import", "welcome.open"})
             QVERIFY2(user.find<QPushButton>(name)->isVisible(), name);
         QVERIFY(!user.find<scene::SceneView>("scene")->isVisible());
         QVERIFY(!user.action("run.start")->isEnabled());
@@ -311,7 +311,7 @@ class MainWindowTest : public QObject {
 
     void helpShowsTheShortcuts() {
         User user;
-        QTest::keyClick(&user.window, Qt::Key_F1);
+        QTest::keyClick(&user.window, Qt::Key_F1, Qt::ControlModifier);
         auto* list = user.find<QTreeWidget>("shortcuts.list");
         QVERIFY(list != nullptr && list->isVisible());
         QTest::keyClicks(user.find<QLineEdit>("shortcuts.search"), "undo");

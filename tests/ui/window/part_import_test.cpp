@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QMimeData>
 #include <QPushButton>
+#include <QToolButton>
 #include <fstream>
 
 #include "core/geometry/triangle_mesh.h"
@@ -40,8 +41,15 @@ class PartImportTest : public QObject {
         QCOMPARE(user.find<QLabel>("part.name")->text(), QString("cuboid"));
         QCOMPARE(user.find<QLabel>("part.size")->text(), QString("4 × 8 × 12 mm"));
         QVERIFY(user.find<QLabel>("part.symmetry")->text().startsWith("D2"));
-        // Three pairs of faces, each face a pose.
-        QTRY_COMPARE(user.window.findChildren<QFrame*>("poseCard").size(), 6);
+        // Three pairs of faces, each face a pose; opposite ones look the same.
+        QTRY_COMPARE(user.window.findChildren<QFrame*>("poseCard").size(), 3);
+        QCOMPARE(user.window.findChildren<QFrame*>("singlePoseCard").size(), 0);
+        auto* opener = user.find<QToolButton>("poseCard.open");
+        QCOMPARE(opener->text(), QString("2 alike"));
+        opener->click();
+        QTRY_COMPARE(user.window.findChildren<QFrame*>("singlePoseCard").size(), 2);
+        user.find<QToolButton>("poseCard.open")->click();
+        QTRY_COMPARE(user.window.findChildren<QFrame*>("singlePoseCard").size(), 0);
         QVERIFY(user.find<scene::SceneView>("scene")->contents().stablePoses != nullptr);
         QVERIFY(user.action("run.start")->isEnabled());
     }

@@ -1,11 +1,13 @@
-// Takes a picture of every page of a study, of the welcome and of the dialogs, in the window's own process:
-// screenshots OUT STUDY WIDTHxHEIGHT THEME NAME. packaging/screenshots.sh calls it for each size and theme.
+// Takes a picture of every page of a study, of the welcome, the tour, the help and the dialogs, in the
+// window's own process: screenshots OUT STUDY WIDTHxHEIGHT THEME NAME. packaging/screenshots.sh calls it for
+// each size and theme.
 
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QPixmap>
+#include <QPushButton>
 #include <QScreen>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -86,6 +88,16 @@ int main(int argc, char** argv) {
     camera.take(window, "export-pieces");
     window.findChild<QCheckBox*>("print.apart")->click();
     camera.take(window, "export-apart");
+    window.findChild<QAction*>("help.tour")->trigger();
+    for (int step = 1; auto* next = window.findChild<QPushButton*>("tour.next"); ++step) {
+        camera.take(window, QString("tour-%1").arg(step));
+        next->click();
+        QTest::qWait(1);
+    }
+    window.showPage("track");
+    window.findChild<QAction*>("help.open")->trigger();
+    camera.take(*window.findChild<QWidget*>("window.help"), "help");
+    window.findChild<QWidget*>("window.help")->close();
     if (!window.desk().session()->locked()) {
         window.showPage("track");
         study::Settings settings = window.desk().session()->settings();
@@ -101,5 +113,8 @@ int main(int argc, char** argv) {
     }
     window.findChild<QAction*>("help.shortcuts")->trigger();
     camera.take(*QApplication::activeModalWidget(), "shortcuts");
+    QApplication::activeModalWidget()->close();
+    window.desk().close(true);
+    camera.take(window, "recent");
     return camera.failed() ? 1 : 0;
 }
