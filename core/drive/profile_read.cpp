@@ -1,14 +1,16 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 
+#include "core/base/json_object.h"
 #include "core/base/math.h"
 #include "core/drive/profile.h"
 #include "core/drive/profile_fields.h"
-#include "core/drive/profile_object.h"
 
 namespace trapwright::drive {
+
+using base::Json;
+using base::JsonObject;
 
 namespace {
 
@@ -18,7 +20,7 @@ constexpr unsigned kWord = 0xFFFF;
 enum class Use { read, write, both };
 
 /// A place: its table is the key, its address from 0 the value.
-Place readPlace(ProfileObject& object, Use use) {
+Place readPlace(JsonObject& object, Use use) {
     Place place;
     int found = 0;
     for (const auto& [table, name] : fields::kTables) {
@@ -50,10 +52,10 @@ Place readPlace(ProfileObject& object, Use use) {
     return place;
 }
 
-void readQuantity(ProfileObject& parent, const char* key, std::optional<Quantity>& value, Use use) {
+void readQuantity(JsonObject& parent, const char* key, std::optional<Quantity>& value, Use use) {
     const Json* json = parent.take(key);
     if (json == nullptr) return;
-    ProfileObject object(*json, parent.pathOf(key), parent.problem());
+    JsonObject object(*json, parent.pathOf(key), parent.problem());
     Quantity quantity;
     quantity.place = readPlace(object, use);
     object.number("zero", quantity.zero, -kAny, kAny);
@@ -67,10 +69,10 @@ void readQuantity(ProfileObject& parent, const char* key, std::optional<Quantity
     value = quantity;
 }
 
-void readSwitch(ProfileObject& parent, const char* key, std::optional<Switch>& value, Use use) {
+void readSwitch(JsonObject& parent, const char* key, std::optional<Switch>& value, Use use) {
     const Json* json = parent.take(key);
     if (json == nullptr) return;
-    ProfileObject object(*json, parent.pathOf(key), parent.problem());
+    JsonObject object(*json, parent.pathOf(key), parent.problem());
     Switch read;
     read.place = readPlace(object, use);
     object.whole("on", read.on, 0, kWord);
@@ -83,7 +85,7 @@ void readSwitch(ProfileObject& parent, const char* key, std::optional<Switch>& v
     value = read;
 }
 
-FaultCode readCode(ProfileObject& object, FaultCode code) {
+FaultCode readCode(JsonObject& object, FaultCode code) {
     object.whole("mask", code.mask, 1, kWord);
     object.whole("good", code.good, 0, kWord);
     const Json* meanings = object.take("meanings");
@@ -93,7 +95,7 @@ FaultCode readCode(ProfileObject& object, FaultCode code) {
         return code;
     }
     for (const auto& [key, meaning] : meanings->items()) {
-        const auto number = toWhole(Json(key));
+        const auto number = base::toWhole(Json(key));
         if (!number || !meaning.is_string()) {
             object.problem().tell(object.pathOf("meanings." + key),
                                   "write the code as \"0x57\" and its meaning as a text");
@@ -104,10 +106,10 @@ FaultCode readCode(ProfileObject& object, FaultCode code) {
     return code;
 }
 
-void readFault(ProfileObject& parent, std::optional<FaultPlace>& value) {
+void readFault(JsonObject& parent, std::optional<FaultPlace>& value) {
     const Json* json = parent.take("fault");
     if (json == nullptr) return;
-    ProfileObject object(*json, parent.pathOf("fault"), parent.problem());
+    JsonObject object(*json, parent.pathOf("fault"), parent.problem());
     FaultPlace fault;
     fault.place = readPlace(object, Use::read);
     fault.code = readCode(object, {});
@@ -115,13 +117,12 @@ void readFault(ProfileObject& parent, std::optional<FaultPlace>& value) {
     value = fault;
 }
 
-void readWrites(ProfileObject& parent, const char* key, std::vector<Write>& values) {
+void readWrites(JsonObject& parent, const char* key, std::vector<Write>& values) {
     const Json* json = parent.take(key);
     if (json == nullptr) return;
     if (!json->is_array()) return parent.fail(key, "this is no list; write [ { ... }, { ... } ]");
     for (const Json& item : *json) {
-        ProfileObject object(item, fmt::format("{}[{}]", parent.pathOf(key), values.size()),
-                             parent.problem());
+        JsonObject object(item, fmt::format("{}[{}]", parent.pathOf(key), values.size()), parent.problem());
         Write write;
         write.place = readPlace(object, Use::write);
         if (!object.has("value")) object.need("value");
@@ -138,10 +139,10 @@ void readWrites(ProfileObject& parent, const char* key, std::vector<Write>& valu
     }
 }
 
-void readModbus(ProfileObject& parent, ModbusMap& map) {
+void readModbus(JsonObject& parent, ModbusMap& map) {
     const Json* json = parent.take("modbus");
     if (json == nullptr) return parent.need("modbus");
-    ProfileObject object(*json, "modbus", parent.problem());
+    JsonObject object(*json, "modbus", parent.problem());
     object.whole("unit", map.unit, 0, 255);
     object.whole("port", map.port, 1, static_cast<int>(kWord));
     object.whole("baud", map.baud, 300, 921600);
@@ -166,23 +167,23 @@ void readModbus(ProfileObject& parent, ModbusMap& map) {
     object.close();
 }
 
-void readReo(ProfileObject& parent, ReoMap& map) {
+void readReo(JsonObject& parent, ReoMap& map) {
     const Json* json = parent.take("reo");
     if (json == nullptr) return;
-    ProfileObject object(*json, "reo", parent.problem());
+    JsonObject object(*json, "reo", parent.problem());
     object.whole("baud", map.baud, 300, 921600);
     object.whole("enable", map.enable, 1, kWord);
     object.whole("enabled", map.enabled, 0, kWord);
     object.number("fullAcceleration", map.fullAcceleration, 1e-3, 1e5);
     if (const Json* status = object.take("status"); status != nullptr) {
-        ProfileObject code(*status, "reo.status", parent.problem());
+        JsonObject code(*status, "reo.status", parent.problem());
         map.code = readCode(code, map.code);
         code.close();
     }
     object.close();
 }
 
-void readProtocol(ProfileObject& object, Profile& profile) {
+void readProtocol(JsonObject& object, Profile& profile) {
     object.choice("protocol", profile.protocol, fields::kProtocols, true);
     if (profile.protocol == Protocol::reo) {
         readReo(object, profile.reo);
@@ -191,9 +192,9 @@ void readProtocol(ProfileObject& object, Profile& profile) {
     }
 }
 
-Profile readAll(const Json& json, Problem& problem) {
+Profile readAll(const Json& json, base::JsonProblem& problem) {
     Profile profile;
-    ProfileObject object(json, "", problem);
+    JsonObject object(json, "", problem);
     std::string format;
     object.text("format", format, true);
     if (format != fields::kFormat) object.fail("format", fmt::format("this must be \"{}\"", fields::kFormat));
@@ -230,18 +231,10 @@ Profile readAll(const Json& json, Problem& problem) {
 }  // namespace
 
 base::Result<Profile> readProfile(std::string_view json) {
-    Json read;
-    try {
-        read = Json::parse(json, nullptr, true, true);
-    } catch (const Json::parse_error& error) {
-        const std::string_view before = json.substr(0, error.byte);
-        return base::Error{fmt::format(
-            "the text is not JSON: line {} is not what must stand there. Look for a comma, a quote or a "
-            "bracket in it or before it",
-            1 + std::count(before.begin(), before.end(), '\n'))};
-    }
-    Problem problem;
-    const Profile profile = readAll(read, problem);
+    const auto read = base::parseJson(json);
+    if (!read) return read.error();
+    base::JsonProblem problem;
+    const Profile profile = readAll(*read, problem);
     if (!problem.text.empty()) return base::Error{problem.text};
     return profile;
 }

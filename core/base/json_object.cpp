@@ -1,27 +1,28 @@
-#include "core/drive/profile_object.h"
+#include "core/base/json_object.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
-namespace trapwright::drive {
+namespace trapwright::base {
 
-ProfileObject::ProfileObject(const Json& json, std::string path, Problem& problem)
+JsonObject::JsonObject(const Json& json, std::string path, JsonProblem& problem)
     : json_(json), path_(std::move(path)), problem_(problem) {
     if (!json.is_object()) problem.tell(path_, "this is no object; write { ... }");
 }
 
-const Json* ProfileObject::take(const char* key) {
+const Json* JsonObject::take(const char* key) {
     known_.insert(key);
     if (!json_.is_object()) return nullptr;
     const auto it = json_.find(key);
     return it == json_.end() ? nullptr : &*it;
 }
 
-void ProfileObject::need(const char* key) {
+void JsonObject::need(const char* key) {
     fail(key, "this is missing; add it");
 }
 
-void ProfileObject::text(const char* key, std::string& value, bool needed) {
+void JsonObject::text(const char* key, std::string& value, bool needed) {
     const Json* json = take(key);
     if (json == nullptr) {
         if (needed) need(key);
@@ -32,7 +33,7 @@ void ProfileObject::text(const char* key, std::string& value, bool needed) {
     }
 }
 
-void ProfileObject::texts(const char* key, std::vector<std::string>& values) {
+void JsonObject::texts(const char* key, std::vector<std::string>& values) {
     const Json* json = take(key);
     if (json == nullptr) return;
     bool good = json->is_array();
@@ -44,14 +45,14 @@ void ProfileObject::texts(const char* key, std::vector<std::string>& values) {
     values = json->get<std::vector<std::string>>();
 }
 
-void ProfileObject::flag(const char* key, bool& value) {
+void JsonObject::flag(const char* key, bool& value) {
     const Json* json = take(key);
     if (json == nullptr) return;
     if (!json->is_boolean()) return fail(key, fmt::format("{} is neither true nor false", json->dump()));
     value = json->get<bool>();
 }
 
-void ProfileObject::number(const char* key, double& value, double low, double high, double scale) {
+void JsonObject::number(const char* key, double& value, double low, double high, double scale) {
     const Json* json = take(key);
     if (json == nullptr) return;
     if (!json->is_number()) return fail(key, fmt::format("{} is no number", json->dump()));
@@ -62,15 +63,15 @@ void ProfileObject::number(const char* key, double& value, double low, double hi
     value = read * scale;
 }
 
-void ProfileObject::number(const char* key, std::optional<double>& value, double low, double high,
-                           double scale) {
+void JsonObject::number(const char* key, std::optional<double>& value, double low, double high,
+                        double scale) {
     if (take(key) == nullptr) return;
     double read = 0.0;
     number(key, read, low, high, scale);
     value = read;
 }
 
-void ProfileObject::whole(const char* key, unsigned& value, unsigned low, unsigned high) {
+void JsonObject::whole(const char* key, unsigned& value, unsigned low, unsigned high) {
     const Json* json = take(key);
     if (json == nullptr) return;
     const auto read = toWhole(*json);
@@ -82,13 +83,13 @@ void ProfileObject::whole(const char* key, unsigned& value, unsigned low, unsign
     value = *read;
 }
 
-void ProfileObject::whole(const char* key, int& value, int low, int high) {
+void JsonObject::whole(const char* key, int& value, int low, int high) {
     auto read = static_cast<unsigned>(value);
     whole(key, read, static_cast<unsigned>(low), static_cast<unsigned>(high));
     value = static_cast<int>(read);
 }
 
-void ProfileObject::close() {
+void JsonObject::close() {
     if (!json_.is_object()) return;
     for (const auto& [key, value] : json_.items()) {
         if (known_.contains(key)) continue;
@@ -96,6 +97,18 @@ void ProfileObject::close() {
         for (const std::string& name : known_)
             names += (names.empty() ? "" : ", ") + name;
         return problem_.tell(pathOf(key), "nobody knows this key; there are: " + names);
+    }
+}
+
+Result<Json> parseJson(std::string_view text) {
+    try {
+        return Json::parse(text, nullptr, true, true);
+    } catch (const Json::parse_error& error) {
+        const std::string_view before = text.substr(0, error.byte);
+        return Error{fmt::format(
+            "the text is not JSON: line {} is not what must stand there. Look for a comma, a quote or a "
+            "bracket in it or before it",
+            1 + std::count(before.begin(), before.end(), '\n'))};
     }
 }
 
@@ -115,4 +128,4 @@ std::optional<unsigned> toWhole(const Json& json) {
     return value;
 }
 
-}  // namespace trapwright::drive
+}  // namespace trapwright::base

@@ -12,13 +12,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/result.h"
+
 /// Reading of JSON objects that remembers the first thing that is wrong, so that who reads has no branches.
-namespace trapwright::drive {
+namespace trapwright::base {
 
 using Json = nlohmann::ordered_json;
 
 /// The first problem of a file: where it is, what it is, and what must stand there.
-struct Problem {
+struct JsonProblem {
     std::string text;
 
     void tell(const std::string& where, const std::string& what) {
@@ -27,9 +29,9 @@ struct Problem {
 };
 
 /// One object of the file. close() complains about keys that nobody asked for.
-class ProfileObject {
+class JsonObject {
  public:
-    ProfileObject(const Json& json, std::string path, Problem& problem);
+    JsonObject(const Json& json, std::string path, JsonProblem& problem);
 
     void text(const char* key, std::string& value, bool needed = false);
     void texts(const char* key, std::vector<std::string>& values);
@@ -50,7 +52,7 @@ class ProfileObject {
     [[nodiscard]] std::string pathOf(const std::string& key) const {
         return path_.empty() ? key : path_ + "." + key;
     }
-    [[nodiscard]] Problem& problem() const { return problem_; }
+    [[nodiscard]] JsonProblem& problem() const { return problem_; }
     [[nodiscard]] const Json& json() const { return json_; }
     void fail(const char* key, const std::string& what) { problem_.tell(pathOf(key), what); }
     /// Puts what is missing into the problem.
@@ -60,16 +62,19 @@ class ProfileObject {
  private:
     const Json& json_;
     std::string path_;
-    Problem& problem_;
+    JsonProblem& problem_;
     std::set<std::string> known_;
 };
+
+/// Reads a whole text. Error: which line is not JSON. Comments are allowed.
+Result<Json> parseJson(std::string_view text);
 
 /// A whole number, or a text such as "0x1000".
 std::optional<unsigned> toWhole(const Json& json);
 
 template <class Value, std::size_t N>
-void ProfileObject::choice(const char* key, Value& value,
-                           const std::array<std::pair<Value, std::string_view>, N>& choices, bool needed) {
+void JsonObject::choice(const char* key, Value& value,
+                        const std::array<std::pair<Value, std::string_view>, N>& choices, bool needed) {
     const Json* json = take(key);
     if (json == nullptr) {
         if (needed) need(key);
@@ -86,4 +91,4 @@ void ProfileObject::choice(const char* key, Value& value,
     fail(key, fmt::format("{} is none of the values that there are: {}", json->dump(), names));
 }
 
-}  // namespace trapwright::drive
+}  // namespace trapwright::base
