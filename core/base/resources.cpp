@@ -27,4 +27,19 @@ std::filesystem::path findResource(const std::filesystem::path& relative) {
     return std::filesystem::path(TRAPWRIGHT_SOURCE_RESOURCES) / relative;
 }
 
+std::filesystem::path findOwnFolder(const std::filesystem::path& relative) {
+    const auto read = [](const char* name) -> std::filesystem::path {
+        const char* value = std::getenv(name);
+        return value == nullptr ? "" : value;
+    };
+    std::filesystem::path data = read("XDG_DATA_HOME");
+    // As the base directory specification says, a relative path does not count.
+    if (!data.is_absolute()) {
+        const std::filesystem::path home = read("HOME");
+        if (home.empty()) return {};
+        data = home / ".local" / "share";
+    }
+    return data / "Trapwright" / "trapwright-studio" / relative;
+}
+
 }  // namespace trapwright::base

@@ -9,4 +9,8 @@ namespace trapwright::base {
 /// running program belongs to, or the source tree.
 std::filesystem::path findResource(const std::filesystem::path& relative);
 
+/// Where the user keeps what is his own ("materials"), for programs without Qt; the studio's
+/// QStandardPaths::AppLocalDataLocation. Empty where the environment names no home.
+std::filesystem::path findOwnFolder(const std::filesystem::path& relative);
+
 }  // namespace trapwright::base
