@@ -88,7 +88,8 @@ int main(int argc, char** argv) {
     window::MainWindow window({app::makeWorkEngine,
                                app::kProgram,
                                data / "running",
-                               {transports::makeDrive, serveFeeder, data / "drives"}});
+                               {transports::makeDrive, serveFeeder, data / "drives"},
+                               data / "materials"});
     if (parser.isSet(shortcuts)) {
         std::fputs(window::shortcutTable(window::findShortcuts(window)).toUtf8().constData(), stdout);
         return 0;

@@ -25,6 +25,7 @@ CLI::App& addCommand(CLI::App& program, Invocation& invocation, const std::strin
 
 // One per file, command_<name>.cpp.
 void addPartCommand(CLI::App& program, Invocation& invocation);
+void addMaterialsCommand(CLI::App& program, Invocation& invocation);
 void addNewCommand(CLI::App& program, Invocation& invocation);
 void addSettingsCommand(CLI::App& program, Invocation& invocation);
 void addEvolveCommand(CLI::App& program, Invocation& invocation);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/trapwright/command.h"
 #include "app/trapwright/engines.h"
@@ -12,6 +14,7 @@
 #include "core/geometry/mass_properties.h"
 #include "core/part/stable_poses.h"
 #include "core/study/pose_drops.h"
+#include "core/study/presets.h"
 #include "core/study/settings.h"
 #include "core/trial/fitness.h"
 
@@ -23,6 +26,13 @@ struct Options {
     PartRequest part;
     int drops = 0;
     bool everyPose = false;
+    double height = 30.0;  // [mm]
+    std::optional<std::string> surface;
+    std::optional<double> staticFriction;
+    std::optional<double> friction;  // kinetic, and static unless that is given
+    std::optional<double> restitution;
+    std::uint64_t seed = 1;
+    std::string engine = "simbody";
 };
 
 constexpr double kPerMm3 = 1e9;
@@ -130,34 +140,95 @@ nlohmann::ordered_json partToJson(const LoadedPart& loaded) {
             {"pose_groups", groups}};
 }
 
-/// Drops the part with the Simbody engine, telling how far it is.
-Attempt<study::DropResult> dropPart(const part::Part& part, int drops, const Console& console) {
-    const unsigned threads = base::availableThreads();
-    auto engine = makeEngine("simbody", {1, 0.0});
-    if (!engine) return engine.failure();
+/// How the user wants the part dropped; what he does not say is that of the surface, else the default.
+Attempt<study::DropSettings> dropSettings(const Options& options, const LoadedPart& loaded) {
     study::DropSettings settings;
-    settings.drops = drops;
-    base::RunControl control;
-    WorkWatch watch;
-    watch.progress = [&] { return fmt::format("Dropping, {} of {} parts", control.done(), drops); };
-    watch.interrupted = [control](int) mutable { control.cancel(); };
-    const WorkDisplay display(console, watch);
-    auto result =
-        study::simulateDrops(**engine, std::make_shared<const part::Part>(part), settings, threads, control);
-    if (control.cancelled()) return Failure{ExitCode::interrupted, "Interrupted; no drops are reported."};
-    if (!result) return Failure{ExitCode::fault, result.error().message};
-    return *std::move(result);
+    settings.drops = options.drops;
+    settings.height = options.height * 1e-3;
+    settings.seed = options.seed;
+    if (options.surface) {
+        auto pair = findPair(*options.surface, loaded);
+        if (!pair) return pair.failure();
+        settings.contact = study::contactOf(*pair);
+    }
+    trial::ContactParameters& contact = settings.contact;
+    if (options.friction) contact.staticFriction = contact.kineticFriction = *options.friction;
+    contact.staticFriction = options.staticFriction.value_or(contact.staticFriction);
+    if (contact.staticFriction < contact.kineticFriction) {
+        return Failure{
+            ExitCode::usage,
+            fmt::format("--static-friction {} is below the kinetic friction {}; give --friction as well.",
+                        contact.staticFriction, contact.kineticFriction)};
+    }
+    contact.restitution = options.restitution.value_or(contact.restitution);
+    if (const auto problems = study::findProblems(settings); !problems.empty())
+        return Failure{ExitCode::usage, problems.front()};
+    return settings;
 }
 
-std::string describeDrops(const part::Part& part, const study::DropResult& result, int drops) {
+/// Drops the part, telling how far it is.
+Attempt<study::DropRecord> dropPart(const LoadedPart& loaded, const study::DropSettings& settings,
+                                    const std::string& name, const Console& console) {
+    const unsigned threads = base::availableThreads();
+    auto engine = makeEngine(name, {1, 0.0});
+    if (!engine) return engine.failure();
+    base::RunControl control;
+    WorkWatch watch;
+    watch.progress = [&] { return fmt::format("Dropping, {} of {} parts", control.done(), settings.drops); };
+    watch.interrupted = [control](int) mutable { control.cancel(); };
+    const WorkDisplay display(console, watch);
+    auto result = study::simulateDrops(**engine, loaded.part, settings, threads, control);
+    if (control.cancelled()) return Failure{ExitCode::interrupted, "Interrupted; no drops are reported."};
+    if (!result) return Failure{ExitCode::fault, result.error().message};
+    return study::makeDropRecord(*loaded.part, settings, (*engine)->name(), *std::move(result));
+}
+
+std::string describeDrops(const part::Part& part, const study::DropRecord& record, bool everyPose) {
+    const study::DropSettings& settings = record.settings;
+    const int drops = record.result.drops();
     std::string text = fmt::format(
-        "\nDropped {} times from 30 mm onto a level plane:\n"
-        "Stable pose      Came to rest   Quasi-static\n",
-        drops);
-    for (std::size_t i = 0; i < result.counts.size(); ++i)
-        text += fmt::format("{:>11} {:>15.1f} % {:>12.1f} %\n", i + 1, 100.0 * result.counts[i] / drops,
-                            100.0 * part.stablePoses[i].probability);
-    return text + fmt::format("  none of them {:>12.1f} %\n", 100.0 * result.unsettled / drops);
+        "\nDropped {} times from {:g} mm onto a level plane (friction {:g} static, {:g} kinetic, restitution "
+        "{:g},"
+        " seed {}, {}):\n"
+        "Stable pose      Came to rest   95 % Clopper-Pearson   Quasi-static\n",
+        drops, settings.height * 1e3, settings.contact.staticFriction, settings.contact.kineticFriction,
+        settings.contact.restitution, settings.seed, record.engine);
+    const auto addRow = [&](const std::vector<int>& poses, double estimate) {
+        int count = 0;
+        for (const int pose : poses)
+            count += record.result.counts[static_cast<std::size_t>(pose)];
+        const stats::Interval bounds = stats::calcClopperPearson(count, drops);
+        text +=
+            fmt::format("{:>11} {:>15.1f} % {:>11.1f} to {:>5.1f} % {:>12.1f} %\n", part::namePoses(poses),
+                        100.0 * count / drops, 100.0 * bounds.low, 100.0 * bounds.high, 100.0 * estimate);
+    };
+    for (const part::PoseGroup& group : part::findPoseGroups(part)) {
+        addRow(group.poses, group.probability);
+        if (!everyPose || group.poses.size() < 2) continue;
+        for (const int pose : group.poses)
+            addRow({pose}, part.stablePoses[static_cast<std::size_t>(pose)].probability);
+    }
+    return text + fmt::format("  none of them {:>12.1f} %\n", 100.0 * record.result.unsettled / drops);
+}
+
+nlohmann::ordered_json dropsToJson(const study::DropRecord& record) {
+    const study::DropSettings& settings = record.settings;
+    nlohmann::ordered_json poses = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < record.result.counts.size(); ++i) {
+        const stats::Interval bounds = record.bounds(i);
+        poses.push_back({{"share", record.share(i)}, {"low", bounds.low}, {"high", bounds.high}});
+    }
+    return {{"drops", record.result.drops()},
+            {"height_mm", settings.height * 1e3},
+            {"staticFriction", settings.contact.staticFriction},
+            {"kineticFriction", settings.contact.kineticFriction},
+            {"restitution", settings.contact.restitution},
+            {"seed", settings.seed},
+            {"engine", record.engine},
+            {"interval", "95 % Clopper-Pearson"},
+            {"came_to_rest", record.result.counts},
+            {"in_no_pose", record.result.unsettled},
+            {"poses", poses}};
 }
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
@@ -166,11 +237,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json json = partToJson(*loaded);
     console.print(describePart(*loaded, options.everyPose));
     if (options.drops > 0) {
-        auto dropped = dropPart(*loaded->part, options.drops, console);
+        auto settings = dropSettings(options, *loaded);
+        if (!settings) return settings.failure();
+        auto dropped = dropPart(*loaded, *settings, options.engine, console);
         if (!dropped) return dropped.failure();
-        console.print(describeDrops(*loaded->part, *dropped, options.drops));
-        json["drops"] = {
-            {"drops", options.drops}, {"came_to_rest", dropped->counts}, {"in_no_pose", dropped->unsettled}};
+        console.print(describeDrops(*loaded->part, *dropped, options.everyPose));
+        json["drops"] = dropsToJson(*dropped);
     }
     console.emit(json);
     return ExitCode::ok;
@@ -183,7 +255,8 @@ void addPartCommand(CLI::App& program, Invocation& invocation) {
     CLI::App& command =
         addCommand(program, invocation, "part",
                    "Imports a part and tells what was found and mended, its mass, symmetry and stable poses.",
-                   "trapwright part clip.stl --units mm --material POM\n  trapwright part cuboid --drop 1000",
+                   "trapwright part clip.stl --units mm --material POM\n  "
+                   "trapwright part cuboid --drop 1000 --drop-height 50 --surface steel-sheet",
                    [options](const Console& console) { return run(*options, console); });
     command
         .add_option("FILE", options->part.part,
@@ -192,10 +265,33 @@ void addPartCommand(CLI::App& program, Invocation& invocation) {
         ->required();
     addPartOptions(command, options->part);
     command.add_flag("--poses", options->everyPose, "Also a row for each of the poses that look the same");
+    auto* drop = command
+                     .add_option("--drop", options->drops,
+                                 "Also drop the part this often, simulated, and count the poses in which it "
+                                 "comes to rest")
+                     ->check(CLI::Range(1, study::kMostDrops));
+    const CLI::Range friction(0.0, 2.0);
     command
-        .add_option("--drop", options->drops,
-                    "Also drop the part this often, simulated, and count the poses in which it comes to rest")
-        ->check(CLI::Range(1, 1000000));
+        .add_option("--drop-height", options->height, "Of the part's lowest point above the plane in mm (30)")
+        ->check(CLI::Range(0.0, study::kGreatestDropHeight * 1e3))
+        ->needs(drop);
+    command
+        .add_option(
+            "--surface", options->surface,
+            "What the plane is made of, for its friction and restitution: printed-pla, steel-sheet ...")
+        ->needs(drop);
+    command.add_option("--friction", options->friction, "Kinetic, and static unless that is given (0.5)")
+        ->check(friction)
+        ->needs(drop);
+    command.add_option("--static-friction", options->staticFriction, "Not below --friction (the same)")
+        ->check(friction)
+        ->needs(drop);
+    command.add_option("--restitution", options->restitution, "(0.2)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->needs(drop);
+    command.add_option("--seed", options->seed, "Of the drops (1)")->needs(drop);
+    command.add_option("--engine", options->engine, "What simulates the drops: simbody or native (simbody)")
+        ->needs(drop);
 }
 
 }  // namespace trapwright::app

@@ -24,7 +24,7 @@ struct Use {
     std::string_view type;
 };
 
-constexpr std::array<Use, 18> kUses = {{
+constexpr std::array<Use, 20> kUses = {{
     {"", "STUDY", "STUDY"},
     {"dump", "--compare", "STUDY"},
     {"part", "FILE", "PART"},
@@ -38,7 +38,9 @@ constexpr std::array<Use, 18> kUses = {{
     {"", "--contact", "PAIR"},
     {"", "--engine", "ENGINE"},
     {"", "--material", "MATERIAL"},
+    {"", "--surface", "SURFACE"},
     {"", "--units", "UNIT"},
+    {"materials", "WORD", "WORD"},
     {"", "--set", kSettingType},
     // What nobody can complete, but what has a better name than TEXT.
     {"verify", "--case", "NAME"},
@@ -60,6 +62,16 @@ std::vector<std::string> studyEngineNames() {
     return names;
 }
 
+/// As they stand in the names of pairs, without spaces.
+std::vector<std::string> surfaceNames(const part::MaterialLibrary& library) {
+    std::vector<std::string> names;
+    for (const part::MaterialPair& pair : library.pairs) {
+        const std::string name = pair.name.substr(pair.name.find("-on-") + 4);
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
 std::vector<std::string> partExtensions() {
     std::vector<std::string> extensions = part::supportedExtensions();
     for (std::string& extension : extensions)
@@ -70,6 +82,8 @@ std::vector<std::string> partExtensions() {
 }  // namespace
 
 std::vector<ValueKind> listValueKinds() {
+    // What comes with the program: a completion is made once for all users.
+    const part::MaterialLibrary library = part::readMaterials();
     return {
         {"STUDY", {}, Paths::files, {"trap"}},
         {"PART",
@@ -80,9 +94,10 @@ std::vector<ValueKind> listValueKinds() {
         {"FILE", {}, Paths::files, {}},
         {"FOLDER", {}, Paths::folders, {}},
         {"PRESET", collectNames(study::presetNames(), [](std::string_view name) { return name; })},
-        {"PAIR", collectNames(study::contactPresets(), [](const auto& pair) { return pair.name; })},
+        {"PAIR", collectNames(library.pairs, [](const auto& pair) { return pair.name; })},
         {"ENGINE", studyEngineNames()},
-        {"MATERIAL", collectNames(part::listMaterials(), [](const auto& material) { return material.name; })},
+        {"MATERIAL", collectNames(library.materials, [](const auto& material) { return material.name; })},
+        {"SURFACE", surfaceNames(library)},
         {"UNIT", {"um", "mm", "cm", "m", "inch", "ft"}},
         {"KIND", {"learning", "selection", "validation"}},
     };

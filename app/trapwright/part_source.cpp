@@ -1,16 +1,50 @@
 #include "app/trapwright/part_source.h"
 
+#include <fmt/format.h>
+
 #include "app/trapwright/work_failure.h"
+#include "core/base/resources.h"
+#include "core/study/presets.h"
 
 namespace trapwright::app {
 
 void addPartOptions(CLI::App& command, PartRequest& request) {
     command.add_option("--units", request.units, "Unit of the part's file: um, mm, cm, m, inch or ft");
     auto* density = command.add_option("--density", request.density, "Density of the part in kg/m^3");
-    command.add_option("--material", request.material, "Density by material: ABS, steel, brass ...")
+    request.ownMaterials = findOwnMaterials();
+    command
+        .add_option("--material", request.material,
+                    "What the part is made of, for its density: ABS, steel, brass ... `trapwright materials` "
+                    "lists them")
         ->excludes(density);
     command.add_option("--symmetry-tolerance", request.tolerance,
                        "How far a symmetric part may be from it, as a share of its size (default 0.01)");
+}
+
+std::filesystem::path findOwnMaterials() {
+    return base::findOwnFolder("materials");
+}
+
+Attempt<part::MaterialPair> findPair(const std::string& surface, const LoadedPart& loaded) {
+    const part::MaterialLibrary library = part::readMaterials(findOwnMaterials());
+    const part::Material* material = study::findUsedMaterial(library, loaded.settings);
+    if (material == nullptr) {
+        return Failure{
+            ExitCode::usage,
+            fmt::format("--surface {}: the library has no material of {} kg/m^3; name the part's with "
+                        "--material, or set friction and restitution themselves.",
+                        surface, loaded.settings.density)};
+    }
+    if (const auto* pair = part::findPair(library, material->name, surface)) return *pair;
+    std::string known;
+    for (const part::MaterialPair& pair : library.pairs) {
+        if (pair.material == material->name) known += (known.empty() ? "" : ", ") + pair.surface;
+    }
+    for (const std::string& problem : library.problems)
+        known += "; not read: " + problem;
+    return Failure{ExitCode::usage,
+                   fmt::format("There is no surface named \"{}\" for {}. The surfaces are {}.", surface,
+                               material->name, known)};
 }
 
 Attempt<LoadedPart> loadPart(const PartRequest& request) {

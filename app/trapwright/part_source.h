@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 
 #include "app/trapwright/exit_codes.h"
+#include "core/part/materials.h"
 #include "core/work/part_source.h"
 
 namespace trapwright::app {
@@ -12,6 +13,12 @@ using work::PartRequest;
 
 /// Adds --units, --density, --material and --symmetry-tolerance to a command.
 void addPartOptions(CLI::App& command, PartRequest& request);
+
+/// The user's own folder of materials.
+std::filesystem::path findOwnMaterials();
+
+/// The pair of the part's material and this surface, of those that come with Trapwright and the user's.
+Attempt<part::MaterialPair> findPair(const std::string& surface, const LoadedPart& loaded);
 
 /// Imports and builds the part.
 Attempt<LoadedPart> loadPart(const PartRequest& request);

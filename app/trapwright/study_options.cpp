@@ -44,10 +44,9 @@ Attempt<study::Settings> startingSettings(const CreationOptions& creation) {
         settings = std::move(*preset);
     }
     if (creation.contact) {
-        const auto contact = study::findContactPreset(*creation.contact);
-        if (!contact) return Failure{ExitCode::usage, contact.error().message};
-        settings.simulation.contact = contact->contact;
-        settings.part.density = contact->density;
+        const auto pair = part::requirePair(part::readMaterials(findOwnMaterials()), *creation.contact);
+        if (!pair) return Failure{ExitCode::usage, pair.error().message};
+        study::usePair(settings, *pair);
     }
     if (creation.paper) settings = study::paperMode(settings);
     if (creation.settingsFile) {
@@ -64,12 +63,17 @@ Attempt<study::Settings> startingSettings(const CreationOptions& creation) {
 PartRequest completeRequest(PartRequest request, const study::Settings& settings,
                             const CreationOptions& creation) {
     const study::PartSettings& known = settings.part;
+    const auto takeDensity = [&] {
+        if (request.density || request.material) return;
+        request.density = known.density;
+        request.materialName = known.material;
+    };
     if (request.part.empty()) {
         request.part = known.file;
         if (!request.units && !known.units.empty()) request.units = known.units;
-        if (!request.density && !request.material) request.density = known.density;
-    } else if (creation.contact && !request.density && !request.material) {
-        request.density = known.density;
+        takeDensity();
+    } else if (creation.contact) {
+        takeDensity();
     }
     if (!request.tolerance) request.tolerance = known.symmetryTolerance;
     request.symmetry = known.symmetry;
@@ -80,7 +84,7 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || settingsFile || paper;
+           contact || surface || settingsFile || paper;
 }
 
 void addCreationOptions(CLI::App& command, CreationOptions& options) {
@@ -89,7 +93,14 @@ void addCreationOptions(CLI::App& command, CreationOptions& options) {
     addPartOptions(command, options.part);
     command.add_option(
         "--contact", options.contact,
-        "Friction, restitution and density by pair: abs-on-printed-plastic, brass-on-printed-plastic");
+        "Friction, restitution and density by pair: abs-on-printed-plastic, steel-on-steel-sheet ... "
+        "`trapwright materials` lists them");
+    command
+        .add_option(
+            "--surface", options.surface,
+            "What the track's surface is made of, for friction and restitution with the part's material: "
+            "printed-pla, steel-sheet ...")
+        ->excludes("--contact");
     command.add_option("--settings", options.settingsFile,
                        "Settings in JSON, as `trapwright settings` prints them");
     command.add_flag("--paper", options.paper, "The paper's own choices where the defaults go past it");
@@ -149,11 +160,20 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
     if (request.part.empty()) {
         return Failure{ExitCode::usage, "A new study needs a part: give --preset cuboid or --part FILE."};
     }
+    // What is set one by one goes before the surface, which the part's material must be known for.
     auto applied = applySettings(*settings, options);
     if (!applied) return applied.failure();
     request.defaultDensity = applied->part.density;
     auto loaded = loadPart(request);
     if (!loaded) return loaded.failure();
+    if (creation.surface) {
+        auto pair = findPair(*creation.surface, *loaded);
+        if (!pair) return pair.failure();
+        settings->simulation.contact = study::contactOf(*pair);
+        settings->simulation.surface = pair->surface;
+        applied = applySettings(*settings, options);
+        if (!applied) return applied.failure();
+    }
     applied->part = loaded->settings;
 
     if (const auto checked = study::checkInputs({*applied, loaded->part, nullptr}); !checked)

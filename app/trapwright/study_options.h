@@ -19,6 +19,7 @@ struct CreationOptions {
     std::optional<std::string> preset;
     PartRequest part;
     std::optional<std::string> contact;       // a pair of materials
+    std::optional<std::string> surface;       // of the track, for the part's material
     std::optional<std::string> settingsFile;  // JSON
     bool paper = false;
 

@@ -21,7 +21,9 @@ base::Result<std::shared_ptr<const part::Part>> makeBundledPart(std::string_view
     if (!bundled) return bundled.error();
     part::PartOptions options;
     options.name = name;
-    if (const auto material = part::findMaterial(bundled->material)) options.density = material->density;
+    const part::MaterialLibrary library = part::readMaterials();
+    if (const auto* material = part::findMaterial(library, bundled->material))
+        options.density = material->density.value;
     auto prepared = part::buildPart(part::makeBundledShape(name), options);
     if (!prepared) return prepared.error();
     return std::make_shared<const part::Part>(std::move(prepared->part));

@@ -177,8 +177,37 @@ ALTER TABLE physical_trial ADD COLUMN drive TEXT NOT NULL DEFAULT '';           
 ALTER TABLE physical_trial ADD COLUMN half_stroke REAL NOT NULL DEFAULT 0;      -- m; 0: not known
 )sql";
 
-constexpr std::array<Migration, 6> kMigrations = {
-    {{1, kVersion1}, {2, kVersion2}, {3, kVersion3}, {4, kVersion4}, {5, kVersion5}, {6, kVersion6}}};
+// Drop tests, and which probabilities of the stable poses count.
+constexpr const char* kVersion7 = R"sql(
+CREATE TABLE drop_test (
+    number INTEGER PRIMARY KEY,     -- from 0
+    program TEXT NOT NULL,
+    engine TEXT NOT NULL,
+    drops INTEGER NOT NULL,
+    height REAL NOT NULL,           -- m
+    static_friction REAL NOT NULL, kinetic_friction REAL NOT NULL, restitution REAL NOT NULL,
+    gravity REAL NOT NULL,          -- m/s^2
+    seed TEXT NOT NULL,             -- unsigned 64 bits, decimal
+    unsettled INTEGER NOT NULL,     -- drops that ended in no pose
+    time TEXT NOT NULL              -- UTC, ISO 8601
+);
+CREATE TABLE drop_pose (
+    test INTEGER NOT NULL REFERENCES drop_test (number),
+    pose INTEGER NOT NULL,          -- of the part's stable poses when it was dropped
+    count INTEGER NOT NULL,         -- drops that ended in it
+    w REAL NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,
+    PRIMARY KEY (test, pose)
+) WITHOUT ROWID;
+UPDATE study SET settings = json_set(settings, '$.part.poseWeights', 'quasi-static');
+)sql";
+
+constexpr std::array<Migration, 7> kMigrations = {{{1, kVersion1},
+                                                   {2, kVersion2},
+                                                   {3, kVersion3},
+                                                   {4, kVersion4},
+                                                   {5, kVersion5},
+                                                   {6, kVersion6},
+                                                   {7, kVersion7}}};
 
 }  // namespace
 

@@ -20,15 +20,6 @@ namespace trapwright::store {
 
 namespace {
 
-std::string currentUtc() {
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    ::gmtime_r(&now, &utc);
-    std::array<char, 32> text{};
-    const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return {text.data(), length};
-}
-
 void writeSettings(SQLite::Database& database, const study::Settings& settings) {
     SQLite::Statement update(database, "UPDATE study SET settings = ?, seed = ?");
     SQLite::bind(update, study::toJson(settings), std::to_string(settings.evolution.seed));
@@ -145,6 +136,15 @@ base::Quaternion readRotation(const SQLite::Statement& statement, int first) {
 
 std::string readBlob(const SQLite::Statement& statement, int column) {
     return statement.getColumn(column).getString();
+}
+
+std::string currentUtc() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    std::array<char, 32> text{};
+    const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return {text.data(), length};
 }
 
 StudyFile::State::~State() {

@@ -13,6 +13,7 @@
 #include "core/geometry/triangle_mesh.h"
 #include "core/part/part_builder.h"
 #include "core/study/physical_validation.h"
+#include "core/study/pose_drops.h"
 #include "core/study/records.h"
 #include "core/study/settings.h"
 
@@ -119,6 +120,11 @@ class StudyFile {
     base::Status removeLastPhysicalTrial(int validation);
     /// Oldest first.
     [[nodiscard]] base::Result<std::vector<study::PhysicalValidation>> loadPhysicalValidations() const;
+
+    /// Adds a drop test, with the current time if it has none.
+    base::Status addDropTest(const study::DropRecord& record);
+    /// Oldest first, also those of a part that has been changed since (study::holdsFor).
+    [[nodiscard]] base::Result<std::vector<study::DropRecord>> loadDropTests() const;
 
     /// Adds to the log of the drive, in one transaction.
     base::Status appendDriveLog(std::span<const drive::LogEntry> entries);

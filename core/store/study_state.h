@@ -30,6 +30,9 @@ struct StudyFile::State {
     [[nodiscard]] int countRows(const std::string& table) const;
 };
 
+/// Now, as ISO 8601.
+std::string currentUtc();
+
 /// A value from the file that cannot be; `what` names it.
 base::Error damagedValue(const std::filesystem::path& path, const std::string& what);
 

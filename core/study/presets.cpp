@@ -1,5 +1,6 @@
 #include "core/study/presets.h"
 
+#include <algorithm>
 #include <array>
 
 namespace trapwright::study {
@@ -8,25 +9,11 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kPresetNames = {"cuboid", "cone"};
 
-// The paper determined these by experiment and does not print them (section 6). Restitution is the low value
-// of parts that land on several corners in turn; with 0.25 to 0.45 an ideal flat landing locks to the phase
-// of the default drive (0.8 mm) and crawls at 20-30 mm/s, which rattling parts do not (event-driven solution,
-// core/verify).
-constexpr std::array<ContactPreset, 2> kContactPresets = {{
-    {"abs-on-printed-plastic",
-     {0.5, 0.5, 0.2},
-     1040.0,
-     "friction and restitution assumed; density of injection-moulded ABS, common data sheets"},
-    {"brass-on-printed-plastic",
-     {0.35, 0.35, 0.2},
-     8500.0,
-     "friction and restitution assumed; density of CuZn39Pb3 (EN 12164), rounded"},
-}};
+// The paper determined friction and restitution by experiment and does not print them (section 6).
+constexpr std::string_view kCuboidPair = "abs-on-printed-plastic";
+constexpr std::string_view kConePair = "brass-on-printed-plastic";
 
-void useContact(Settings& settings, const ContactPreset& preset) {
-    settings.simulation.contact = preset.contact;
-    settings.part.density = preset.density;
-}
+constexpr std::string_view kUsualSurface = "printed plastic";
 
 }  // namespace
 
@@ -61,7 +48,9 @@ base::Result<Settings> presetSettings(const std::string& name) {
     const bool cuboid = name == "cuboid";
     settings.track.minSegmentLength = cuboid ? 15e-3 : 22e-3;
     settings.evolution.staticMutation = cuboid ? 0.002 : 0.001;
-    useContact(settings, kContactPresets[cuboid ? 0 : 1]);
+    const auto pair = part::requirePair(part::readMaterials(), cuboid ? kCuboidPair : kConePair);
+    if (!pair) return pair.error();
+    usePair(settings, *pair);
     return settings;
 }
 
@@ -80,18 +69,56 @@ Settings paperMode(Settings settings) {
     return settings;
 }
 
-std::span<const ContactPreset> contactPresets() {
-    return kContactPresets;
+trial::ContactParameters contactOf(const part::MaterialPair& pair) {
+    return {pair.staticFriction.value, pair.kineticFriction.value, pair.restitution.value};
 }
 
-base::Result<ContactPreset> findContactPreset(std::string_view name) {
-    std::string names;
-    for (const ContactPreset& preset : kContactPresets) {
-        if (preset.name == name) return preset;
-        names += (names.empty() ? "\"" : ", \"") + std::string(preset.name) + "\"";
+void usePair(Settings& settings, const part::MaterialPair& pair) {
+    settings.simulation.contact = contactOf(pair);
+    settings.simulation.surface = pair.surface;
+    settings.part.density = pair.density.value;
+    settings.part.material = pair.material;
+}
+
+const part::Material* findUsedMaterial(const part::MaterialLibrary& library, const PartSettings& part) {
+    if (!part.material.empty()) {
+        const part::Material* named = part::findMaterial(library, part.material);
+        return named != nullptr && named->density.value == part.density ? named : nullptr;
     }
-    return base::Error{"There is no pair of materials named \"" + std::string(name) + "\". Choose one of " +
-                       names + "."};
+    const auto found =
+        std::find_if(library.materials.begin(), library.materials.end(),
+                     [&](const part::Material& one) { return one.density.value == part.density; });
+    return found == library.materials.end() ? nullptr : &*found;
+}
+
+const part::MaterialPair* findUsedPair(const part::MaterialLibrary& library, const Settings& settings) {
+    const part::Material* material = findUsedMaterial(library, settings.part);
+    if (material == nullptr) return nullptr;
+    const auto fits = [&](const part::MaterialPair& pair) {
+        const trial::ContactParameters& contact = settings.simulation.contact;
+        return pair.material == material->name && pair.staticFriction.value == contact.staticFriction &&
+               pair.kineticFriction.value == contact.kineticFriction &&
+               pair.restitution.value == contact.restitution;
+    };
+    // A study that does not tell its surface was made with the usual one.
+    const std::string_view surface =
+        settings.simulation.surface.empty() ? kUsualSurface : settings.simulation.surface;
+    if (const auto* pair = part::findPair(library, material->name, surface); pair != nullptr && fits(*pair))
+        return pair;
+    const auto found = std::find_if(library.pairs.begin(), library.pairs.end(), fits);
+    return found == library.pairs.end() ? nullptr : &*found;
+}
+
+const part::MaterialPair* suggestPair(const part::MaterialLibrary& library, std::string_view material,
+                                      const part::MaterialPair* used) {
+    if (used != nullptr) {
+        if (const auto* pair = part::findPair(library, material, used->surface)) return pair;
+    }
+    if (const auto* pair = part::findPair(library, material, kUsualSurface)) return pair;
+    const auto found =
+        std::find_if(library.pairs.begin(), library.pairs.end(),
+                     [&](const part::MaterialPair& pair) { return pair.material == material; });
+    return found == library.pairs.end() ? nullptr : &*found;
 }
 
 }  // namespace trapwright::study

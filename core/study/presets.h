@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/part/materials.h"
 #include "core/study/settings.h"
 
 namespace trapwright::study {
@@ -12,7 +13,8 @@ namespace trapwright::study {
 /// The names that presetSettings knows.
 std::span<const std::string_view> presetNames();
 
-/// The paper's Table 1 with the drive of its section 6: "cuboid" and "cone".
+/// The paper's Table 1 with the drive of its section 6: "cuboid" and "cone". The pairs of materials are those
+/// that come with Trapwright. Error: an unknown name, or a library that cannot be read.
 base::Result<Settings> presetSettings(const std::string& name);
 
 /// Changes settings to the paper's own choices where the defaults go past it: free points, plain angle, p_s
@@ -20,18 +22,19 @@ base::Result<Settings> presetSettings(const std::string& name);
 /// own random numbers and as patient as in validation, every trial by Simbody, a bowl of 175 mm.
 Settings paperMode(Settings settings);
 
-/// The numbers of one pair of materials and where they come from.
-struct ContactPreset {
-    std::string_view name;  // "abs-on-printed-plastic"
-    trial::ContactParameters contact;
-    double density = 0.0;     // of the part's material [kg/m^3]
-    std::string_view source;  // a reference, or "assumed"
-};
-
-/// All pairs of materials that can be chosen by name.
-std::span<const ContactPreset> contactPresets();
-
-/// The pair of that name; an error that lists the names otherwise.
-base::Result<ContactPreset> findContactPreset(std::string_view name);
+/// What the engines need of a pair of materials.
+trial::ContactParameters contactOf(const part::MaterialPair& pair);
+/// Puts a pair's friction, restitution, density and material into the settings.
+void usePair(Settings& settings, const part::MaterialPair& pair);
+/// Which material of a library the part is of: by its name, or by its density where a study does not tell
+/// the name. None where the density is another.
+const part::Material* findUsedMaterial(const part::MaterialLibrary& library, const PartSettings& part);
+/// Which of that material's pairs these settings have. None where a number is the user's own.
+const part::MaterialPair* findUsedPair(const part::MaterialLibrary& library, const Settings& settings);
+/// Which pair the part's material suggests: on the surface of `used`, if there is such a pair, else the first
+/// of that material on printed plastic, else any of that material. None for a material that the library does
+/// not have.
+const part::MaterialPair* suggestPair(const part::MaterialLibrary& library, std::string_view material,
+                                      const part::MaterialPair* used);
 
 }  // namespace trapwright::study

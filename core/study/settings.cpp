@@ -17,7 +17,7 @@ bool operator==(const TrackSettings& a, const TrackSettings& b) {
 bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
     const auto fields = [](const SimulationSettings& s) {
         return std::tie(s.drive.frequency, s.drive.halfStroke, s.drive.angle, s.contact.staticFriction,
-                        s.contact.kineticFriction, s.contact.restitution, s.termination.timeLimit,
+                        s.contact.kineticFriction, s.contact.restitution, s.surface, s.termination.timeLimit,
                         s.termination.stuckTime, s.termination.stuckProgress, s.start.tilt, s.start.lateral,
                         s.gravity, s.engine);
     };
@@ -28,9 +28,15 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
     return samePose && fields(a) == fields(b);
 }
 
+void takePoseWeights(PartSettings& part, const PartSettings& other) {
+    part.poseWeights = other.poseWeights;
+    part.droppedCounts = other.droppedCounts;
+}
+
 bool keepsScores(const Settings& before, const Settings& after) {
     Settings same = after;
     same.evolution.generations = before.evolution.generations;
+    takePoseWeights(same.part, before.part);
     same.validation = before.validation;
     same.feeder = before.feeder;
     return same == before;

@@ -62,6 +62,7 @@ struct EvolutionSettings {
 struct SimulationSettings {
     trial::Drive drive;
     trial::ContactParameters contact;
+    std::string surface{};  // that the contact numbers are of, as the library of materials names it; or empty
     trial::Termination termination;
     trial::StartPolicy start;  // of learning trials
     double gravity = base::kStandardGravity;
@@ -88,6 +89,10 @@ struct FeederSettings {
     friend bool operator==(const FeederSettings&, const FeederSettings&) = default;
 };
 
+/// Which probabilities of the stable poses weight totals: those of core/part's quasi-static estimate, or the
+/// shares of a drop test (core/study/pose_drops).
+enum class PoseWeights { quasiStatic, dropped };
+
 /// The part as given by the user; the mesh itself is kept beside it in the study.
 struct PartSettings {
     std::string file;                 // absolute path or bundled name ("cuboid")
@@ -95,6 +100,10 @@ struct PartSettings {
     double density = 1040.0;          // [kg/m^3]
     double symmetryTolerance = 0.01;  // relative to the part's size
     part::SymmetryUse symmetry = part::SymmetryUse::found;
+    std::string material{};  // as the library of materials names it; empty: not told
+    // A matter of totals alone: no trial depends on these two (core/study/pose_weights).
+    PoseWeights poseWeights = PoseWeights::quasiStatic;
+    std::string droppedCounts{};  // of the drop test that was chosen, one for each stable pose: "129, 48, 23"
 
     friend bool operator==(const PartSettings&, const PartSettings&) = default;
 };
@@ -111,8 +120,11 @@ struct Settings {
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 
-/// Whether scores that were made with `before` still hold with `after`: only the number of generations and
-/// what concerns selection, validation and the real feeder differ.
+/// Takes from `other` how the stable poses count.
+void takePoseWeights(PartSettings& part, const PartSettings& other);
+
+/// Whether scores that were made with `before` still hold with `after`: only the number of generations, the
+/// weights of the stable poses and what concerns selection, validation and the real feeder differ.
 bool keepsScores(const Settings& before, const Settings& after);
 
 /// Every violated range, as sentences that name the parameter as its JSON key, its value and what is allowed.

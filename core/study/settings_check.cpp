@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/study/pose_weights.h"
 #include "core/study/settings.h"
 #include "core/study/settings_fields.h"
 
@@ -26,6 +27,10 @@ class RangeCheck {
         // A study may be set up before a part is chosen; an engine is always needed.
         if (key == "simulation.engine" && value.empty())
             problems.emplace_back("simulation.engine is empty; name an engine, e.g. simbody.");
+        if (key == "part.droppedCounts" && !readCounts(value)) {
+            problems.push_back("part.droppedCounts is \"" + value +
+                               "\"; write how many drops ended in each stable pose, as in 129, 48, 23.");
+        }
     }
     void number(const NumberField& field, double value) {
         // The bounds as SI values go through the same text as the value, so that a bound itself is allowed.

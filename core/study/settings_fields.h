@@ -40,10 +40,15 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.text("part.file", s.part.file);
     v.text("part.units", s.part.units);
     v.number({"part.density_kg_m3", none, 1.0, 30000.0}, s.part.density);
+    v.text("part.material", s.part.material);
     v.number({"part.symmetryTolerance", none, 1e-6, 0.2}, s.part.symmetryTolerance);
     v.choice("part.symmetry", s.part.symmetry,
              Choices<part::SymmetryUse, 2>{
                  {{"found", part::SymmetryUse::found}, {"none", part::SymmetryUse::none}}});
+    v.choice("part.poseWeights", s.part.poseWeights,
+             Choices<PoseWeights, 2>{
+                 {{"quasi-static", PoseWeights::quasiStatic}, {"dropped", PoseWeights::dropped}}});
+    v.text("part.droppedCounts", s.part.droppedCounts);
 
     v.choice("track.feeder", s.track.shape.type,
              Choices<track::FeederType, 2>{
@@ -90,6 +95,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"simulation.contact.staticFriction", none, 0.0, 2.0}, contact.staticFriction);
     v.number({"simulation.contact.kineticFriction", none, 0.0, 2.0}, contact.kineticFriction);
     v.number({"simulation.contact.restitution", none, 0.0, 1.0}, contact.restitution);
+    v.text("simulation.contact.surface", s.simulation.surface);
     auto& termination = s.simulation.termination;
     v.number({"simulation.termination.timeLimit_s", none, 0.1, 600.0}, termination.timeLimit);
     v.number({"simulation.termination.stuckTime_s", none, 0.05, 600.0}, termination.stuckTime);

@@ -14,7 +14,7 @@
 
 namespace trapwright::trial {
 
-/// The material pair. Sources of the values are in core/study/presets.cpp.
+/// The material pair. Values and their sources are in resources/materials.
 struct ContactParameters {
     double staticFriction = 0.5;
     double kineticFriction = 0.5;

@@ -1,5 +1,7 @@
 #include "core/verify/agreement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -38,7 +40,15 @@ base::Result<std::shared_ptr<const part::Part>> buildBundled(std::string_view na
     if (!bundled) return bundled.error();
     part::PartOptions options;
     options.name = name;
-    options.density = part::findMaterial(bundled->material).value().density;
+    const part::MaterialLibrary library = part::readMaterials();
+    const part::Material* material = part::findMaterial(library, bundled->material);
+    if (material == nullptr) {
+        return base::Error{
+            fmt::format("The material {} of the part {} is not in the library of materials; "
+                        "install the program's resources again.",
+                        bundled->material, name)};
+    }
+    options.density = material->density.value;
     auto built = part::buildPart(part::makeBundledShape(name), options);
     if (!built) return built.error();
     return std::make_shared<const part::Part>(std::move(built->part));

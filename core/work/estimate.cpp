@@ -102,6 +102,7 @@ bool costTheSame(const study::Settings& a, const study::Settings& b) {
     same.evolution.populationSize = a.evolution.populationSize;
     same.evolution.trialsPerEvaluation = a.evolution.trialsPerEvaluation;
     same.evolution.generations = a.evolution.generations;
+    study::takePoseWeights(same.part, a.part);
     same.validation = a.validation;
     same.feeder = a.feeder;
     return same == a;

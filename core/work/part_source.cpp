@@ -55,13 +55,17 @@ Result<PartSource> findSource(const PartRequest& request) {
     return source;
 }
 
-Result<double> findDensity(const PartRequest& request, const std::optional<std::string>& material) {
-    if (request.density) return *request.density;
-    if (!material) return request.defaultDensity;
-    if (const auto found = part::findMaterial(*material)) return found->density;
+/// The material, or a density without a name.
+Result<part::Material> findMaterial(const PartRequest& request, const std::optional<std::string>& material) {
+    if (request.density) return part::Material{request.materialName, {*request.density, 0.0, {}}};
+    if (!material) return part::Material{{}, {request.defaultDensity, 0.0, {}}};
+    const part::MaterialLibrary library = part::readMaterials(request.ownMaterials);
+    if (const part::Material* found = part::findMaterial(library, *material)) return *found;
     std::string known;
-    for (const part::Material& one : part::listMaterials())
+    for (const part::Material& one : library.materials)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", one.name);
+    for (const std::string& problem : library.problems)
+        known += "; not read: " + problem;
     return Failure{FailureKind::settings,
                    fmt::format("There is no material named \"{}\". The materials are {}; or give the "
                                "density itself with --density.",
@@ -102,9 +106,9 @@ PartFailure describeBuild(const PartSource& source, const geometry::TriangleMesh
 base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request) {
     auto source = findSource(request);
     if (!source) return PartFailure{source.error()};
-    const auto density = findDensity(request, source->material);
-    if (!density) return PartFailure{density.error()};
-    source->options.density = *density;
+    const auto material = findMaterial(request, source->material);
+    if (!material) return PartFailure{material.error()};
+    source->options.density = material->density.value;
     source->options.symmetryTolerance = request.tolerance.value_or(study::PartSettings{}.symmetryTolerance);
     source->options.symmetry = request.symmetry;
 
@@ -126,8 +130,9 @@ base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request) {
     loaded.part = std::make_shared<const part::Part>(std::move(prepared->part));
     loaded.bundled = source->bundled;
     loaded.unitsFromFile = imported->unitsFromFile;
-    loaded.settings = {source->options.source, imported->units, source->options.density,
-                       source->options.symmetryTolerance, source->options.symmetry};
+    loaded.settings = {source->options.source,   imported->units,
+                       source->options.density,  source->options.symmetryTolerance,
+                       source->options.symmetry, material->name};
     loaded.stored = {std::move(imported->mesh), source->options};
     return loaded;
 }

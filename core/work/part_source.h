@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +19,9 @@ struct PartRequest {
     std::string part;                       // bundled name or file
     std::optional<std::string> units{};     // of the file
     std::optional<double> density{};        // [kg/m^3]; goes before the material
-    std::optional<std::string> material{};  // by name (part::listMaterials)
+    std::string materialName{};             // that goes with this density
+    std::optional<std::string> material{};  // by name (part::readMaterials)
+    std::filesystem::path ownMaterials{};   // the user's folder of them, if he has one
     std::optional<double>
         tolerance{};  // of the symmetry, as a share of the part's size; as new studies have it
     part::SymmetryUse symmetry = part::SymmetryUse::found;

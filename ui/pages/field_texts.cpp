@@ -28,7 +28,10 @@ const RawText kTexts[] = {
     {"part.file", TEXT("Part"), TEXT("The file or the bundled part that is fed.")},
     {"part.units", TEXT("Units"), TEXT("The unit of the part's file.")},
     {"part.density_kg_m3", TEXT("Density"), TEXT("Mass of the part for its volume; sets how hard it hits.")},
+    {"part.material", TEXT("Material"), TEXT("What the part is made of, as the library of materials names it.")},
     {"part.symmetry", TEXT("Symmetry counts"), TEXT("A part that is marked or coloured looks symmetric to its mesh only: let it have no symmetry then."), {TEXT("As found"), TEXT("Not at all")}},
+    {"part.poseWeights", TEXT("Poses count by"), TEXT("How likely parts lie in each stable pose where totals are weighted: by the quasi-static estimate from the shape, or as they came to rest in the drop test."), {TEXT("Estimate"), TEXT("Drop test")}},
+    {"part.droppedCounts", TEXT("Dropped"), TEXT("How many drops of the chosen drop test came to rest in each stable pose.")},
     {"part.symmetryTolerance", TEXT("Symmetry tolerance"), TEXT("How far the turned part may be from itself, as a share of its size, to count as alike.")},
 
     {"track.feeder", TEXT("Feeder"), TEXT("A straight track that shakes along a line, or one around a bowl that turns back and forth."), {TEXT("Linear"), TEXT("Bowl")}},
@@ -67,6 +70,7 @@ const RawText kTexts[] = {
     {"simulation.contact.staticFriction", TEXT("Static friction"), TEXT("Friction that holds a part at rest, over its normal force.")},
     {"simulation.contact.kineticFriction", TEXT("Kinetic friction"), TEXT("Friction of a part that slides, over its normal force.")},
     {"simulation.contact.restitution", TEXT("Restitution"), TEXT("Speed after an impact over the speed before it.")},
+    {"simulation.contact.surface", TEXT("Surface"), TEXT("What the track's surface is made of, as the library of materials names it.")},
     {"simulation.termination.timeLimit_s", TEXT("Time limit"), TEXT("A part that is not at the finish by then counts as stuck.")},
     {"simulation.termination.stuckTime_s", TEXT("Stuck after"), TEXT("A part that makes no progress for this long is stuck in selection and validation.")},
     {"simulation.termination.stuckProgress_mm", TEXT("Progress"), TEXT("What counts as progress along the track.")},

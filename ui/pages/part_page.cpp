@@ -7,13 +7,17 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/mesh_repair.h"
-#include "core/part/materials.h"
 #include "core/study/field_text.h"
+#include "core/study/pose_weights.h"
+#include "core/study/presets.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
+#include "ui/pages/drop_card.h"
 #include "ui/pages/import_question.h"
+#include "ui/pages/materials_dialog.h"
 #include "ui/pages/part_facts.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/pose_cards.h"
@@ -26,11 +30,8 @@ namespace trapwright::pages {
 
 namespace {
 
-constexpr int kOwnDensity = -1;  // of no material of the list
-
-QString fromView(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
+constexpr std::string_view kWeights = "part.poseWeights";
+constexpr auto kOwnDensity = "";  // of no material of the list
 
 /// A row with a label at the left, as those of a form.
 QWidget* labelled(const QString& label, QWidget* editor, QWidget* parent) {
@@ -152,7 +153,8 @@ void PartPage::addHead() {
 }
 
 void PartPage::addForm() {
-    form_ = new SettingsForm({{"part.poses", tr("Stable poses"), {}},
+    form_ = new SettingsForm({{"part.poses", tr("Stable poses"), {"part.poseWeights"}},
+                              {"part.drops", tr("Drop test"), {}, true},
                               {"part.material", tr("Material"), {"part.density_kg_m3"}},
                               {"part.symmetry",
                                tr("Symmetry"),
@@ -163,16 +165,45 @@ void PartPage::addForm() {
     connect(form_, &SettingsForm::edited, this, &PartPage::edit);
 
     poses_ = new PoseCards(form_);
-    form_->addToGroup("part.poses", poses_);
+    form_->addToGroup("part.poses", poses_, true);
+    drop_ = new DropCard(form_);
+    form_->addToGroup("part.drops", drop_);
 
     material_ = new QComboBox(form_);
     material_->setObjectName("part.material");
-    for (const part::Material& material : part::listMaterials()) {
-        material_->addItem(fromView(material.name), material.density);
-        material_->setItemData(material_->count() - 1, fromView(material.source), Qt::ToolTipRole);
-    }
     connect(material_, &QComboBox::activated, this, &PartPage::changeMaterial);
+    proposal_ = new QWidget(form_);
+    proposal_->setObjectName("part.proposal");
+    proposalText_ = new QLabel(proposal_);
+    proposalText_->setObjectName("part.proposal.text");
+    proposalText_->setWordWrap(true);
+    auto* take = new QPushButton(tr("Use these"), proposal_);
+    take->setObjectName("part.proposal.take");
+    auto* keep = new QPushButton(tr("Keep mine"), proposal_);
+    keep->setObjectName("part.proposal.keep");
+    connect(take, &QPushButton::clicked, this, [this] {
+        const auto pair = std::exchange(proposed_, std::nullopt);
+        if (pair && session_) usePair(*session_, *pair);
+        showProposal();
+    });
+    connect(keep, &QPushButton::clicked, this, [this] {
+        proposed_.reset();
+        showProposal();
+    });
+    auto* answers = new QHBoxLayout;
+    answers->addStretch(1);
+    answers->addWidget(keep);
+    answers->addWidget(take);
+    auto* proposal = new QVBoxLayout(proposal_);
+    proposal->setContentsMargins(0, 4, 0, 4);
+    proposal->addWidget(proposalText_);
+    proposal->addLayout(answers);
+    auto* library = new QPushButton(tr("Library of materials..."), form_);
+    library->setObjectName("part.library");
+    connect(library, &QPushButton::clicked, this, &PartPage::showLibrary);
+    form_->addToGroup("part.material", proposal_, true);
     form_->addToGroup("part.material", labelled(tr("Material"), material_, form_), true);
+    form_->addToGroup("part.material", library);
 
     symmetry_ = new QLabel(form_);
     symmetry_->setObjectName("part.symmetry");
@@ -200,17 +231,27 @@ void PartPage::setSession(session::StudySession* session) {
     if (session_) session_->disconnect(this);
     session_ = session;
     shownMesh_.reset();
+    proposed_.reset();
+    afterMaterial_.reset();
+    drop_->setSession(session);
+    readMaterials();
     if (session_) {
         using session::StudySession;
         connect(session_, &StudySession::settingsChanged, this, &PartPage::refresh);
         connect(session_, &StudySession::partChanged, this, &PartPage::refresh);
         connect(session_, &StudySession::stateChanged, this, &PartPage::refresh);
+        connect(session_, &StudySession::dropsChanged, this, [this] {
+            if (!session_->drops()) refresh();
+        });
     }
     refresh();
 }
 
 void PartPage::activate(scene::SceneView& scene) {
     scene_ = &scene;
+    // Other pages change the library, too.
+    readMaterials();
+    if (session_) refresh();
     showScene();
 }
 
@@ -269,7 +310,7 @@ void PartPage::refresh() {
     name_->setText(QString::fromStdString(part->name));
     size_->setText(sizeText(geometry::calcBoundingBox(part->mesh).size()));
     form_->show(session_->settings());
-    form_->setLocked([this](const std::string&) { return !session_->locked(); });
+    form_->setLocked([this](const std::string& key) { return key == kWeights || !session_->locked(); });
     material_->setEnabled(!session_->locked());
     unit_->setEnabled(!session_->locked());
 
@@ -282,7 +323,8 @@ void PartPage::refresh() {
 
     symmetry_->setText(symmetryText(part->symmetry));
     mass_->show(massFacts(*part));
-    poses_->show(part);
+    poses_->show(part, session_->dropTest(), study::weightsInForce(*part, session_->settings()));
+    drop_->refresh(library_);
     showMaterial();
     showUnits();
     showMesh();
@@ -337,17 +379,56 @@ void PartPage::showUnits() {
     unit_->setCurrentIndex(unit_->findData(present));
 }
 
-void PartPage::showMaterial() {
-    const double density = session_->settings().part.density;
-    const int own = material_->findData(kOwnDensity);
-    const int known = material_->findData(density);
-    if (known >= 0) {
-        if (own >= 0) material_->removeItem(own);
-        material_->setCurrentIndex(material_->findData(density));
-        return;
+void PartPage::readMaterials() {
+    const std::vector<std::string> told = library_.problems;
+    library_ = session_ ? pages::readMaterials(*session_) : part::readMaterials();
+    if (session_ && library_.problems != told) {
+        for (const std::string& problem : library_.problems)
+            emit failed(tr("A file of materials cannot be read"), QString::fromStdString(problem));
     }
-    if (own < 0) material_->addItem(tr("other"), kOwnDensity);
-    material_->setCurrentIndex(material_->findData(kOwnDensity));
+    material_->clear();
+    for (const part::Material& material : library_.materials) {
+        const QString name = QString::fromStdString(material.name);
+        material_->addItem(name, name);
+        material_->setItemData(material_->count() - 1,
+                               tr("%1 kg/m³; %2")
+                                   .arg(look::numberText(material.density.value, 4),
+                                        QString::fromStdString(material.density.source)),
+                               Qt::ToolTipRole);
+    }
+}
+
+void PartPage::showMaterial() {
+    const part::Material* used = study::findUsedMaterial(library_, session_->settings().part);
+    const int other = material_->findData(QString(kOwnDensity));
+    if (used != nullptr) {
+        if (other >= 0) material_->removeItem(other);
+        material_->setCurrentIndex(material_->findData(QString::fromStdString(used->name)));
+    } else {
+        if (other < 0) material_->addItem(tr("other"), QString(kOwnDensity));
+        material_->setCurrentIndex(material_->findData(QString(kOwnDensity)));
+    }
+    // What was proposed for another material, or is in force, is proposed no more.
+    if (proposed_ && (used == nullptr || used->name != proposed_->material)) proposed_.reset();
+    if (afterMaterial_ && used != nullptr && used->name == afterMaterial_->material)
+        proposed_ = std::exchange(afterMaterial_, std::nullopt);
+    showProposal();
+}
+
+void PartPage::showProposal() {
+    bool open = proposed_ && session_ && !session_->locked();
+    if (open) {
+        const trial::ContactParameters& present = session_->settings().simulation.contact;
+        const trial::ContactParameters wanted = study::contactOf(*proposed_);
+        open = present.staticFriction != wanted.staticFriction ||
+               present.kineticFriction != wanted.kineticFriction || present.restitution != wanted.restitution;
+        proposalText_->setText(tr("%1. The study has %2, %3 and %4.")
+                                   .arg(pairText(*proposed_), look::numberText(present.staticFriction),
+                                        look::numberText(present.kineticFriction),
+                                        look::numberText(present.restitution)));
+        proposalText_->setToolTip(QString::fromStdString(part::describeSources(*proposed_)));
+    }
+    proposal_->setVisible(open);
 }
 
 void PartPage::changeUnits(int index) {
@@ -357,21 +438,49 @@ void PartPage::changeUnits(int index) {
     request.part = settings.file;
     request.units = unit_->itemData(index).toString().toStdString();
     request.density = settings.density;
+    request.materialName = settings.material;
     request.tolerance = settings.symmetryTolerance;
     request.symmetry = settings.symmetry;
     import(request);
 }
 
 void PartPage::changeMaterial(int index) {
-    const double density = material_->itemData(index).toDouble();
-    if (density <= 0.0) return;
+    const part::Material* material =
+        part::findMaterial(library_, material_->itemData(index).toString().toStdString());
+    if (material == nullptr) return;
     study::Settings settings = session_->settings();
-    settings.part.density = density;
+    if (const auto* used = study::findUsedMaterial(library_, settings.part); used == material) return;
+    const part::MaterialPair* pair =
+        study::suggestPair(library_, material->name, study::findUsedPair(library_, settings));
+    settings.part.density = material->density.value;
+    settings.part.material = material->name;
     edit(settings, tr("Material"));
+    // Friction and restitution are the user's: the pair is proposed, once the part is there.
+    afterMaterial_ = pair != nullptr ? std::optional(*pair) : std::nullopt;
+}
+
+void PartPage::showLibrary() {
+    if (!session_) return;
+    const part::Material* used = study::findUsedMaterial(library_, session_->settings().part);
+    auto* dialog = new MaterialsDialog(session_->ownMaterials(),
+                                       used != nullptr ? QString::fromStdString(used->name) : QString(),
+                                       !session_->locked(), this);
+    connect(dialog, &MaterialsDialog::pairWanted, this, [this](const part::MaterialPair& pair) {
+        if (session_) usePair(*session_, pair);
+    });
+    connect(dialog, &MaterialsDialog::libraryChanged, this, [this] {
+        readMaterials();
+        if (session_) refresh();
+    });
+    dialog->open();
 }
 
 void PartPage::edit(const study::Settings& settings, const QString& what) {
-    if (settings.part == session_->settings().part) return session_->changeSettings(settings, what);
+    study::PartSettings same = settings.part;
+    study::takePoseWeights(same, session_->settings().part);
+    if (settings.part.poseWeights != session_->settings().part.poseWeights)
+        return session_->countPosesBy(settings.part.poseWeights);
+    if (same == session_->settings().part) return session_->changeSettings(settings, what);
     // The part is built anew of these.
     store::StoredPart stored = session_->storedPart();
     stored.options.density = settings.part.density;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/part/materials.h"
 #include "ui/pages/page.h"
 #include "ui/session/newest_task.h"
 #include "ui/session/part_import.h"
@@ -15,6 +16,7 @@ class QPushButton;
 
 namespace trapwright::pages {
 
+class DropCard;
 class FactList;
 class PoseCards;
 class SettingsForm;
@@ -50,9 +52,12 @@ class PartPage : public Page {
     void tellMesh(const geometry::MeshReport& report, std::size_t triangles,
                   const std::vector<std::string>& notes);
     void showUnits();
+    void readMaterials();
     void showMaterial();
+    void showProposal();
     void changeUnits(int index);
     void changeMaterial(int index);
+    void showLibrary();
     void edit(const study::Settings& settings, const QString& what);
     void showScene();
 
@@ -72,7 +77,13 @@ class PartPage : public Page {
     QLabel* misfit_;
     SettingsForm* form_;
     QComboBox* unit_;
+    part::MaterialLibrary library_;
+    std::optional<part::MaterialPair> afterMaterial_;  // to be proposed when the part is built anew
+    std::optional<part::MaterialPair> proposed_;       // since then
     QComboBox* material_;
+    QWidget* proposal_;
+    QLabel* proposalText_;
+    DropCard* drop_;
     QLabel* notes_;
     QLabel* symmetry_;
     FactList* mesh_;

@@ -31,10 +31,13 @@ PoseCards::PoseCards(QWidget* parent) : QWidget(parent), grid_(new QGridLayout(t
         grid_->setColumnStretch(column, 1);
 }
 
-void PoseCards::show(std::shared_ptr<const part::Part> part) {
-    if (part == part_) return;
+void PoseCards::show(std::shared_ptr<const part::Part> part, const std::optional<study::DropRecord>& drops,
+                     study::PoseWeights weights) {
+    if (part == part_ && drops == drops_ && weights == weights_) return;
+    if (part != part_) open_.clear();
     part_ = std::move(part);
-    open_.clear();
+    drops_ = drops;
+    weights_ = weights;
     rebuild();
 }
 
@@ -61,30 +64,24 @@ void PoseCards::rebuild() {
     pictures_.setTheme(dark ? scene::SceneTheme::dark() : scene::SceneTheme::light());
     place_ = 0;
     for (const part::PoseGroup& group : part::findPoseGroups(*part_)) {
-        QFrame* card = addCard("poseCard", group.poses.front(), group.probability);
-        card->setAccessibleName(
-            tr("Stable %1: %2 %")
-                .arg(models::poseName(group.poses), look::numberText(kPercent * group.probability)));
-        card->setToolTip(tr("A part dropped at random comes to rest like this in %1 of 100 cases.")
-                             .arg(look::numberText(kPercent * group.probability)));
+        QFrame* card = addCard("poseCard", group.poses, group.probability);
         if (group.poses.size() < 2) continue;
         addOpener(*card, group);
         if (!open_.contains(group.poses)) continue;
         for (const int pose : group.poses) {
             const double probability = part_->stablePoses[static_cast<std::size_t>(pose)].probability;
-            QFrame* single = addCard("singlePoseCard", pose, probability);
+            QFrame* single = addCard("singlePoseCard", {pose}, probability);
             auto* number = new QLabel(tr("Pose %1").arg(pose + 1), single);
             number->setAlignment(Qt::AlignHCenter);
             number->setForegroundRole(QPalette::PlaceholderText);
             single->layout()->addWidget(number);
-            single->setAccessibleName(
-                tr("Pose %1: %2 %").arg(pose + 1).arg(look::numberText(kPercent * probability)));
-            single->setToolTip(tr("One of %1 poses that look the same").arg(group.poses.size()));
+            single->setToolTip(tr("One of %1 poses that look the same.").arg(group.poses.size()) + ' ' +
+                               single->toolTip());
         }
     }
 }
 
-QFrame* PoseCards::addCard(const QString& name, int pose, double probability) {
+QFrame* PoseCards::addCard(const QString& name, const std::vector<int>& poses, double probability) {
     auto* card = new QFrame(this);
     card->setObjectName(name);
     card->setStyleSheet(
@@ -93,22 +90,59 @@ QFrame* PoseCards::addCard(const QString& name, int pose, double probability) {
     auto* picture = new QLabel(card);
     picture->setFixedHeight(kPicture.height());
     picture->setAlignment(Qt::AlignCenter);
-    const base::Quaternion& rotation = part_->stablePoses[static_cast<std::size_t>(pose)].rotation;
+    const base::Quaternion& rotation = part_->stablePoses[static_cast<std::size_t>(poses.front())].rotation;
     scene::whenReady(pictures_.partPicture(part_, rotation, kPicture, devicePixelRatioF()), picture,
                      [picture](const QImage& drawn) { picture->setPixmap(QPixmap::fromImage(drawn)); });
-    auto* chance = new QLabel(tr("%1 %").arg(look::numberText(kPercent * probability)), card);
-    QFont bold = chance->font();
-    bold.setBold(true);
-    chance->setFont(bold);
-    chance->setAlignment(Qt::AlignHCenter);
     auto* layout = new QVBoxLayout(card);
     layout->setContentsMargins(4, 4, 4, 6);
     layout->setSpacing(0);
     layout->addWidget(picture);
-    layout->addWidget(chance);
+    addChances(*card, poses, probability, models::poseName(poses));
     grid_->addWidget(card, place_ / kColumns, place_ % kColumns, Qt::AlignTop);
     ++place_;
     return card;
+}
+
+void PoseCards::addChances(QFrame& card, const std::vector<int>& poses, double probability,
+                           const QString& name) {
+    const auto add = [&](const char* object, const QString& text, bool counts) {
+        auto* label = new QLabel(text, &card);
+        label->setObjectName(object);
+        label->setAlignment(Qt::AlignHCenter);
+        QFont font = label->font();
+        font.setBold(counts);
+        label->setFont(font);
+        if (!counts) label->setForegroundRole(QPalette::PlaceholderText);
+        card.layout()->addWidget(label);
+    };
+    const QString estimate = look::numberText(kPercent * probability);
+    QString told = tr("Estimated from its shape (quasi-static), a part dropped at random comes to rest like "
+                      "this in %1 of "
+                      "100 cases.")
+                       .arg(estimate);
+    if (!drops_) {
+        add("pose.estimate", tr("%1 %").arg(estimate), true);
+    } else {
+        int count = 0;
+        for (const int pose : poses)
+            count += drops_->result.counts[static_cast<std::size_t>(pose)];
+        const int drops = drops_->result.drops();
+        const stats::Interval bounds = stats::calcClopperPearson(count, drops);
+        const bool dropped = weights_ == study::PoseWeights::dropped;
+        const QString share = look::numberText(kPercent * count / drops);
+        const QString low = look::numberText(kPercent * bounds.low, 2);
+        const QString high = look::numberText(kPercent * bounds.high, 2);
+        add("pose.estimate", tr("%1 % est.").arg(estimate), !dropped);
+        add("pose.dropped", tr("%1 % dropped").arg(share), dropped);
+        add("pose.bounds", tr("%1 to %2 %").arg(low, high), false);
+        told += ' ' +
+                tr("Dropped, it came to rest like this %1 times of %2: %3 %, between %4 and %5 % (95 % "
+                   "Clopper-Pearson).")
+                    .arg(QString::number(count), QString::number(drops), share, low, high) +
+                ' ' + (dropped ? tr("The drop test counts.") : tr("The estimate counts."));
+    }
+    card.setToolTip(told);
+    card.setAccessibleName(tr("Stable %1: %2").arg(name, told));
 }
 
 void PoseCards::addOpener(QFrame& card, const part::PoseGroup& group) {

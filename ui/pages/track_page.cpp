@@ -17,6 +17,7 @@
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/pages/drive_card.h"
+#include "ui/pages/materials_dialog.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/problem_text.h"
 #include "ui/pages/run_actions.h"
@@ -28,21 +29,9 @@ namespace trapwright::pages {
 
 namespace {
 
-QString fromView(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
-
 /// What may still change when a study has scores (store::StudyFile::changeSettings).
 bool staysFree(const std::string& key) {
     return key == "evolution.generations" || key.starts_with("validation.");
-}
-
-/// "abs-on-printed-plastic" -> "ABS on printed plastic"
-QString contactTitle(std::string_view name) {
-    QString title = fromView(name).replace('-', ' ');
-    if (title.startsWith("abs ")) return "ABS" + title.mid(3);
-    title[0] = title[0].toUpper();
-    return title;
 }
 
 }  // namespace
@@ -216,23 +205,54 @@ void TrackPage::showTime() {
 void TrackPage::addContactChoice() {
     contact_->setObjectName("track.contact");
     contact_->setAccessibleName(tr("Pair of materials"));
-    for (const study::ContactPreset& preset : study::contactPresets()) {
-        contact_->addItem(contactTitle(preset.name), fromView(preset.name));
-        contact_->setItemData(contact_->count() - 1, fromView(preset.source), Qt::ToolTipRole);
-    }
-    contact_->addItem(tr("Own values"), QString());
     connect(contact_, &QComboBox::activated, this, [this](int index) {
-        const auto preset = study::findContactPreset(contact_->itemData(index).toString().toStdString());
-        if (!preset || !session_) return showContact();
+        const auto* pair = part::findPair(library_, contact_->itemData(index).toString().toStdString());
+        if (pair == nullptr || !session_) return showContact();
         study::Settings settings = session_->settings();
-        settings.simulation.contact = preset->contact;
+        settings.simulation.contact = study::contactOf(*pair);
+        settings.simulation.surface = pair->surface;
         edit(settings, tr("Pair of materials"));
     });
+    auto* library = new QPushButton(tr("Library..."), form_);
+    library->setObjectName("track.library");
+    library->setToolTip(tr("All pairs of materials, with spread and source; your own entries"));
+    connect(library, &QPushButton::clicked, this, &TrackPage::showLibrary);
+    contact_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     auto* row = new QWidget(form_);
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(contact_);
+    layout->addWidget(contact_, 1);
+    layout->addWidget(library);
     form_->addToGroup("contact", row, true);
+}
+
+void TrackPage::listPairs() {
+    contact_->clear();
+    const part::Material* material = study::findUsedMaterial(library_, session_->settings().part);
+    for (const part::MaterialPair& pair : library_.pairs) {
+        if (material != nullptr && pair.material != material->name) continue;
+        contact_->addItem(QString::fromStdString(part::pairTitle(pair)), QString::fromStdString(pair.name));
+        contact_->setItemData(contact_->count() - 1, QString::fromStdString(part::describeSources(pair)),
+                              Qt::ToolTipRole);
+    }
+    contact_->addItem(tr("Own values"), QString());
+}
+
+void TrackPage::showLibrary() {
+    if (!session_) return;
+    const part::Material* used = study::findUsedMaterial(library_, session_->settings().part);
+    auto* dialog = new MaterialsDialog(session_->ownMaterials(),
+                                       used != nullptr ? QString::fromStdString(used->name) : QString(),
+                                       !session_->locked(), this);
+    connect(dialog, &MaterialsDialog::pairWanted, this, [this](const part::MaterialPair& pair) {
+        if (session_) usePair(*session_, pair);
+    });
+    connect(dialog, &MaterialsDialog::libraryChanged, this, [this] {
+        if (!session_) return;
+        library_ = readMaterials(*session_);
+        showContact();
+    });
+    dialog->open();
 }
 
 void TrackPage::setSession(session::StudySession* session) {
@@ -242,6 +262,7 @@ void TrackPage::setSession(session::StudySession* session) {
     track_.reset();
     build_.cancel();
     if (session_) {
+        library_ = readMaterials(*session_);
         using session::StudySession;
         connect(session_, &StudySession::settingsChanged, this, &TrackPage::refresh);
         connect(session_, &StudySession::partChanged, this, &TrackPage::refresh);
@@ -256,6 +277,11 @@ void TrackPage::setSession(session::StudySession* session) {
 
 void TrackPage::activate(scene::SceneView& scene) {
     scene_ = &scene;
+    // Other pages change the library, too.
+    if (session_) {
+        library_ = readMaterials(*session_);
+        showContact();
+    }
     showTrack();
 }
 
@@ -309,17 +335,11 @@ void TrackPage::showProblems() {
 }
 
 void TrackPage::showContact() {
-    const trial::ContactParameters& contact = session_->settings().simulation.contact;
-    int index = contact_->count() - 1;
-    for (int i = 0; i < contact_->count() - 1; ++i) {
-        const auto preset = study::findContactPreset(contact_->itemData(i).toString().toStdString());
-        if (preset && preset->contact.staticFriction == contact.staticFriction &&
-            preset->contact.kineticFriction == contact.kineticFriction &&
-            preset->contact.restitution == contact.restitution) {
-            index = i;
-        }
-    }
-    contact_->setCurrentIndex(index);
+    listPairs();
+    const part::MaterialPair* used = study::findUsedPair(library_, session_->settings());
+    const int index = used != nullptr ? contact_->findData(QString::fromStdString(used->name)) : -1;
+    contact_->setCurrentIndex(index >= 0 ? index : contact_->count() - 1);
+    contact_->setToolTip(used != nullptr ? QString::fromStdString(part::describeSources(*used)) : QString());
 }
 
 void TrackPage::edit(const study::Settings& settings, const QString& what) {
@@ -329,7 +349,7 @@ void TrackPage::edit(const study::Settings& settings, const QString& what) {
 void TrackPage::usePreset(const QString& name, const QString& title) {
     if (!session_) return;
     auto settings = study::presetSettings(name.toStdString());
-    if (!settings) return;
+    if (!settings) return emit failed(title, QString::fromStdString(settings.error().message));
     settings->part = session_->settings().part;
     settings->feeder = session_->settings().feeder;
     edit(*settings, title);

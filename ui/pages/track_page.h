@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/part/materials.h"
 #include "core/study/settings.h"
 #include "core/track/track.h"
 #include "ui/pages/page.h"
@@ -37,7 +38,9 @@ class TrackPage : public Page {
     void addContactChoice();
     void refresh();
     void showProblems();
+    void listPairs();
     void showContact();
+    void showLibrary();
     void edit(const study::Settings& settings, const QString& what);
     void usePreset(const QString& name, const QString& title);
     void usePaperMode();
@@ -55,6 +58,7 @@ class TrackPage : public Page {
     std::shared_ptr<const track::Track> track_;
     SettingsForm* form_;
     DriveCard* drive_;
+    part::MaterialLibrary library_;
     QComboBox* contact_;
     QWidget* locked_;
     QLabel* title_;

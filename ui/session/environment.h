@@ -37,6 +37,8 @@ struct Environment {
     /// Where a RecoveryNote is kept while a study learns; empty: none is.
     std::filesystem::path stateFolder{};
     DriveAccess drives{};
+    /// The user's own materials, beside those that come with the program (part::readMaterials).
+    std::filesystem::path ownMaterials{};
 };
 
 }  // namespace trapwright::session

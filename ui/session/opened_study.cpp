@@ -34,6 +34,8 @@ base::Result<OpenedStudy> readStudy(store::StudyFile file) {
     if (!physical) return physical.error();
     auto calibrations = file.loadCalibrations();
     if (!calibrations) return calibrations.error();
+    auto dropTests = file.loadDropTests();
+    if (!dropTests) return dropTests.error();
     auto chosen = readChosen(file);
     if (!chosen) return chosen.error();
     auto study = readNewStudy(std::move(file), std::move(*design));
@@ -45,6 +47,7 @@ base::Result<OpenedStudy> readStudy(store::StudyFile file) {
     study->validations = std::move(*validations);
     study->physicalValidations = std::move(*physical);
     study->calibrations = std::move(*calibrations);
+    study->dropTests = std::move(*dropTests);
     study->chosen = std::move(*chosen);
     return study;
 }
@@ -58,6 +61,7 @@ base::Result<OpenedStudy> readNewStudy(store::StudyFile file, work::StudyDesign 
                        std::move(*reader),
                        std::move(*ledger),
                        std::move(design),
+                       {},
                        {},
                        {},
                        {},

@@ -24,6 +24,7 @@ struct OpenedStudy {
     std::vector<study::ValidationRecord> validations;
     std::vector<study::PhysicalValidation> physicalValidations;
     std::vector<calibration::Calibration> calibrations;
+    std::vector<study::DropRecord> dropTests;
     std::optional<study::Winner> chosen;  // by the user
 };
 

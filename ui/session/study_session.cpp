@@ -40,6 +40,7 @@ StudySession::State::State(OpenedStudy study, const Environment& environmentGive
       validations(std::move(study.validations)),
       physicalValidations(std::move(study.physicalValidations)),
       calibrations(std::move(study.calibrations)),
+      dropTests(std::move(study.dropTests)),
       chosen(std::move(study.chosen)),
       reader(std::move(study.reader)),
       writer(std::move(study.file)),
@@ -115,6 +116,7 @@ StudySession::~StudySession() {
     state_->simulated.cancel();
     state_->estimate.cancel();
     state_->speedTable.cancel();
+    state_->dropping.cancel();
     // These go first: while others have it open, the writer cannot put the study into one file.
     state_->reader.reset();
     state_->ledger.reset();
@@ -124,6 +126,10 @@ StudySession::~StudySession() {
 
 const std::filesystem::path& StudySession::path() const {
     return state_->path;
+}
+
+const std::filesystem::path& StudySession::ownMaterials() const {
+    return state_->environment.ownMaterials;
 }
 
 const study::Settings& StudySession::settings() const {
@@ -246,9 +252,14 @@ base::Result<std::unique_ptr<StudySession>> StudySession::fork(const std::filesy
     auto file =
         store::StudyFile::create(path, state_->settings, *state_->part.stored, state_->environment.program);
     if (!file) return file.error();
-    return makeSession(
-        readNewStudy(std::move(*file), {state_->settings, *state_->part.stored, state_->part.part}),
-        state_->environment);
+    // Its weights may be those of the drop test.
+    const auto drops = dropTest();
+    if (drops) {
+        if (const auto added = file->addDropTest(*drops); !added) return added.error();
+    }
+    auto study = readNewStudy(std::move(*file), {state_->settings, *state_->part.stored, state_->part.part});
+    if (study && drops) study->dropTests = {*drops};
+    return makeSession(std::move(study), state_->environment);
 }
 
 }  // namespace trapwright::session

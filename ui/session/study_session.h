@@ -18,6 +18,7 @@
 #include "core/drive/log_entry.h"
 #include "core/store/study_file.h"
 #include "core/study/physical_validation.h"
+#include "core/study/pose_drops.h"
 #include "core/study/records.h"
 #include "core/study/settings.h"
 #include "core/trial/outcome.h"
@@ -45,6 +46,12 @@ struct SimulatedTrials {
 struct LearningDraft {
     study::EvolutionSettings evolution;
     double seconds = 0.0;  // of learning, estimated
+};
+
+/// A drop test that goes on.
+struct DropProgress {
+    study::DropSettings settings;
+    study::DropResult sofar;
 };
 
 /// One open study. Lives in the GUI thread and never makes it wait: a thread of its own learns, selects and
@@ -75,6 +82,8 @@ class StudySession : public QObject {
 
     [[nodiscard]] const std::filesystem::path& path() const;
     [[nodiscard]] const study::Settings& settings() const;
+    /// The user's own folder of materials (part::readMaterials).
+    [[nodiscard]] const std::filesystem::path& ownMaterials() const;
     [[nodiscard]] std::shared_ptr<const part::Part> part() const;
     [[nodiscard]] const store::StoredPart& storedPart() const;
     /// The best F_O that the part can attain.
@@ -169,6 +178,18 @@ class StudySession : public QObject {
     /// if not the most frequent one.
     void startValidation(const study::Winner& winner,
                          const std::optional<base::Quaternion>& expected = std::nullopt);
+    /// Drops the part (study::simulateDrops) with the engine that judges. Others have their turn meanwhile,
+    /// and it goes on while the study learns. Ends with dropsChanged(), after which the test is in dropTest()
+    /// and saved, or with failed().
+    void startDrops(const study::DropSettings& settings);
+    void cancelDrops();
+    /// Has totals weighted by the estimates or by the last drop test (study::poseWeights), as a command of
+    /// the undo stack. While the test counts, a new one takes its place.
+    void countPosesBy(study::PoseWeights weights);
+    /// What is dropped just now.
+    [[nodiscard]] std::optional<DropProgress> drops() const;
+    /// The last drop test of the part as it is; none without one.
+    [[nodiscard]] std::optional<study::DropRecord> dropTest() const;
     /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed(); until
     /// then trialsArrived() tells the first ones. A replay need not wait for the last one.
     void simulateTrials(const work::TrialsRequest& request);
@@ -203,6 +224,8 @@ class StudySession : public QObject {
     void selectionSaved();
     void validationSaved();
     void chosenChanged();
+    /// Some more were dropped, or the test ended or was cancelled.
+    void dropsChanged();
     /// It was begun, or has a trial more or less.
     void physicalValidationChanged(int validation);
     void calibrationAdded(int calibration);
@@ -220,7 +243,10 @@ class StudySession : public QObject {
  private:
     struct State;
     struct Run;
+    struct Dropping;
 
+    void dropSome(const std::shared_ptr<const Dropping>& dropping);
+    void finishDrops(const Dropping& dropping);
     void pushPart(const PartVersion& version, const QString& what);
     void applySettings(const study::Settings& settings);
     void applyPart(const PartVersion& version);

@@ -17,6 +17,7 @@ QString lockedMessage() {
 void StudySession::changeSettings(const study::Settings& settings, const QString& what) {
     study::Settings next = settings;
     next.part = state_->settings.part;
+    study::takePoseWeights(next.part, settings.part);
     if (next == state_->settings) return;
     if (locked() && !study::keepsScores(state_->settings, next)) {
         emit failed(what, lockedMessage());
@@ -28,17 +29,21 @@ void StudySession::changeSettings(const study::Settings& settings, const QString
 
 void StudySession::changePart(const store::StoredPart& part, const study::PartSettings& settings,
                               const QString& what) {
-    state_->partBuilding.start([this, part, settings, what]() -> NewestTask::Deliver {
-        auto built = part::buildPart(part.mesh, part.options);
-        if (!built) {
-            return [this, what, message = built.error().message] {
-                emit failed(what, QString::fromStdString(message));
-            };
-        }
-        const PartVersion version{std::make_shared<const store::StoredPart>(part), settings,
-                                  std::make_shared<const part::Part>(std::move(built->part))};
-        return [this, what, version] { pushPart(version, what); };
-    });
+    state_->partBuilding.start(
+        [this, part, settings, what, present = state_->part.part]() -> NewestTask::Deliver {
+            auto built = part::buildPart(part.mesh, part.options);
+            if (!built) {
+                return [this, what, message = built.error().message] {
+                    emit failed(what, QString::fromStdString(message));
+                };
+            }
+            PartVersion version{std::make_shared<const store::StoredPart>(part), settings,
+                                std::make_shared<const part::Part>(std::move(built->part))};
+            // The counts are of the poses that there were.
+            if (!study::holdsFor(study::makeDropRecord(*present, {}, {}, {}), *version.part))
+                version.settings.droppedCounts.clear();
+            return [this, what, version] { pushPart(version, what); };
+        });
 }
 
 void StudySession::changePart(const ImportedPart& part, const QString& what) {
@@ -55,10 +60,12 @@ void StudySession::pushPart(const PartVersion& version, const QString& what) {
 }
 
 void StudySession::applySettings(const study::Settings& settings) {
-    // The part has commands of its own.
+    // The part has commands of its own; how its poses count is no matter of the part.
     const study::Settings before = state_->settings;
     state_->settings = settings;
     state_->settings.part = before.part;
+    study::takePoseWeights(state_->settings.part, settings.part);
+    state_->part.settings = state_->settings.part;
     if (!work::costTheSame(before, state_->settings)) state_->forgetCost();
     if (state_->run) state_->run->learning.setGenerations(settings.evolution.generations);
     saveDesign(nullptr);
@@ -66,6 +73,7 @@ void StudySession::applySettings(const study::Settings& settings) {
 }
 
 void StudySession::applyPart(const PartVersion& version) {
+    cancelDrops();
     state_->part = version;
     state_->settings.part = version.settings;
     state_->forgetCost();

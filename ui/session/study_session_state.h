@@ -72,6 +72,7 @@ struct StudySession::State {
     std::vector<study::ValidationRecord> validations;
     std::vector<study::PhysicalValidation> physicalValidations;
     std::vector<calibration::Calibration> calibrations;
+    std::vector<study::DropRecord> dropTests;
     std::optional<study::Winner> chosen;  // by the user
     std::vector<std::string> problems;
     std::vector<std::string> recommendations;
@@ -83,11 +84,13 @@ struct StudySession::State {
     RunState told = RunState::idle;      // by stateChanged()
     std::shared_ptr<Run> run;            // null while that thread is idle
     QTimer tick;
-    int simulations = 0;           // that are not done
-    base::RunControl simulated;    // of those that are wanted
-    base::RunControl estimate;     // of the last one
-    base::RunControl speedTable;   // likewise
-    double secondsPerTrial = 0.0;  // while learning; 0: not known for these settings
+    int simulations = 0;                // that are not done
+    base::RunControl simulated;         // of those that are wanted
+    base::RunControl estimate;          // of the last one
+    base::RunControl speedTable;        // likewise
+    base::RunControl dropping;          // likewise
+    std::optional<DropProgress> drops;  // that goes on
+    double secondsPerTrial = 0.0;       // while learning; 0: not known for these settings
 
     StudyWriter writer;
     std::unique_ptr<StudyLedger> ledger;

@@ -107,7 +107,7 @@ class PartBuilderTest : public QObject {
         QVERIFY(entry.ok());
         const auto imported = part::importMesh(part::findBundledFile(*entry), "mm");
         QVERIFY(imported.ok());
-        const double density = part::findMaterial(entry->material)->density;
+        const double density = part::findMaterial(part::readMaterials(), entry->material)->density.value;
         const auto built =
             part::buildPart(imported->mesh, {.name = std::string(entry->name), .density = density});
         QVERIFY2(built.ok(), built ? "" : built.error().message.c_str());

@@ -19,6 +19,9 @@ namespace trapwright::sample {
 
 inline const std::string kProgram = "trapwright 0.0-test";
 
+/// What schema version 7 added.
+inline constexpr const char* kDropVersion7 = "DROP TABLE drop_pose; DROP TABLE drop_test;";
+
 /// What schema version 6 added.
 inline constexpr const char* kDropVersion6 =
     "ALTER TABLE physical_trial DROP COLUMN feeder; ALTER TABLE physical_trial DROP COLUMN drive; "

@@ -30,6 +30,7 @@ study::GenerationRecord generationOf(int index, int winnersTrials) {
 /// The study as a program of schema version 1 would have left it.
 void makeOld(const std::filesystem::path& path) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    database.exec(sample::kDropVersion7);
     database.exec(sample::kDropVersion6);
     database.exec(sample::kDropVersion5);
     database.exec(sample::kDropVersion4);

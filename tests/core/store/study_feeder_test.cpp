@@ -198,6 +198,7 @@ class StudyFeederTest : public QObject {
     void studyOfVersion3IsBroughtUpToDate() {
         {
             SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+            database.exec(sample::kDropVersion7);
             database.exec(sample::kDropVersion6);
             database.exec(sample::kDropVersion5);
             database.exec(sample::kDropVersion4);
@@ -232,6 +233,7 @@ class StudyFeederTest : public QObject {
         }
         {
             SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+            database.exec(sample::kDropVersion7);
             database.exec(sample::kDropVersion6);
             database.exec("PRAGMA user_version = 5");
         }

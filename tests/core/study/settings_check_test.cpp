@@ -80,15 +80,59 @@ class SettingsCheckTest : public QObject {
         QCOMPARE(s.simulation.engine, std::string("simbody"));
     }
 
-    void materialsAreFoundByName() {
-        const auto abs = study::findContactPreset("abs-on-printed-plastic");
-        QVERIFY(abs.ok());
-        QCOMPARE(abs->contact.staticFriction, 0.5);
-        QCOMPARE(abs->contact.restitution, 0.2);
-        for (const study::ContactPreset& preset : study::contactPresets())
-            QVERIFY(!preset.source.empty());
-        QVERIFY(study::findContactPreset("glass").error().message.find("\"brass-on-printed-plastic\"") !=
-                std::string::npos);
+    // What the presets were before there was a library, to the last bit.
+    void presetsTakeTheirPairs_data() {
+        QTest::addColumn<QString>("preset");
+        QTest::addColumn<QString>("pair");
+        QTest::addColumn<double>("friction");
+        QTest::addColumn<double>("density");
+        QTest::newRow("cuboid") << "cuboid"
+                                << "abs-on-printed-plastic" << 0.5 << 1040.0;
+        QTest::newRow("cone") << "cone"
+                              << "brass-on-printed-plastic" << 0.35 << 8500.0;
+    }
+
+    void presetsTakeTheirPairs() {
+        QFETCH(QString, preset);
+        QFETCH(QString, pair);
+        QFETCH(double, friction);
+        QFETCH(double, density);
+        const auto settings = study::presetSettings(preset.toStdString());
+        QVERIFY(settings.ok());
+        QCOMPARE(settings->simulation.contact.staticFriction, friction);
+        QCOMPARE(settings->simulation.contact.kineticFriction, friction);
+        QCOMPARE(settings->simulation.contact.restitution, 0.2);
+        QCOMPARE(settings->part.density, density);
+        const part::MaterialLibrary library = part::readMaterials();
+        QCOMPARE(study::findUsedPair(library, *settings), part::findPair(library, pair.toStdString()));
+    }
+
+    void pairIsKnownByItsNumbers() {
+        const part::MaterialLibrary library = part::readMaterials();
+        study::Settings settings = *study::presetSettings("cuboid");
+        // Studies of before tell neither material nor surface.
+        settings.part.material.clear();
+        settings.simulation.surface.clear();
+        QCOMPARE(study::findUsedPair(library, settings), part::findPair(library, "ABS", "printed plastic"));
+        study::usePair(settings, *part::findPair(library, "steel", "steel sheet"));
+        QCOMPARE(study::findUsedPair(library, settings), part::findPair(library, "steel", "steel sheet"));
+        settings.simulation.contact.restitution += 0.01;
+        QVERIFY(study::findUsedPair(library, settings) == nullptr);
+        QCOMPARE(study::findUsedMaterial(library, settings.part)->name, std::string("steel"));
+        settings.part.density += 1.0;
+        QVERIFY(study::findUsedMaterial(library, settings.part) == nullptr);
+        // Two materials of one density are told apart by name.
+        study::usePair(settings, *part::findPair(library, "rubber", "SLA resin"));
+        QCOMPARE(study::findUsedMaterial(library, settings.part)->name, std::string("rubber"));
+    }
+
+    void materialSuggestsItsPair() {
+        const part::MaterialLibrary library = part::readMaterials();
+        const part::MaterialPair* used = part::findPair(library, "ABS", "steel sheet");
+        QCOMPARE(study::suggestPair(library, "POM", used), part::findPair(library, "POM", "steel sheet"));
+        QCOMPARE(study::suggestPair(library, "POM", nullptr),
+                 part::findPair(library, "POM", "printed plastic"));
+        QVERIFY(study::suggestPair(library, "cheese", used) == nullptr);
     }
 
     void rangesAreHeld_data() {

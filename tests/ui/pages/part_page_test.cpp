@@ -1,0 +1,274 @@
+// Materials and the drop test on the Part and Track pages: chosen, proposed, made, imported, dropped.
+
+#include "ui/pages/part_page.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFrame>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <fstream>
+
+#include "core/study/presets.h"
+#include "core/work/part_source.h"
+#include "sim/native/native_engine.h"
+#include "ui/pages/materials_dialog.h"
+#include "ui/pages/track_page.h"
+#include "ui/session/study_session.h"
+
+using namespace trapwright;
+
+namespace {
+
+constexpr int kPatience = 60000;  // [ms] on a busy machine
+
+session::Environment environment(const std::filesystem::path& own) {
+    session::Environment environment;
+    environment.program = "trapwright 0.0-test";
+    environment.ownMaterials = own;
+    environment.makeEngine =
+        [](const std::string&,
+           const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
+        return std::shared_ptr<const trial::Engine>(std::make_shared<native::NativeEngine>(options));
+    };
+    return environment;
+}
+
+/// A designer at the two pages, who has imported the cuboid.
+struct Designer {
+    std::unique_ptr<session::StudySession> study;
+    pages::PartPage part;
+    pages::TrackPage track;
+    QSignalSpy failed{&part, &pages::Page::failed};
+
+    explicit Designer(std::unique_ptr<session::StudySession> opened) : study(std::move(opened)) {
+        part.resize(360, 1400);
+        part.show();
+        part.setSession(study.get());
+        track.setSession(study.get());
+    }
+    ~Designer() {
+        part.setSession(nullptr);
+        track.setSession(nullptr);
+    }
+    session::StudySession* session() { return study.get(); }
+    template <class Object>
+    Object* find(const QString& name) {
+        auto* object = part.findChild<Object*>(name);
+        return object != nullptr ? object : track.findChild<Object*>(name);
+    }
+    QString text(const QString& label) { return find<QLabel>(label)->text(); }
+    void choose(const QString& box, const QString& text) {
+        auto* combo = find<QComboBox>(box);
+        combo->setCurrentIndex(combo->findText(text));
+        emit combo->activated(combo->currentIndex());
+    }
+    void press(const QString& button) { find<QPushButton>(button)->click(); }
+    const trial::ContactParameters& contact() { return study->settings().simulation.contact; }
+    pages::MaterialsDialog* library(const QString& button) {
+        press(button);
+        return find<pages::MaterialsDialog>("materials");
+    }
+};
+
+}  // namespace
+
+class PartPageTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void initTestCase() {
+        QSettings::setDefaultFormat(QSettings::IniFormat);
+        QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
+        QCoreApplication::setOrganizationName("Trapwright");
+    }
+    void init() {
+        QSettings().clear();
+        own_ = folder_.filePath(QTest::currentTestFunction()).toStdString();
+    }
+
+    // The pair of a new material is proposed; the user's own numbers stay until he takes it.
+    void materialProposesItsPair() {
+        Designer user(create());
+        QCOMPARE(user.find<QComboBox>("part.material")->currentText(), QString("ABS"));
+        auto* proposal = user.find<QWidget>("part.proposal");
+        QVERIFY(proposal->isHidden());
+        user.choose("part.material", "steel");
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 7850.0, kPatience);
+        QTRY_VERIFY(!proposal->isHidden());
+        QVERIFY(user.text("part.proposal.text").startsWith("steel on printed plastic: friction 0.35 static"));
+        QCOMPARE(user.contact().staticFriction, 0.5);
+
+        // Refused: nothing changes, and it is not asked again.
+        user.press("part.proposal.keep");
+        QVERIFY(proposal->isHidden());
+        QCOMPARE(user.contact().staticFriction, 0.5);
+
+        user.choose("part.material", "POM");
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 1410.0, kPatience);
+        QTRY_VERIFY(!proposal->isHidden());
+        user.press("part.proposal.take");
+        QVERIFY(proposal->isHidden());
+        QCOMPARE(user.contact().staticFriction, 0.3);
+        QCOMPARE(user.session()->settings().simulation.surface, std::string("printed plastic"));
+        user.session()->undoStack()->undo();
+        QCOMPARE(user.contact().staticFriction, 0.5);
+        user.session()->undoStack()->undo();
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 7850.0, kPatience);
+        QCOMPARE(user.find<QComboBox>("part.material")->currentText(), QString("steel"));
+    }
+
+    void trackOffersThePairsOfThePart() {
+        Designer user(create());
+        auto* contact = user.find<QComboBox>("track.contact");
+        QCOMPARE(contact->currentText(), QString("ABS on printed plastic"));
+        for (int i = 0; i + 1 < contact->count(); ++i)
+            QVERIFY(contact->itemText(i).startsWith("ABS on "));
+        user.choose("track.contact", "ABS on steel sheet");
+        QCOMPARE(user.contact().staticFriction, 0.4);
+        QCOMPARE(contact->currentText(), QString("ABS on steel sheet"));
+        auto* field = user.find<QLineEdit>("field.simulation.contact.staticFriction");
+        field->setFocus();
+        field->selectAll();
+        QTest::keyClicks(field, "0.43");
+        QTest::keyClick(field, Qt::Key_Return);
+        QTRY_COMPARE(contact->currentText(), QString("Own values"));
+    }
+
+    void ownPairIsMadeUsedAndRemoved() {
+        Designer user(create());
+        auto* dialog = user.library("part.library");
+        auto* table = dialog->findChild<QTableView*>("materials.table");
+        auto* search = dialog->findChild<QLineEdit*>("materials.search");
+        QCOMPARE(search->text(), QString("ABS"));
+        search->setText("aluminium steel sheet");
+        QCOMPARE(table->model()->rowCount(), 1);
+        QVERIFY(dialog->findChild<QLabel*>("materials.details")->text().contains("Marks"));
+        // What comes with the program is not removed.
+        QVERIFY(!dialog->findChild<QPushButton*>("materials.remove")->isEnabled());
+
+        dialog->findChild<QPushButton*>("materials.new")->click();
+        auto* editor = dialog->findChild<QDialog*>("pairEditor");
+        QVERIFY(editor != nullptr);
+        editor->findChild<QLineEdit*>("pair.surface")->setText("our anodised plate");
+        editor->findChild<QDoubleSpinBox*>("pair.static.value")->setValue(0.28);
+        editor->findChild<QPushButton*>("pair.save")->click();
+        auto* problem = editor->findChild<QLabel*>("pair.problem");
+        QVERIFY2(problem->text().contains("above the static friction"), qPrintable(problem->text()));
+        editor->findChild<QDoubleSpinBox*>("pair.kinetic.value")->setValue(0.22);
+        editor->findChild<QLineEdit*>("pair.static.source")->setText("our slope, 20 times");
+        editor->findChild<QPushButton*>("pair.save")->click();
+        QVERIFY(std::filesystem::exists(own_ / "aluminium-on-our-anodised-plate.json"));
+        QVERIFY(dialog->findChild<QLabel*>("materials.details")->text().contains("our slope, 20 times"));
+
+        dialog->findChild<QPushButton*>("materials.use")->click();
+        QCOMPARE(user.contact().staticFriction, 0.28);
+        // As when the page is shown again.
+        user.track.setSession(user.session());
+        QCOMPARE(user.contact().kineticFriction, 0.22);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 2700.0, kPatience);
+        QCOMPARE(user.find<QComboBox>("track.contact")->currentText(),
+                 QString("aluminium on our anodised plate"));
+
+        dialog = user.library("track.library");
+        search = dialog->findChild<QLineEdit*>("materials.search");
+        search->setText("anodised");
+        dialog->findChild<QPushButton*>("materials.remove")->click();
+        auto* question = dialog->findChild<QMessageBox*>("materials.removeQuestion");
+        QVERIFY(question != nullptr);
+        question->buttons().front()->click();
+        QTRY_VERIFY(!std::filesystem::exists(own_ / "aluminium-on-our-anodised-plate.json"));
+        // The study keeps its numbers.
+        QCOMPARE(user.contact().staticFriction, 0.28);
+    }
+
+    void brokenFileIsToldAndHidesNoOther() {
+        std::filesystem::create_directories(own_);
+        std::ofstream(own_ / "cheese.json") << "{ \"format\": \"trapwright material\" }";
+        part::MaterialPair good = *part::findPair(part::readMaterials(), "ABS", "printed PLA");
+        good.surface = "cork";
+        QVERIFY(part::savePair(own_, good).ok());
+        Designer user(create());
+        QCOMPARE(user.failed.count(), 1);
+        QVERIFY(user.failed[0][1].toString().contains("cheese.json"));
+        auto* dialog = user.library("part.library");
+        QVERIFY(dialog->findChild<QLabel*>("materials.problems")->text().contains("at \"version\""));
+        dialog->findChild<QLineEdit*>("materials.search")->setText("cork");
+        QCOMPARE(dialog->findChild<QTableView*>("materials.table")->model()->rowCount(), 1);
+    }
+
+    // Dropped, cancelled, dropped again, chosen to count, and the same when it is opened again.
+    void partIsDropped() {
+        std::filesystem::path path;
+        study::DropRecord dropped;
+        {
+            Designer user(create());
+            path = user.session()->path();
+            QTRY_COMPARE(user.part.findChildren<QFrame*>("poseCard").size(), 3);
+            QVERIFY(user.find<QLabel>("pose.dropped") == nullptr);
+            QCOMPARE(user.find<QDoubleSpinBox>("drop.static")->value(), 0.5);
+            user.choose("drop.surface", "steel sheet");
+            QCOMPARE(user.find<QDoubleSpinBox>("drop.static")->value(), 0.4);
+            user.find<QSpinBox>("drop.drops")->setValue(100000);
+            user.press("drop.start");
+            QVERIFY(user.session()->drops().has_value());
+            QTRY_VERIFY_WITH_TIMEOUT(user.find<QProgressBar>("drop.bar")->value() > 0, kPatience);
+            user.press("drop.cancel");
+            QVERIFY(!user.session()->drops() && !user.session()->dropTest());
+            QCOMPARE(user.text("drop.last"), QString("Not dropped yet."));
+
+            user.find<QSpinBox>("drop.drops")->setValue(24);
+            user.find<QDoubleSpinBox>("drop.height")->setValue(12.0);
+            user.find<QSpinBox>("drop.seed")->setValue(5);
+            user.press("drop.start");
+            QTRY_VERIFY_WITH_TIMEOUT(user.session()->dropTest().has_value(), 3 * kPatience);
+            dropped = *user.session()->dropTest();
+            QCOMPARE(dropped.result.drops(), 24);
+            QCOMPARE(dropped.settings.height, 12e-3);
+            QCOMPARE(dropped.settings.contact.staticFriction, 0.4);
+            QCOMPARE(dropped.engine, std::string("simbody"));
+            QTRY_COMPARE(user.part.findChildren<QLabel*>("pose.dropped").size(), 3);
+            QVERIFY(user.text("drop.last").startsWith("24 dropped from 12 mm; friction 0.4 static"));
+            QVERIFY(!user.find<QLabel>("pose.dropped")->font().bold());
+            user.choose("field.part.poseWeights", "Drop test");
+            QVERIFY(user.session()->settings().part.poseWeights == study::PoseWeights::dropped);
+            QTRY_VERIFY(user.find<QLabel>("pose.dropped")->font().bold());
+            user.session()->undoStack()->undo();
+            QVERIFY(user.session()->settings().part.poseWeights == study::PoseWeights::quasiStatic);
+            user.session()->undoStack()->redo();
+            QTest::qWait(200);
+        }
+        auto opened = session::StudySession::open(path, environment(own_));
+        QVERIFY(opened.ok());
+        Designer user(std::move(opened).value());
+        QVERIFY(user.session()->dropTest() == dropped);
+        QVERIFY(user.session()->settings().part.poseWeights == study::PoseWeights::dropped);
+        QCOMPARE(user.find<QSpinBox>("drop.seed")->value(), 5);
+        QTRY_COMPARE(user.part.findChildren<QLabel*>("pose.dropped").size(), 3);
+    }
+
+ private:
+    std::unique_ptr<session::StudySession> create() {
+        static int number = 0;
+        const auto part = work::importPart({"cuboid"}).value();
+        auto made = session::StudySession::create(
+            folder_.filePath(QString("study%1.trap").arg(++number)).toStdString(),
+            study::presetSettings("cuboid").value(), part, environment(own_));
+        return made.ok() ? std::move(made).value() : nullptr;
+    }
+
+    QTemporaryDir folder_;
+    std::filesystem::path own_;
+};
+
+QTEST_MAIN(PartPageTest)
+#include "part_page_test.moc"
