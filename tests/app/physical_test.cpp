@@ -16,7 +16,7 @@ class PhysicalTest : public QObject {
  private slots:
     void init() {
         folder_.emplace();
-        sample::write(folder_->filePath("study.trap").toStdString(), 1);
+        makeStudy("study.trap");
     }
 
     void showsTheTable() {
@@ -116,20 +116,27 @@ class PhysicalTest : public QObject {
 
     // The track that was chosen in the studio is the one that the commands take.
     void finalTrackIsTaken() {
-        const auto part = work::importPart({"cuboid"});
-        QVERIFY(part.ok());
-        auto study = store::StudyFile::create(folder_->filePath("chosen.trap").toStdString(),
-                                              sample::settings(), part->stored, sample::kProgram);
-        VERIFY_OK(study);
-        VERIFY_OK(study->saveGeneration(sample::generation(0)));
-        VERIFY_OK(study->chooseWinner(store::IndividualPlace{0, 99}));
-        study = base::Error{"closed"};
-        const Ran ran = ask({"export", "chosen.trap", "track.json"});
+        {
+            auto study =
+                store::StudyFile::open(folder_->filePath("study.trap").toStdString(), sample::kProgram);
+            VERIFY_OK(study);
+            VERIFY_OK(study->chooseWinner(store::IndividualPlace{0, 99}));
+        }
+        const Ran ran = ask({"export", "study.trap", "track.json"});
         QCOMPARE(ran.code, 3);
         QVERIFY2(ran.errors.contains("99"), ran.all());
     }
 
  private:
+    /// Of the cuboid: tables are by groups of its poses.
+    void makeStudy(const QString& name) {
+        const auto part = work::importPart({"cuboid"});
+        QVERIFY(part.ok());
+        auto study = store::StudyFile::create(folder_->filePath(name).toStdString(), sample::settings(),
+                                              part->stored, sample::kProgram);
+        VERIFY_OK(study);
+        VERIFY_OK(study->saveGeneration(sample::generation(0)));
+    }
     [[nodiscard]] Ran ask(const QStringList& arguments) const { return run(folder_->path(), arguments); }
 
     std::optional<QTemporaryDir> folder_;

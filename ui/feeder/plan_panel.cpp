@@ -161,9 +161,11 @@ void PlanPanel::listValidations() {
 
 void PlanPanel::showProgress() {
     const study::PhysicalValidation* now = guide_.validation();
-    cards_->setVisible(now != nullptr);
-    expected_->setVisible(now != nullptr);
-    if (now == nullptr) {
+    // While a study is closed, the guide still has its validation.
+    const bool shown = now != nullptr && session_ != nullptr;
+    cards_->setVisible(shown);
+    expected_->setVisible(shown);
+    if (!shown) {
         return facts_->setText(
             session_ && session_->winners().empty()
                 ? tr("Learn a track, print it, mount it: then it can be validated here.")

@@ -127,8 +127,7 @@ class PartImportTest : public QObject {
         file.close();
         User user;
         user.window.openFile(file.fileName().toStdString());
-        QTRY_VERIFY_WITH_TIMEOUT(!user.message().isEmpty(), kPatience);
-        QVERIFY2(user.message().contains(name), qPrintable(user.message()));
+        QTRY_VERIFY2_WITH_TIMEOUT(user.message().contains(name), qPrintable(user.message()), kPatience);
         QVERIFY(user.session() == nullptr);
         QVERIFY(QApplication::activeModalWidget() == nullptr);
     }
