@@ -62,7 +62,7 @@ class CompletionTest : public QObject {
         QTest::newRow("engines") << "trapwright evolve one.trap --engine "
                                  << QStringList{"simbody", "native", "simbody-certifying", "hybrid"};
         QTest::newRow("presets") << "trapwright new a.trap --preset c" << QStringList{"cuboid", "cone"};
-        QTest::newRow("pairs") << "trapwright new a.trap --contact abs"
+        QTest::newRow("pairs") << "trapwright new a.trap --contact abs-on-printed-plas"
                                << QStringList{"abs-on-printed-plastic"};
         QTest::newRow("materials") << "trapwright part cuboid --material st"
                                    << QStringList{"steel", "stainless"};

@@ -159,6 +159,7 @@ class DocsTest : public QObject {
         const QStringList sources = QDir(kRoot + "/app/trapwright").entryList({"command_*.cpp"}, QDir::Files);
         QVERIFY(sources.size() > 10);
         for (const QString& source : sources) {
+            if (source == "command_line.cpp") continue;  // holds the commands together
             const QString command = source.section('_', 1).section('.', 0, 0).replace('_', '-');
             QVERIFY2(page.contains("| `trapwright " + command), qPrintable(command));
         }

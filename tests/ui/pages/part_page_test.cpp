@@ -22,6 +22,7 @@
 #include "core/work/part_source.h"
 #include "sim/native/native_engine.h"
 #include "ui/pages/materials_dialog.h"
+#include "ui/pages/run_actions.h"
 #include "ui/pages/track_page.h"
 #include "ui/session/study_session.h"
 
@@ -47,7 +48,8 @@ session::Environment environment(const std::filesystem::path& own) {
 struct Designer {
     std::unique_ptr<session::StudySession> study;
     pages::PartPage part;
-    pages::TrackPage track;
+    pages::RunActions run;
+    pages::TrackPage track{run};
     QSignalSpy failed{&part, &pages::Page::failed};
 
     explicit Designer(std::unique_ptr<session::StudySession> opened) : study(std::move(opened)) {
