@@ -158,7 +158,7 @@ base::Result<DropResult> simulateDrops(const trial::Engine& engine, std::shared_
     if (!plane) return plane.error();
     trial::TrialBatch batch;
     batch.track = std::make_shared<const track::Track>(*std::move(plane));
-    batch.part = part;
+    batch.part = std::move(part);
     batch.contact = settings.contact;
     batch.gravity = settings.gravity;
     batch.drive.halfStroke = 0.0;
@@ -167,7 +167,7 @@ base::Result<DropResult> simulateDrops(const trial::Engine& engine, std::shared_
         trial::TrialSpec spec;
         spec.stream = {settings.seed, 0, 0, static_cast<std::uint32_t>(i), base::Purpose::stablePoseDrop};
         base::Random random(spec.stream);
-        spec.start = trial::drawStart(*batch.track, *part, {}, random);
+        spec.start = trial::drawStart(*batch.track, *batch.part, {}, random);
         spec.start.pose.position.z() += settings.height;
         batch.trials.push_back(spec);
     }
@@ -191,7 +191,7 @@ base::Result<DropResult> simulateDrops(const trial::Engine& engine, std::shared_
         if (!status) return status.error();
 
     DropResult result;
-    result.counts.resize(part->stablePoses.size());
+    result.counts.resize(batch.part->stablePoses.size());
     for (const int pose : poseOf)
         ++(pose < 0 ? result.unsettled : result.counts[static_cast<std::size_t>(pose)]);
     return result;
