@@ -51,6 +51,7 @@ constexpr std::array<Use, 20> kUses = {{
 template <class Range, class Projection>
 std::vector<std::string> collectNames(const Range& range, Projection name) {
     std::vector<std::string> names;
+    names.reserve(std::size(range));
     for (const auto& one : range)
         names.emplace_back(name(one));
     return names;

@@ -1,6 +1,7 @@
 #include "core/study/selection.h"
 
 #include <algorithm>
+#include <ranges>
 #include <tuple>
 
 #include "core/study/final_orientation.h"
@@ -92,9 +93,10 @@ std::optional<stats::Count> findSuccess(std::span<const SelectionRecord> selecti
     const auto isMeant = [&](const auto& of) {
         return of.generation == individual.generation && of.individual == individual.individual;
     };
-    for (auto selection = selections.rbegin(); selection != selections.rend(); ++selection) {
-        const auto entry = std::find_if(selection->entries.begin(), selection->entries.end(), isMeant);
-        if (entry != selection->entries.end() && entry->trials > 0)
+    // The newest that has simulated it.
+    for (const SelectionRecord& selection : std::views::reverse(selections)) {
+        const auto entry = std::find_if(selection.entries.begin(), selection.entries.end(), isMeant);
+        if (entry != selection.entries.end() && entry->trials > 0)
             return stats::Count{entry->oriented, entry->trials};
     }
     const auto validation = std::find_if(validations.rbegin(), validations.rend(), isMeant);

@@ -161,9 +161,12 @@ class DowelPlaces {
         // With only thin pins there is room near its sides.
         const double inset = split_.dowelWall;
         std::vector<std::pair<double, double>> grid;
-        for (double y = left + inset; y <= right - inset; y += kGrid) {
-            for (double z = low + inset; z <= high - inset; z += kGrid)
-                grid.emplace_back(y, z);
+        const auto steps = [&](double from, double to) {
+            return static_cast<int>(std::floor((to - from - 2.0 * inset) / kGrid));
+        };
+        for (int i = 0; i <= steps(left, right); ++i) {
+            for (int j = 0; j <= steps(low, high); ++j)
+                grid.emplace_back(left + inset + i * kGrid, low + inset + j * kGrid);
         }
         return grid;
     }
