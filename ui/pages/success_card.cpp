@@ -38,8 +38,22 @@ void SuccessCard::show(const std::optional<stats::Count>& success, const QString
     number_->setText(success ? tr("%1 %").arg(models::percent(success)) : models::percent(success));
     bounds_->setText(success ? tr("success, 95 %: %1 %").arg(models::boundsText(success))
                              : tr("success not known"));
+    tell(models::successHelp(success), source);
+}
+
+void SuccessCard::showWeighted(const stats::WeightedRate& weighted, const QString& source) {
+    const QString bounds = models::boundsText(weighted.interval, 1);
+    number_->setText(tr("%1 %").arg(models::percent(weighted.rate)));
+    bounds_->setText(tr("success, 95 %: %1 %").arg(bounds));
+    tell(tr("The rate of each pose counts as often as parts land in it; 95 % interval of the weighted sum %1 "
+            "% (one "
+            "pose: Clopper-Pearson)")
+             .arg(bounds),
+         source);
+}
+
+void SuccessCard::tell(const QString& help, const QString& source) {
     source_->setText(source);
-    const QString help = models::successHelp(success);
     setToolTip(help);
     number_->setAccessibleName(tr("Success %1").arg(number_->text()));
     number_->setAccessibleDescription(QStringLiteral("%1. %2").arg(help, source));

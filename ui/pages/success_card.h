@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/stats/binomial.h"
+#include "core/stats/stratified.h"
 
 class QLabel;
 
@@ -18,8 +19,12 @@ class SuccessCard : public QWidget {
 
     /// `source`: of what, in a few words ("generation 12, best so far"). A dash where success is not known.
     void show(const std::optional<stats::Count>& success, const QString& source);
+    /// The success of all parts that come, where each pose was tried by itself: `weighted` has a rate.
+    void showWeighted(const stats::WeightedRate& weighted, const QString& source);
 
  private:
+    void tell(const QString& help, const QString& source);
+
     QLabel* number_;
     QLabel* bounds_;
     QLabel* source_;

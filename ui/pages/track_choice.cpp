@@ -161,12 +161,6 @@ void TrackChoice::showFacts() {
     success_->setVisible(winner_.has_value());
     showFinal();
     if (!winner_) return facts_->show({});
-    const KnownSuccess known = findSuccess(*session_, *winner_);
-    success_->show(known.success, known.success ? tr("%1 of %2 parts, %3")
-                                                      .arg(known.success->successes)
-                                                      .arg(known.success->trials)
-                                                      .arg(known.source)
-                                                : known.source);
     const study::IndividualRecord& record = winner_->record;
     Facts facts = {{tr("While learning"), models::shareText(record.success())},
                    {tr("Finished"), tr("%1 of %2").arg(record.finished).arg(record.trials)}};
@@ -182,18 +176,20 @@ void TrackChoice::showFacts() {
     for (const study::ValidationRecord& validation : session_->validations())
         if (validation.generation == winner_->generation && validation.individual == winner_->individual)
             validated = &validation;
-    if (validated != nullptr) {
-        const study::ValidationTable table =
-            study::tabulate(*validated, study::weighPoseGroups(*session_->part(), session_->settings()));
-        const int good = table.total.trials - table.total.failures;
-        if (table.weighted.rate) {
-            facts.emplace_back(tr("Validation"),
-                               tr("%1 % (%2 %), weighted by how often parts land so")
-                                   .arg(models::percent(table.weighted.rate),
-                                        models::boundsText(table.weighted.interval, table.total.trials)));
-        }
-        facts.emplace_back(table.weighted.rate ? tr("All trials alike") : tr("Validation"),
-                           models::shareText(stats::Count{good, table.total.trials}));
+    const KnownSuccess known = findSuccess(*session_, *winner_);
+    std::optional<study::ValidationTable> table;
+    if (validated != nullptr)
+        table = study::tabulate(*validated, study::weighPoseGroups(*session_->part(), session_->settings()));
+    if (table && table->weighted.rate) {
+        const stats::Count alike{table->total.trials - table->total.failures, table->total.trials};
+        success_->showWeighted(table->weighted, tr("validation, weighted by how often parts land so"));
+        facts.emplace_back(tr("All trials alike"), models::shareText(alike));
+    } else {
+        success_->show(known.success, known.success ? tr("%1 of %2 parts, %3")
+                                                          .arg(known.success->successes)
+                                                          .arg(known.success->trials)
+                                                          .arg(known.source)
+                                                    : known.source);
     }
     facts_->show(facts);
 }

@@ -7,6 +7,7 @@
 #include <QToolButton>
 
 #include "core/store/study_file.h"
+#include "core/study/pose_weights.h"
 #include "core/study/validation.h"
 #include "tests/ui/pages/review_user.h"
 #include "ui/models/selection_model.h"
@@ -197,9 +198,12 @@ class ReviewPageTest : public QObject {
             QVERIFY2(list->itemText(row).endsWith('%'), qPrintable(list->itemText(row)));
         // A validation tells more.
         QVERIFY(user.validate());
-        const study::ValidationRow total = study::calcTotal(user.session()->validations().back());
+        const study::ValidationTable table =
+            study::tabulate(user.session()->validations().back(),
+                            study::weighPoseGroups(*user.session()->part(), user.session()->settings()));
+        QVERIFY(table.weighted.rate.has_value());
         QTRY_COMPARE(user.text("review.success"),
-                     QString("%1 %").arg(100.0 * (total.trials - total.failures) / total.trials, 0, 'f', 1));
+                     QString("%1 %").arg(100.0 * *table.weighted.rate, 0, 'f', 1));
         QVERIFY(user.text("review.successSource").contains("validation"));
     }
 
