@@ -63,7 +63,7 @@ QString helpOf(const Row& row) {
             "profile limits.");
     }
     if (row.poses.empty()) return PhysicalModel::tr("All trials alike, however often parts land so.");
-    const QString lands =
+    QString lands =
         PhysicalModel::tr("%1 % of all parts land so.").arg(models::fixed(kPercent * row.weight, 1));
     if (row.poses.size() == 1) return lands;
     return lands + u' ' +

@@ -147,11 +147,11 @@ QString driveDifference(const Report& report) {
             medianOf(report.physical, &study::PhysicalTrial::frequency), simulated.frequency};
     }
     const QString differences = differenceText(comparison);
-    const QString unknown =
-        strokes.known() ? QString()
-                        : Texts::tr(
-                              "The half-stroke of the drive was not known: it was neither measured nor "
-                              "calibrated, so it cannot be compared with the simulated one.");
+    QString unknown = strokes.known()
+                          ? QString()
+                          : Texts::tr(
+                                "The half-stroke of the drive was not known: it was neither measured nor "
+                                "calibrated, so it cannot be compared with the simulated one.");
     if (!differences.isEmpty()) {
         return "<b>" + Texts::tr("Drive and simulation differ.") + "</b> " + differences + ' ' + unknown;
     }

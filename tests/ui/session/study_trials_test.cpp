@@ -192,8 +192,8 @@ class StudyTrialsTest : public QObject {
         settings.evolution.populationSize = 16;
         settings.evolution.trialsPerEvaluation = 10;
         const std::string name = key.toStdString() + ".trap";
-        auto made = StudySession::create(fixture_->path(name.c_str()), settings, cuboid(),
-                                         nativeEnvironment(*fixture_));
+        auto made =
+            StudySession::create(fixture_->path(name), settings, cuboid(), nativeEnvironment(*fixture_));
         VERIFY_OK(made);
         StudySession& session = **made;
         session.requestEstimate();
