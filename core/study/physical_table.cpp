@@ -201,12 +201,12 @@ std::string describe(const PhysicalTable& table) {
                       : fmt::format(" Taken by themselves, these poses differ from simulation: {}.", poses);
     if (*total.p >= kLevel) {
         return fmt::format(
-            "{} In simulation {} are. These trials show no difference (exact test, p = {}); that is no proof "
+            "{} In simulation {} did. These trials show no difference (exact test, p = {}); that is no proof "
             "that there is none.{}",
             feeder, shareText(total.simulated), probabilityText(*total.p), where);
     }
     return fmt::format(
-        "{} In simulation {} are. The feeder does {} than simulation: were they alike, so great a difference "
+        "{} In simulation {} did. The feeder does {} than simulation: were they alike, so great a difference "
         "would be seen with a probability of {} (exact test).{}",
         feeder, shareText(total.simulated), calcDirection(table) > 0.0 ? "better" : "worse",
         probabilityText(*total.p), where);

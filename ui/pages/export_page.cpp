@@ -18,6 +18,7 @@
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/models/numbers.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/print_findings.h"
 #include "ui/pages/print_form.h"
@@ -252,10 +253,10 @@ void ExportPage::fillTracks() {
     }
     const std::vector<study::Winner>& winners = session_->winners();
     for (const study::Winner& winner : study::rankWinners(winners, static_cast<int>(winners.size()))) {
-        add(tr("Generation %1, individual %2: fitness %3")
+        add(tr("Generation %1, individual %2: %3")
                 .arg(winner.generation)
                 .arg(winner.individual)
-                .arg(look::numberText(winner.record.fitness.total())),
+                .arg(models::successWord(winner.record.success())),
             winner.generation, winner.individual);
     }
     const auto chosen = session_->chosen();
@@ -319,23 +320,22 @@ std::optional<stats::Count> ExportPage::successOfTrack() const {
 
 void ExportPage::exportAs(const QString& format) {
     const auto success = successOfTrack();
-    if (!success || success->share() >= findings_->leastSuccess()) return askForPath(format);
+    if (!success || success->share() >= findings_->leastSuccess()) return askForPath(format, printed_);
     auto* question = new QMessageBox(this);
     question->setObjectName("dialog.success");
     question->setAttribute(Qt::WA_DeleteOnClose);
     question->setIcon(QMessageBox::Warning);
     question->setWindowTitle(tr("Export the track"));
-    question->setText(
-        tr("Of this track's parts, %1 finished in the expected orientation. Export it all the same?")
-            .arg(successText(*success)));
+    question->setText(tr("With this track, %1 finished in the expected orientation. Export it all the same?")
+                          .arg(successText(*success)));
     question->setInformativeText(
         tr("You want to be asked below %1 %.").arg(look::numberText(100.0 * findings_->leastSuccess())));
     QPushButton* yes = question->addButton(tr("Export it"), QMessageBox::AcceptRole);
     yes->setObjectName("dialog.success.export");
     question->setDefaultButton(question->addButton(QMessageBox::Cancel));
-    connect(yes, &QPushButton::clicked, this, [this, format] {
-        if (printed_) askForPath(format);
-    });
+    // The track that the question named, though learning may have put a better one in its place since.
+    connect(yes, &QPushButton::clicked, this,
+            [this, format, printed = printed_] { askForPath(format, printed); });
     question->open();
 }
 
@@ -350,12 +350,13 @@ void ExportPage::enableExport() {
                            !print_.writing());
 }
 
-void ExportPage::askForPath(const QString& format) {
+void ExportPage::askForPath(const QString& format,
+                            const std::shared_ptr<const session::PrintedTrack>& printed) {
     const QString upper = format.toUpper();
     const look::FileQuestion question{"print",      tr("Export %1").arg(upper),
                                       tr("Export"), tr("%1 files (*.%2)").arg(upper, format),
-                                      format,       {}};
-    look::askForNewFile(this, question, [this, printed = printed_](const std::filesystem::path& file) {
+                                      format,       "track"};
+    look::askForNewFile(this, question, [this, printed](const std::filesystem::path& file) {
         setState(tr("Writing %1 ...").arg(look::toText(file.filename())));
         print_.write(printed, file);
         enableExport();

@@ -43,7 +43,7 @@ FilmStrip::FilmStrip(QWidget* parent)
     connect(seen_, &QTimer::timeout, this, &FilmStrip::wantSeen);
 
     auto* empty =
-        new QLabel(tr("The best track of each generation will appear here. Start learning with F5."), this);
+        new QLabel(tr("The best track of each generation appears here while learning (F5) runs."), this);
     empty->setObjectName("filmStrip.empty");
     empty->setAlignment(Qt::AlignCenter);
     empty->setForegroundRole(QPalette::PlaceholderText);

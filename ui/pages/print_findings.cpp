@@ -285,10 +285,9 @@ void PrintFindings::listFlaws(const session::PrintedTrack& printed) {
         scene::Highlight highlight{nullptr, {}, kRidge};
         for (const auto& [from, to] : ridge.edges)
             highlight.lines.push_back({from, to});
-        // How much of its height.
         addFlaw(
             std::move(highlight), ridge.centre,
-            tr("Ridge of %1, %2 mm long, %3 mm too thin")
+            tr("Ridge of %1, %2 mm long, thin for %3 mm")
                 .arg(degrees(ridge.angle), numberText(ridge.length * 1e3), numberText(ridge.lost * 1e3, 2)));
     }
     for (const geometry::Overhang& overhang : report.overhangs) {

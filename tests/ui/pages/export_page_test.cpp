@@ -254,6 +254,9 @@ class ExportPageTest : public QObject {
         user.find<QPushButton>("dialog.success.export")->click();
         auto* dialog = user.find<QFileDialog>("dialog.file");
         QVERIFY(dialog != nullptr);
+        // Not the name that the file of the part may have.
+        QVERIFY2(dialog->selectedFiles().value(0).endsWith("learned-track.stl"),
+                 qPrintable(dialog->selectedFiles().value(0)));
         dialog->close();
         QVERIFY(QTest::qWaitFor([&] { return user.find<QFileDialog>("dialog.file") == nullptr; }, kPatience));
 
