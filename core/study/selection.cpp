@@ -93,12 +93,6 @@ std::optional<stats::Count> findSuccess(std::span<const SelectionRecord> selecti
     const auto isMeant = [&](const auto& of) {
         return of.generation == individual.generation && of.individual == individual.individual;
     };
-    // The newest that has simulated it.
-    for (const SelectionRecord& selection : std::views::reverse(selections)) {
-        const auto entry = std::find_if(selection.entries.begin(), selection.entries.end(), isMeant);
-        if (entry != selection.entries.end() && entry->trials > 0)
-            return stats::Count{entry->oriented, entry->trials};
-    }
     const auto validation = std::find_if(validations.rbegin(), validations.rend(), isMeant);
     stats::Count counted;
     if (validation != validations.rend()) {
@@ -108,6 +102,12 @@ std::optional<stats::Count> findSuccess(std::span<const SelectionRecord> selecti
         }
     }
     if (counted.trials > 0) return counted;
+    // The newest that has simulated it.
+    for (const SelectionRecord& selection : std::views::reverse(selections)) {
+        const auto entry = std::find_if(selection.entries.begin(), selection.entries.end(), isMeant);
+        if (entry != selection.entries.end() && entry->trials > 0)
+            return stats::Count{entry->oriented, entry->trials};
+    }
     return individual.record.success();
 }
 

@@ -27,9 +27,9 @@ const Winner* findBestWinner(std::span<const Winner> winners);
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
                                             base::RunControl control);
 
-/// The success of an individual: of the newest selection that it is in, whose parts arrive as they fall, or
-/// else of its newest validation, in which each pose has as many trials, or else as it was learned. None if
-/// it was never counted.
+/// The success of an individual, as every page shows it: of its newest validation, all trials alike, which
+/// chose nothing and so flatters nobody, or else of the newest selection that it is in, or else as it was
+/// learned. None if it was never counted.
 std::optional<stats::Count> findSuccess(std::span<const SelectionRecord> selections,
                                         std::span<const ValidationRecord> validations,
                                         const Winner& individual);

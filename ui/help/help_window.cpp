@@ -82,7 +82,8 @@ void HelpView::dress() {
             cursor.mergeCharFormat(named);
             format.setTopMargin(level == 1 ? 4 : 18);
             format.setBottomMargin(6);
-        } else if (cursor.currentTable() == nullptr && block.textList() == nullptr) {
+        } else if (cursor.currentTable() == nullptr && block.textList() == nullptr &&
+                   !block.text().contains(QChar::ObjectReplacementCharacter)) {  // a picture is a tall line
             format.setLineHeight(125, QTextBlockFormat::ProportionalHeight);
         }
         cursor.setPosition(block.position());

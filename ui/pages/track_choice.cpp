@@ -145,7 +145,7 @@ void TrackChoice::listWinners() {
     if (!session_) return;
     const auto add = [this](const study::Winner& winner) {
         list_->addItem(tr("%1: %2").arg(nameOf(winner.generation, winner.individual),
-                                        models::successWord(winner.record.success())),
+                                        models::successWord(findSuccess(*session_, winner).success)),
                        winner.generation);
         list_->setItemData(list_->count() - 1, winner.individual, kIndividualRole);
         if (winner_ && isSame(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);

@@ -189,8 +189,9 @@ void TrackPage::showTime() {
     const auto draft = session_ ? session_->draft() : std::nullopt;
     draftPreset_->setEnabled(draft.has_value());
     const double seconds = session_ ? session_->estimatedSeconds() : 0.0;
-    time_->setVisible(session_ && session_->problems().empty() &&
-                      session_->state() == session::RunState::idle);
+    const bool isLeft = session_ && static_cast<int>(session_->summaries().size()) <
+                                        session_->settings().evolution.generations;
+    time_->setVisible(isLeft && session_->problems().empty() && session_->state() == session::RunState::idle);
     if (seconds <= 0.0) {
         time_->setText(tr("How long learning takes on this machine is being measured."));
     } else if (draft) {

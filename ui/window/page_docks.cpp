@@ -169,20 +169,22 @@ void PageDocks::arrange() {
     inspector_->setFloating(false);
     window_.addDockWidget(Qt::RightDockWidgetArea, inspector_);
     inspector_->show();
+    for (const auto& docks : panels_)
+        for (const PanelDock& panel : docks)
+            panel.dock->hide();
+    // Placed before they are shown: side by side for a moment they would widen the window, which stays so.
     QHash<Qt::DockWidgetArea, QDockWidget*> front;  // of each area's tabs
-    for (std::size_t page = 0; page < panels_.size(); ++page) {
-        for (const auto& [dock, area] : panels_[page]) {
-            dock->setFloating(false);
-            dock->setVisible(static_cast<int>(page) == shown_);
-            if (dock->isHidden()) continue;
+    for (const auto& [dock, area] : panels_[static_cast<std::size_t>(shown_)]) {
+        dock->setFloating(false);
+        if (QDockWidget* first = front.value(area)) {
+            window_.tabifyDockWidget(first, dock);
+        } else {
             window_.addDockWidget(area, dock);
-            if (QDockWidget* first = front.value(area)) {
-                window_.tabifyDockWidget(first, dock);
-            } else {
-                front.insert(area, dock);
-            }
+            front.insert(area, dock);
         }
     }
+    for (const PanelDock& panel : panels_[static_cast<std::size_t>(shown_)])
+        panel.dock->show();
     QList<QDockWidget*> beside = {inspector_};
     QList<int> widths = {kInspectorWidth};
     for (auto first = front.cbegin(); first != front.cend(); ++first) {

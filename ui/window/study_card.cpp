@@ -57,11 +57,14 @@ StudyCard::StudyCard(const QString& study, bool draft, QWidget* parent)
     setFixedSize(kSize);
     setCursor(Qt::PointingHandCursor);
     setToolTip(study);
+    // Its height as well: the theme's least height of buttons would take the place of the fixed one.
     setStyleSheet(
-        "trapwright--window--StudyCard { border: 1px solid palette(mid); border-radius: 8px; background: "
-        "palette(base); }"
-        "trapwright--window--StudyCard:hover, trapwright--window--StudyCard:focus { border: 2px solid "
-        "palette(highlight); }");
+        QString(
+            "trapwright--window--StudyCard { border: 1px solid palette(mid); border-radius: 8px; "
+            "background: palette(base); padding: 0px; min-height: %1px; }"
+            "trapwright--window--StudyCard:hover, trapwright--window--StudyCard:focus { border: 2px solid "
+            "palette(highlight); }")
+            .arg(kSize.height() - 2));
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(kMargin, kMargin, kMargin, 8);
     layout->setSpacing(1);

@@ -54,28 +54,6 @@ std::optional<study::Winner> findTrack(const store::StudyFile& file,
 
 }  // namespace
 
-std::optional<stats::Count> findSuccess(const std::vector<study::SelectionRecord>& selections,
-                                        const std::vector<study::ValidationRecord>& validations,
-                                        const study::Winner& track) {
-    const auto isOf = [&](const auto& record) {
-        return record.generation == track.generation && record.individual == track.individual;
-    };
-    const auto validation = std::find_if(validations.rbegin(), validations.rend(), isOf);
-    if (validation != validations.rend()) {
-        stats::Count total;
-        for (const study::ValidationRow& row : validation->rows) {
-            total.trials += row.trials;
-            total.successes += row.trials - row.failures;
-        }
-        if (total.trials > 0) return total;
-    }
-    for (auto selection = selections.rbegin(); selection != selections.rend(); ++selection) {
-        const auto entry = std::find_if(selection->entries.begin(), selection->entries.end(), isOf);
-        if (entry != selection->entries.end()) return stats::Count{entry->oriented, entry->trials};
-    }
-    return track.record.success();
-}
-
 StudyCovers::StudyCovers(QSize size, QObject* parent) : QObject(parent), size_(size) {
     connect(&build_, &session::TrackBuild::built, this,
             [this](const std::shared_ptr<const track::Track>& track) {
@@ -140,7 +118,7 @@ void StudyCovers::next() {
             contents.cover.wanted = settings->evolution.generations;
             contents.track = settings->track;
             if (const auto track = findTrack(*file, *selections)) {
-                contents.cover.success = findSuccess(*selections, *validations, *track);
+                contents.cover.success = study::findSuccess(*selections, *validations, *track);
                 contents.genes = track->record.chromosome;
             }
             return contents;

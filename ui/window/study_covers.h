@@ -30,12 +30,6 @@ struct StudyCover {
     QImage picture;  // of its best track, or of the empty layout; null: could not be drawn
 };
 
-/// What is known of the success of a study's final track: by its last validation, else by the last comparison
-/// that has it, else by its trials while it was learned. None without any.
-std::optional<stats::Count> findSuccess(const std::vector<study::SelectionRecord>& selections,
-                                        const std::vector<study::ValidationRecord>& validations,
-                                        const study::Winner& track);
-
 /// Covers of studies, read from their files and drawn in the background, one after the other, and kept in the
 /// user's cache until the file changes. No study is opened for it.
 class StudyCovers : public QObject {

@@ -6,6 +6,7 @@
 #include <QListWidget>
 #include <QScrollBar>
 #include <QTextBlock>
+#include <QTextLayout>
 #include <QTextTable>
 #include <QtTest>
 
@@ -95,6 +96,8 @@ class HelpWindowTest : public QObject {
                 const QTextImageFormat format = piece.fragment().charFormat().toImageFormat();
                 ++pictures;
                 QVERIFY(format.width() > 200 && format.width() < view_->viewport()->width());
+                // And no gap below, as the lines of text have one.
+                QVERIFY(block.layout()->boundingRect().height() < 1.1 * format.height());
             }
         }
         QCOMPARE(pictures, 1);

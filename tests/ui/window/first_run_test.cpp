@@ -81,6 +81,7 @@ class FirstRunTest : public QObject {
         QTest::keyClick(&user.window, Qt::Key_W, Qt::ControlModifier);
         QTRY_VERIFY(user.session() == nullptr);
         QTRY_COMPARE(focused(user), QString("welcome.recent"));
+        QCOMPARE(user.find<window::StudyCard>("welcome.recent")->size(), window::StudyCard::kSize);
         // It lies below the first way to begin, and comes after the last.
         press(user, Qt::Key_Up);
         QCOMPARE(focused(user), QString("welcome.example"));
@@ -150,6 +151,7 @@ class FirstRunTest : public QObject {
         QTRY_COMPARE_WITH_TIMEOUT(success->text(), QString("<b>98.0 %</b> success (96.9 … 98.8)"), kPatience);
         QVERIFY(card->toolTip().contains("980 of 1,000") && card->toolTip().contains("Clopper and Pearson"));
         QVERIFY(hasPicture(*card));
+        QCOMPARE(card->size(), window::StudyCard::kSize);
         // From the cache the next time: there at once, before anything can have been read.
         User again;
         card = again.find<window::StudyCard>("welcome.recent");

@@ -250,6 +250,17 @@ class InputTest : public QObject {
                                  kPatience);
     }
 
+    void noPageWidensTheWindow() {
+        User user(study_, "part");
+        user.window.resize(1280, 720);
+        for (const char* page : {"validate", "export", "review", "evolve", "track", "part", "evolve"}) {
+            user.window.showPage(page);
+            QTest::qWait(200);
+            QVERIFY2(user.window.width() == 1280,
+                     qPrintable(QString("%1: %2").arg(page).arg(user.window.width())));
+        }
+    }
+
     void aMessageLeavesWithItsPage() {
         User user(study_, "review");
         auto* page = user.find<pages::Page>("page.review");
