@@ -33,7 +33,7 @@ QString numberText(double value, int decimals) {
 QString valueText(const Curve& curve, double x, int decimals) {
     const std::optional<double> value = valueAt(curve, x);
     if (!value) return QStringLiteral("–");
-    const QString text = numberText(*value, decimals);
+    QString text = numberText(*value, decimals);
     if (curve.band.empty()) return text;
     const auto found = std::find_if(curve.points.begin(), curve.points.end(),
                                     [x](const QPointF& point) { return point.x() == x; });

@@ -301,7 +301,7 @@ class InputTest : public QObject {
                                << ".trap";
         QTest::newRow("solid") << "export"
                                << "export.stl"
-                               << ".stl";
+                               << "-track.stl";
     }
 
     void newFilesBeginBesideTheStudyWithItsName() {
