@@ -7,7 +7,6 @@
 #include "core/base/random.h"
 
 using namespace trapwright;
-using stats::Count;
 using stats::Interval;
 using stats::Stratum;
 
