@@ -140,7 +140,7 @@ class LearningTest : public QObject {
         const QList<QByteArray> dump = dumpOf("longer.trap").split('\n');
         const QJsonArray generations = ran.json()["generations"].toArray();
         QCOMPARE(generations.size(), 3);
-        for (const QJsonValue& value : generations) {
+        for (const auto value : generations) {
             const QJsonObject generation = value.toObject();
             const qsizetype line = 8 * generation["generation"].toInt() + generation["winner"].toInt();
             const QList<QByteArray> fields = dump[line].split(' ');
