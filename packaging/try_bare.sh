@@ -6,13 +6,14 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
     cat << 'USAGE'
-Usage: packaging/try_bare.sh [--build] [--cores N] [--keep DIR]
+Usage: packaging/try_bare.sh [--build] [--tests] [--cores N] [--keep DIR]
 
 Makes a bare Debian 12 in a folder of its own, clones what is committed here into it, installs there what
 packaging/install.sh installs, and configures: a package that the list lacks, but this machine has, shows. Needs root or
 user namespaces, and the network that apt needs; leaves nothing behind.
 
   --build      goes on with packaging/run.sh --headless: builds the two programs and runs the demo
+  --tests      also builds everything else, the tests above all
   --cores N    on so many processors (default: all)
   --keep DIR   makes the bare system in DIR and leaves it there, to look at
   -h, --help   this text
@@ -27,6 +28,7 @@ fail() {
 }
 
 build=false
+tests=false
 cores=$(nproc)
 bare=
 while (($# > 0)); do
@@ -36,6 +38,7 @@ while (($# > 0)); do
             exit 0
             ;;
         --build) build=true ;;
+        --tests) tests=true ;;
         --cores)
             [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || fail "--cores needs a number, as in --cores 2"
             cores=$((${2} < cores ? ${2} : cores))
@@ -106,6 +109,9 @@ if $build; then
         quietly inside env CCACHE_DISABLE=1 packaging/build.sh release trapwright trapwright-studio
     step "packaging/run.sh --headless" inside packaging/run.sh --headless
     inside ls -l trapwright-cuboid
+fi
+if $tests; then
+    step "packaging/build.sh release" quietly inside env CCACHE_DISABLE=1 packaging/build.sh release
 fi
 echo
 echo "try_bare.sh: passed on $cores processors"

@@ -77,18 +77,16 @@ Attempt<std::vector<bench::Scene>> chooseScenes(const std::string& filter) {
 
 }  // namespace
 
-void addBenchOptions(CLI::App& command, BenchOptions& options) {
-    command.add_option("--trials", options.trials, "Of each scene and repeat (200)")
-        ->check(CLI::Range(1, 1000000));
-    command.add_option("--repeats", options.repeats, "How often the engines take turns; medians count (3)")
-        ->check(CLI::Range(1, 1000));
-    command.add_option("--scene", options.filter, "Only the scenes with this in their name");
-    command.add_option("--step", options.step, "Of simulated time in ms (each engine's own)")
-        ->check(CLI::Range(1e-4, 2.0));
-    command.add_option("--engine", options.engines,
-                       fmt::format("Engines side by side: A,B, hybrid for the two that it stands for, or "
-                                   "\"all\", which leaves {} out (all)",
-                                   kCertifying));
+void addBenchOptions(Command command, BenchOptions& options) {
+    command.addOption("--trials", options.trials, "Of each scene and repeat (200)").range(1, 1000000);
+    command.addOption("--repeats", options.repeats, "How often the engines take turns; medians count (3)")
+        .range(1, 1000);
+    command.addOption("--scene", options.filter, "Only the scenes with this in their name");
+    command.addOption("--step", options.step, "Of simulated time in ms (each engine's own)").range(1e-4, 2.0);
+    command.addOption("--engine", options.engines,
+                      fmt::format("Engines side by side: A,B, hybrid for the two that it stands for, or "
+                                  "\"all\", which leaves {} out (all)",
+                                  kCertifying));
 }
 
 std::vector<bench::Contender> listContenders() {

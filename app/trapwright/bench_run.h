@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/trapwright/command_options.h"
 #include "app/trapwright/console.h"
 #include "app/trapwright/exit_codes.h"
 #include "core/bench/benchmark.h"
@@ -21,7 +21,7 @@ struct BenchOptions {
 };
 
 /// Adds --trials, --repeats, --scene, --step and --engine to a command.
-void addBenchOptions(CLI::App& command, BenchOptions& options);
+void addBenchOptions(Command command, BenchOptions& options);
 
 /// The program's own engines.
 std::vector<bench::Contender> listContenders();

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <functional>
 #include <string>
 
+#include "app/trapwright/command_options.h"
 #include "app/trapwright/console.h"
 #include "app/trapwright/exit_codes.h"
 
@@ -20,8 +20,8 @@ struct Invocation {
 
 /// Adds a command with --json and --help to the program. `example` is shown below the options. The caller
 /// adds its options to the result, and its action is chosen when the command line names it.
-CLI::App& addCommand(CLI::App& program, Invocation& invocation, const std::string& name,
-                     const std::string& description, const std::string& example, CommandAction action);
+Command addCommand(CLI::App& program, Invocation& invocation, const std::string& name,
+                   const std::string& description, const std::string& example, CommandAction action);
 
 // One per file, command_<name>.cpp.
 void addPartCommand(CLI::App& program, Invocation& invocation);

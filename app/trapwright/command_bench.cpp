@@ -7,7 +7,7 @@ namespace trapwright::app {
 
 void addBenchCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<BenchOptions>();
-    CLI::App& command = addCommand(
+    Command command = addCommand(
         program, invocation, "bench",
         "What a trial costs on this machine: named scenes, engines side by side, one thread, CPU time.",
         "trapwright bench --trials 500 --json",

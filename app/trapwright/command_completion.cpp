@@ -8,7 +8,7 @@ namespace trapwright::app {
 
 void addCompletionCommand(CLI::App& program, Invocation& invocation) {
     const auto shell = std::make_shared<std::string>();
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "completion",
                    "Prints the script by which a shell completes commands, options and their values. The "
                    "packages install it.",
@@ -19,9 +19,9 @@ void addCompletionCommand(CLI::App& program, Invocation& invocation) {
                        console.emit({{"shell", *shell}, {"script", script}});
                        return ExitCode::ok;
                    });
-    command.add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+    command.addOption("SHELL", *shell, "bash or zsh").required().oneOf({"bash", "zsh"});
     // Whoever needs it does so once; it is not among the commands of --help.
-    command.group("");
+    command.hide();
 }
 
 }  // namespace trapwright::app

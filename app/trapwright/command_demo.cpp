@@ -125,19 +125,18 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addDemoCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(
+    Command command = addCommand(
         program, invocation, "demo",
         "The main job in a few minutes: learns a track for the cuboid, selects, validates and exports it.\n"
         "Goes on with the study if the folder has one.",
         "trapwright demo --out ./trapwright-cuboid",
         [options](const Console& console) { return run(*options, console); });
-    command.add_option("--out", options->folder, "The folder for the study and the track")->required();
-    command.add_option("--minutes", options->minutes, "Time for learning (2.3)")
-        ->check(CLI::Range(0.0, 100000.0));
-    command.add_option("--selection-trials", options->selectionTrials, "Of each of the best winners (150)");
-    command.add_option("--trials-per-pose", options->trialsPerPose, "Of the validation (100)");
+    command.addOption("--out", options->folder, "The folder for the study and the track").required();
+    command.addOption("--minutes", options->minutes, "Time for learning (2.3)").range(0.0, 100000.0);
+    command.addOption("--selection-trials", options->selectionTrials, "Of each of the best winners (150)");
+    command.addOption("--trials-per-pose", options->trialsPerPose, "Of the validation (100)");
     addSettingOptions(command, options->settings);
-    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+    command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }
 
 }  // namespace trapwright::app

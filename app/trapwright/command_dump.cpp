@@ -64,16 +64,16 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addDumpCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "dump",
                    "Prints genes and scores of every individual, one line each. Equal runs give equal lines.",
                    "trapwright dump one.trap > one.txt\n  trapwright dump one.trap --compare two.trap",
                    [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file")->required();
-    command.add_flag("--checks", options->checks,
-                     "Instead, what the reference engine made of each generation's winner (engine hybrid)");
-    command.add_option("--compare", options->compare,
-                       "Another study: tells where the two first differ; exit code 1 if they do");
+    command.addOption("STUDY", options->study, "The study's file").required();
+    command.addFlag("--checks", options->checks,
+                    "Instead, what the reference engine made of each generation's winner (engine hybrid)");
+    command.addOption("--compare", options->compare,
+                      "Another study: tells where the two first differ; exit code 1 if they do");
 }
 
 }  // namespace trapwright::app

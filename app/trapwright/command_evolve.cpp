@@ -130,17 +130,17 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addEvolveCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(
+    Command command = addCommand(
         program, invocation, "evolve",
         "Learns a track: generation after generation, each saved in the study as soon as it is complete.\n"
         "Ctrl-C once stops after the generation, twice at once.",
         "trapwright evolve cuboid.trap --preset cuboid --population 40 --trials 20 --generations 40\n"
         "  trapwright evolve cuboid.trap --resume --generations 80",
         [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file; made if it does not exist")->required();
-    command.add_flag("--resume", options->resume, "Go on where the study stopped, bit for bit");
+    command.addOption("STUDY", options->study, "The study's file; made if it does not exist").required();
+    command.addFlag("--resume", options->resume, "Go on where the study stopped, bit for bit");
     addSettingOptions(command, options->settings);
-    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+    command.addOption("--threads", options->threads, "Threads (default: all processors)");
     addCreationOptions(command, options->creation);
 }
 

@@ -100,7 +100,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addExportCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(
+    Command command = addCommand(
         program, invocation, "export",
         "Writes a track for printing as binary STL or 3MF, for machining as STEP, or as JSON for `trapwright "
         "track`, in mm, and checks what was written.\nWalls and flange are printed around the surface, which "
@@ -109,9 +109,9 @@ void addExportCommand(CLI::App& program, Invocation& invocation) {
         "cut into pieces that dowels hold together.",
         "trapwright export cuboid.trap track.3mf --printer prusa-mk4 --split",
         [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file")->required();
-    command.add_option("FILE", options->files,
-                       "Files to write, .stl, .3mf, .step or .json (default: STL and 3MF, beside the study)");
+    command.addOption("STUDY", options->study, "The study's file").required();
+    command.addOption("FILE", options->files,
+                      "Files to write, .stl, .3mf, .step or .json (default: STL and 3MF, beside the study)");
     addIndividualOptions(command, options->choice);
     addPrintOptions(command, options->print);
 }

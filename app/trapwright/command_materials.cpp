@@ -70,12 +70,12 @@ Attempt<ExitCode> run(const std::string& wanted, const Console& console) {
 
 void addMaterialsCommand(CLI::App& program, Invocation& invocation) {
     const auto wanted = std::make_shared<std::string>();
-    CLI::App& command = addCommand(program, invocation, "materials",
-                                   "Lists the pairs of part materials and track surfaces: friction, "
-                                   "restitution and density, with spread and source.",
-                                   "trapwright materials steel",
-                                   [wanted](const Console& console) { return run(*wanted, console); });
-    command.add_option("WORD", *wanted, "Only pairs with this in their name, as in pom or steel-sheet");
+    Command command = addCommand(program, invocation, "materials",
+                                 "Lists the pairs of part materials and track surfaces: friction, "
+                                 "restitution and density, with spread and source.",
+                                 "trapwright materials steel",
+                                 [wanted](const Console& console) { return run(*wanted, console); });
+    command.addOption("WORD", *wanted, "Only pairs with this in their name, as in pom or steel-sheet");
 }
 
 }  // namespace trapwright::app

@@ -32,11 +32,11 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addNewCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(program, invocation, "new", "Makes a study without learning yet.",
-                                   "trapwright new clip.trap --part clip.step --material POM --set "
-                                   "track.segmentWidth_mm=50",
-                                   [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file, to be made")->required();
+    Command command = addCommand(program, invocation, "new", "Makes a study without learning yet.",
+                                 "trapwright new clip.trap --part clip.step --material POM --set "
+                                 "track.segmentWidth_mm=50",
+                                 [options](const Console& console) { return run(*options, console); });
+    command.addOption("STUDY", options->study, "The study's file, to be made").required();
     addCreationOptions(command, options->creation);
     addSettingOptions(command, options->settings);
 }

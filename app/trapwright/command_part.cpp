@@ -252,46 +252,45 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addPartCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "part",
                    "Imports a part and tells what was found and mended, its mass, symmetry and stable poses.",
                    "trapwright part clip.stl --units mm --material POM\n  "
                    "trapwright part cuboid --drop 1000 --drop-height 50 --surface steel-sheet",
                    [options](const Console& console) { return run(*options, console); });
     command
-        .add_option("FILE", options->part.part,
-                    "STL, OBJ, PLY, OFF, 3MF, glTF, STEP or IGES file, or a bundled part: cuboid, cone, "
-                    "bracket, pin, cup, bolt")
-        ->required();
+        .addOption("FILE", options->part.part,
+                   "STL, OBJ, PLY, OFF, 3MF, glTF, STEP or IGES file, or a bundled part: cuboid, cone, "
+                   "bracket, pin, cup, bolt")
+        .required();
     addPartOptions(command, options->part);
-    command.add_flag("--poses", options->everyPose, "Also a row for each of the poses that look the same");
-    auto* drop = command
-                     .add_option("--drop", options->drops,
-                                 "Also drop the part this often, simulated, and count the poses in which it "
-                                 "comes to rest")
-                     ->check(CLI::Range(1, study::kMostDrops));
-    const CLI::Range friction(0.0, 2.0);
+    command.addFlag("--poses", options->everyPose, "Also a row for each of the poses that look the same");
+    const Option drop =
+        command
+            .addOption("--drop", options->drops,
+                       "Also drop the part this often, simulated, and count the poses in which it "
+                       "comes to rest")
+            .range(1, study::kMostDrops);
+    constexpr double kGreatestFriction = 2.0;
     command
-        .add_option("--drop-height", options->height, "Of the part's lowest point above the plane in mm (30)")
-        ->check(CLI::Range(0.0, study::kGreatestDropHeight * 1e3))
-        ->needs(drop);
+        .addOption("--drop-height", options->height, "Of the part's lowest point above the plane in mm (30)")
+        .range(0.0, study::kGreatestDropHeight * 1e3)
+        .needs(drop);
     command
-        .add_option(
+        .addOption(
             "--surface", options->surface,
             "What the plane is made of, for its friction and restitution: printed-pla, steel-sheet ...")
-        ->needs(drop);
-    command.add_option("--friction", options->friction, "Kinetic, and static unless that is given (0.5)")
-        ->check(friction)
-        ->needs(drop);
-    command.add_option("--static-friction", options->staticFriction, "Not below --friction (the same)")
-        ->check(friction)
-        ->needs(drop);
-    command.add_option("--restitution", options->restitution, "(0.2)")
-        ->check(CLI::Range(0.0, 1.0))
-        ->needs(drop);
-    command.add_option("--seed", options->seed, "Of the drops (1)")->needs(drop);
-    command.add_option("--engine", options->engine, "What simulates the drops: simbody or native (simbody)")
-        ->needs(drop);
+        .needs(drop);
+    command.addOption("--friction", options->friction, "Kinetic, and static unless that is given (0.5)")
+        .range(0.0, kGreatestFriction)
+        .needs(drop);
+    command.addOption("--static-friction", options->staticFriction, "Not below --friction (the same)")
+        .range(0.0, kGreatestFriction)
+        .needs(drop);
+    command.addOption("--restitution", options->restitution, "(0.2)").range(0.0, 1.0).needs(drop);
+    command.addOption("--seed", options->seed, "Of the drops (1)").needs(drop);
+    command.addOption("--engine", options->engine, "What simulates the drops: simbody or native (simbody)")
+        .needs(drop);
 }
 
 }  // namespace trapwright::app

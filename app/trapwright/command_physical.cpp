@@ -102,16 +102,16 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addPhysicalCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(
+    Command command = addCommand(
         program, invocation, "physical",
         "A printed track on the real feeder beside its simulation, pose by pose, and whether they differ. "
         "Poses that look the same are one.",
         "trapwright physical cuboid.trap",
         [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file")->required();
-    command.add_option("--number", options->number, "Which validation, from 1 (default: the last)");
-    command.add_flag("--csv", options->csv, "The table as CSV");
-    command.add_flag("--trials", options->trials, "Every trial as CSV");
+    command.addOption("STUDY", options->study, "The study's file").required();
+    command.addOption("--number", options->number, "Which validation, from 1 (default: the last)");
+    command.addFlag("--csv", options->csv, "The table as CSV");
+    command.addFlag("--trials", options->trials, "Every trial as CSV");
 }
 
 }  // namespace trapwright::app

@@ -147,22 +147,21 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addReplayCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(
+    Command command = addCommand(
         program, invocation, "replay",
         "Simulates a stored trial again, bit for bit, and gives the part's poses over time as CSV.",
         "trapwright replay cuboid.trap --generation 12 --trial 3 --out trial.csv",
         [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file")->required();
+    command.addOption("STUDY", options->study, "The study's file").required();
     addIndividualOptions(command, options->choice);
     command
-        .add_option("--kind", options->kind,
-                    "Which of its trials: learning, selection or validation (learning)")
-        ->check(CLI::IsMember({"learning", "selection", "validation"}));
-    command.add_option("--pose", options->pose, "Of a validation trial: the stable pose, from 1 (1)");
-    command.add_option("--trial", options->trial, "The trial's number, from 0 (0)");
-    command.add_option("--interval", options->interval, "Between two poses in ms (5)")
-        ->check(CLI::Range(0.01, 1e5));
-    command.add_option("--out", options->out, "The file to write (default: standard output)");
+        .addOption("--kind", options->kind,
+                   "Which of its trials: learning, selection or validation (learning)")
+        .oneOf({"learning", "selection", "validation"});
+    command.addOption("--pose", options->pose, "Of a validation trial: the stable pose, from 1 (1)");
+    command.addOption("--trial", options->trial, "The trial's number, from 0 (0)");
+    command.addOption("--interval", options->interval, "Between two poses in ms (5)").range(0.01, 1e5);
+    command.addOption("--out", options->out, "The file to write (default: standard output)");
 }
 
 }  // namespace trapwright::app

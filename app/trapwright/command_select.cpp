@@ -43,17 +43,17 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addSelectCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "select",
                    "Simulates the highest winners of all generations many times each and ranks them.",
                    "trapwright select cuboid.trap --winners 10 --trials 1000",
                    [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file")->required();
-    command.add_option("--winners", options->winners,
-                       "How many of the highest winners (default: as in the study)");
-    command.add_option("--trials", options->trials, "Trials of each (default: as in the study)");
-    command.add_option("--engine", options->engine, "What simulates (default: as in the study)");
-    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+    command.addOption("STUDY", options->study, "The study's file").required();
+    command.addOption("--winners", options->winners,
+                      "How many of the highest winners (default: as in the study)");
+    command.addOption("--trials", options->trials, "Trials of each (default: as in the study)");
+    command.addOption("--engine", options->engine, "What simulates (default: as in the study)");
+    command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }
 
 }  // namespace trapwright::app

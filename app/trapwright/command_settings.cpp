@@ -23,12 +23,12 @@ Attempt<ExitCode> run(const std::string& path, const Console& console) {
 
 void addSettingsCommand(CLI::App& program, Invocation& invocation) {
     const auto path = std::make_shared<std::string>();
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "settings",
                    "Prints a study's settings as JSON, which `new --settings` and `evolve --settings` take.",
                    "trapwright settings cuboid.trap > settings.json",
                    [path](const Console& console) { return run(*path, console); });
-    command.add_option("STUDY", *path, "The study's file")->required();
+    command.addOption("STUDY", *path, "The study's file").required();
 }
 
 }  // namespace trapwright::app

@@ -91,26 +91,24 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 void addSweepCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
     options->part.part = "cuboid";
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "sweep",
                    "Conveying speed of a part on a level track over the half-stroke, to choose it by.",
                    "trapwright sweep --part cuboid --from 0.4 --to 1.2 --step 0.02",
                    [options](const Console& console) { return run(*options, console); });
-    const CLI::Range halfStrokes(0.001, 10.0);
-    command.add_option("--part", options->part.part,
-                       "The part: a file, or the name of a bundled one (cuboid)");
+    constexpr double kLeast = 0.001;  // [mm]
+    constexpr double kMost = 10.0;    // [mm]
+    command.addOption("--part", options->part.part,
+                      "The part: a file, or the name of a bundled one (cuboid)");
     addPartOptions(command, options->part);
-    command.add_option("--from", options->from, "First half-stroke in mm (0.4)")->check(halfStrokes);
-    command.add_option("--to", options->to, "Last half-stroke in mm (1.2)")->check(halfStrokes);
-    command.add_option("--step", options->step, "Between two of them in mm (0.02)")->check(halfStrokes);
-    command.add_option("--frequency", options->frequency, "Of the vibration in Hz (50)")
-        ->check(CLI::Range(1.0, 1000.0));
-    command.add_option("--angle", options->angle, "Of the vibration in degrees (12)")
-        ->check(CLI::Range(0.1, 89.0));
-    command.add_option("--friction", options->friction, "Static and kinetic (0.5)")
-        ->check(CLI::Range(0.0, 2.0));
-    command.add_option("--restitution", options->restitution, "(0.3)")->check(CLI::Range(0.0, 1.0));
-    command.add_option("--engine", options->engine, "What simulates (simbody)");
+    command.addOption("--from", options->from, "First half-stroke in mm (0.4)").range(kLeast, kMost);
+    command.addOption("--to", options->to, "Last half-stroke in mm (1.2)").range(kLeast, kMost);
+    command.addOption("--step", options->step, "Between two of them in mm (0.02)").range(kLeast, kMost);
+    command.addOption("--frequency", options->frequency, "Of the vibration in Hz (50)").range(1.0, 1000.0);
+    command.addOption("--angle", options->angle, "Of the vibration in degrees (12)").range(0.1, 89.0);
+    command.addOption("--friction", options->friction, "Static and kinetic (0.5)").range(0.0, 2.0);
+    command.addOption("--restitution", options->restitution, "(0.3)").range(0.0, 1.0);
+    command.addOption("--engine", options->engine, "What simulates (simbody)");
 }
 
 }  // namespace trapwright::app

@@ -113,26 +113,24 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 void addTrackCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
     options->part.part = "cuboid";
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "track",
                    "Simulates parts on a track file: how many finish, fall off, get stuck, are oriented.",
                    "trapwright track resources/tracks/cuboid_track.json --part cuboid --trials 1000",
                    [options](const Console& console) { return run(*options, console); });
-    command.add_option("FILE", options->file, "The track, JSON in mm")->required();
-    command.add_option("--part", options->part.part,
-                       "The part: a file, or the name of a bundled one (cuboid)");
+    command.addOption("FILE", options->file, "The track, JSON in mm").required();
+    command.addOption("--part", options->part.part,
+                      "The part: a file, or the name of a bundled one (cuboid)");
     addPartOptions(command, options->part);
-    command.add_option("--trials", options->trials, "How many (1000)");
-    command.add_option("--seed", options->seed, "Of the random starts (1)");
-    command.add_option("--half-stroke", options->halfStroke,
-                       "Amplitude along the vibration line in mm (0.8)");
-    command.add_option("--friction", options->friction, "Static and kinetic (0.5)");
-    command.add_option("--restitution", options->restitution, "From 0 to 1 (0.3)");
-    command.add_option("--step", options->step, "Of simulated time in ms (the engine's own)")
-        ->check(CLI::Range(1e-4, 2.0));
-    command.add_option("--tolerance", options->tolerance, "Of the orientation in degrees (25)");
-    command.add_option("--engine", options->engine, "What simulates (simbody)");
-    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+    command.addOption("--trials", options->trials, "How many (1000)");
+    command.addOption("--seed", options->seed, "Of the random starts (1)");
+    command.addOption("--half-stroke", options->halfStroke, "Amplitude along the vibration line in mm (0.8)");
+    command.addOption("--friction", options->friction, "Static and kinetic (0.5)");
+    command.addOption("--restitution", options->restitution, "From 0 to 1 (0.3)");
+    command.addOption("--step", options->step, "Of simulated time in ms (the engine's own)").range(1e-4, 2.0);
+    command.addOption("--tolerance", options->tolerance, "Of the orientation in degrees (25)");
+    command.addOption("--engine", options->engine, "What simulates (simbody)");
+    command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }
 
 }  // namespace trapwright::app

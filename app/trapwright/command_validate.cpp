@@ -65,25 +65,25 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addValidateCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = addCommand(
+    Command command = addCommand(
         program, invocation, "validate",
         "Success of one track per stable pose of the part: trials T, failures F, success P with its 95 % "
         "Clopper-Pearson bounds. "
         "Poses that look the same are one row.",
         "trapwright validate cuboid.trap --trials 1000",
         [options](const Console& console) { return run(*options, console); });
-    command.add_option("STUDY", options->study, "The study's file")->required();
+    command.addOption("STUDY", options->study, "The study's file").required();
     addIndividualOptions(command, options->choice);
-    command.add_option("--trials", options->trials, "Trials per stable pose (default: as in the study)");
-    command.add_flag("--poses", options->everyPose, "Also a row for each of the poses that look the same");
-    command.add_option("--tolerance", options->tolerance,
-                       "Of the orientation, in degrees (default: as in the study)");
+    command.addOption("--trials", options->trials, "Trials per stable pose (default: as in the study)");
+    command.addFlag("--poses", options->everyPose, "Also a row for each of the poses that look the same");
+    command.addOption("--tolerance", options->tolerance,
+                      "Of the orientation, in degrees (default: as in the study)");
     command
-        .add_option("--expected", options->expected,
-                    "The orientation that counts as success, w x y z (default: the most frequent final one)")
-        ->expected(4);
-    command.add_option("--engine", options->engine, "What simulates (default: as in the study)");
-    command.add_option("--threads", options->threads, "Threads (default: all processors)");
+        .addOption("--expected", options->expected,
+                   "The orientation that counts as success, w x y z (default: the most frequent final one)")
+        .values(4);
+    command.addOption("--engine", options->engine, "What simulates (default: as in the study)");
+    command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }
 
 }  // namespace trapwright::app

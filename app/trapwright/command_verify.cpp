@@ -100,25 +100,25 @@ Attempt<ExitCode> run(Options options, const Console& console) {
 
 void addVerifyCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    Command command =
         addCommand(program, invocation, "verify",
                    "Runs an engine against known physics: case, expected, got, verdict. Exit code 1 if "
                    "any case fails.",
                    "trapwright verify --engine simbody --case ridge",
                    [options](const Console& console) { return run(*options, console); });
-    command.add_option(
+    command.addOption(
         "--engine", options->engine,
         "simbody (default); native or hybrid, which is held against simbody as well (case agreement); or "
         "simbody-certifying: the continuous contact law under an error-controlled integrator, some hundred "
         "times slower");
-    command.add_option("--case", options->filter, "Only the cases with this in their name");
-    command.add_flag("--no-agreement", options->withoutAgreement, "Leave out the case agreement");
+    command.addOption("--case", options->filter, "Only the cases with this in their name");
+    command.addFlag("--no-agreement", options->withoutAgreement, "Leave out the case agreement");
     command
-        .add_option("--trials", options->agreement.trials,
-                    "Of each part on each track, in each engine, of the case agreement (1000)")
-        ->check(CLI::Range(1, 10000));
-    command.add_option("--threads", options->agreement.threads,
-                       "Threads of the case agreement (default: all processors)");
+        .addOption("--trials", options->agreement.trials,
+                   "Of each part on each track, in each engine, of the case agreement (1000)")
+        .range(1, 10000);
+    command.addOption("--threads", options->agreement.threads,
+                      "Threads of the case agreement (default: all processors)");
 }
 
 }  // namespace trapwright::app

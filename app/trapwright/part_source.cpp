@@ -8,17 +8,17 @@
 
 namespace trapwright::app {
 
-void addPartOptions(CLI::App& command, PartRequest& request) {
-    command.add_option("--units", request.units, "Unit of the part's file: um, mm, cm, m, inch or ft");
-    auto* density = command.add_option("--density", request.density, "Density of the part in kg/m^3");
+void addPartOptions(Command command, PartRequest& request) {
+    command.addOption("--units", request.units, "Unit of the part's file: um, mm, cm, m, inch or ft");
+    const Option density = command.addOption("--density", request.density, "Density of the part in kg/m^3");
     request.ownMaterials = findOwnMaterials();
     command
-        .add_option("--material", request.material,
-                    "What the part is made of, for its density: ABS, steel, brass ... `trapwright materials` "
-                    "lists them")
-        ->excludes(density);
-    command.add_option("--symmetry-tolerance", request.tolerance,
-                       "How far a symmetric part may be from it, as a share of its size (default 0.01)");
+        .addOption("--material", request.material,
+                   "What the part is made of, for its density: ABS, steel, brass ... `trapwright materials` "
+                   "lists them")
+        .excludes(density);
+    command.addOption("--symmetry-tolerance", request.tolerance,
+                      "How far a symmetric part may be from it, as a share of its size (default 0.01)");
 }
 
 std::filesystem::path findOwnMaterials() {

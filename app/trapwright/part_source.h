@@ -1,7 +1,6 @@
 #pragma once
 
-#include <CLI/App.hpp>
-
+#include "app/trapwright/command_options.h"
 #include "app/trapwright/exit_codes.h"
 #include "core/part/materials.h"
 #include "core/work/part_source.h"
@@ -12,7 +11,7 @@ using work::LoadedPart;
 using work::PartRequest;
 
 /// Adds --units, --density, --material and --symmetry-tolerance to a command.
-void addPartOptions(CLI::App& command, PartRequest& request);
+void addPartOptions(Command command, PartRequest& request);
 
 /// The user's own folder of materials.
 std::filesystem::path findOwnMaterials();

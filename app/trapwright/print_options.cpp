@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/Validators.hpp>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -50,19 +49,19 @@ std::string describeExcess(const geometry::BedFit& fit) {
 
 }  // namespace
 
-void addPrintOptions(CLI::App& command, PrintRequest& request) {
+void addPrintOptions(Command command, PrintRequest& request) {
     const auto add = [&](const char* name, std::optional<double>& value, const char* help) {
-        command.add_option(name, value, help)->type_name("MM")->group(kGroup);
+        command.addOption(name, value, help).type("MM").group(kGroup);
     };
     add("--base-thickness", request.baseThickness, "Below the lowest valley (default: the study's)");
     add("--wall-height", request.wallHeight, "Of both side walls, above the highest hill (0: no walls)");
     add("--wall-thickness", request.wallThickness, "Of the side walls, at least (2)");
     command
-        .add_flag(
+        .addFlag(
             "--flange", request.flange,
             "A plate at the foot with bolt holes: at both sides of a linear feeder; in a bowl at the outer "
             "side, cut round so that it fits into the bowl")
-        ->group(kGroup);
+        .group(kGroup);
     add("--flange-thickness", request.flangeThickness, "At most the base thickness (3)");
     add("--bolt-diameter", request.boltDiameter, "Of the holes (4.5, for M4; 0: no holes)");
     add("--bolt-spacing", request.boltSpacing, "Between the holes' centres (50)");
@@ -71,35 +70,35 @@ void addPrintOptions(CLI::App& command, PrintRequest& request) {
     add("--insert-radius", request.insertRadius,
         "Of the bowl, where the flange is cut (0, the default: the least that leaves room)");
     command
-        .add_option(
+        .addOption(
             "--printer", request.printer,
             "For its bed, thinnest wall and steepest overhang: a name of resources/printers or of your "
             "own, as in prusa-mk4; a wrong name tells which there are")
-        ->type_name("NAME")
-        ->group(kGroup);
+        .type("NAME")
+        .group(kGroup);
     command
-        .add_option("--bed", request.bed,
-                    "Bed and height of the printer, as in 250x210x220: whether the track fits is told")
-        ->type_name("MMxMMxMM")
-        ->group(kGroup);
+        .addOption("--bed", request.bed,
+                   "Bed and height of the printer, as in 250x210x220: whether the track fits is told")
+        .type("MMxMMxMM")
+        .group(kGroup);
     add("--thinnest", request.thinnestWall, "Walls thinner than this are told of (the printer's, or 1.2)");
     command
-        .add_option("--steepest", request.steepestOverhang,
-                    "Overhangs that lean further from upright are told of (the printer's, or 45)")
-        ->type_name("DEG")
-        ->check(CLI::Range(0.0, 90.0))
-        ->group(kGroup);
-    auto* split =
-        command.add_flag("--split", request.split,
-                         "Cuts the track into as few pieces as fit on the bed, with holes for dowels");
-    split->group(kGroup);
+        .addOption("--steepest", request.steepestOverhang,
+                   "Overhangs that lean further from upright are told of (the printer's, or 45)")
+        .type("DEG")
+        .range(0.0, 90.0)
+        .group(kGroup);
+    Option split =
+        command.addFlag("--split", request.split,
+                        "Cuts the track into as few pieces as fit on the bed, with holes for dowels");
+    split.group(kGroup);
     command
-        .add_option("--cut", request.cuts,
-                    "Cuts at these sections instead, counted from 1 at the lead-in's end, as in 4,9")
-        ->delimiter(',')
-        ->type_name("SECTION")
-        ->excludes(split)
-        ->group(kGroup);
+        .addOption("--cut", request.cuts,
+                   "Cuts at these sections instead, counted from 1 at the lead-in's end, as in 4,9")
+        .separatedBy(',')
+        .type("SECTION")
+        .excludes(split)
+        .group(kGroup);
     add("--dowel-diameter", request.dowelDiameter,
         "Of the pins that hold the pieces together (3; 0: no holes)");
     add("--dowel-depth", request.dowelDepth, "Of a pin in each of the two faces (8)");

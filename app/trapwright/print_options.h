@@ -1,12 +1,12 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/trapwright/command_options.h"
 #include "app/trapwright/exit_codes.h"
 #include "core/geometry/print_check.h"
 #include "core/track/print_pieces.h"
@@ -37,7 +37,7 @@ struct PrintRequest {
     std::optional<double> dowelClearance;
 };
 
-void addPrintOptions(CLI::App& command, PrintRequest& request);
+void addPrintOptions(Command command, PrintRequest& request);
 
 track::PrintOptions toPrintOptions(const PrintRequest& request);
 

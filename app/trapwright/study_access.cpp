@@ -59,15 +59,16 @@ Attempt<OpenStudy> loadStudy(store::StudyFile file) {
     return OpenStudy{std::move(file), std::move(design->settings), std::move(design->part)};
 }
 
-void addIndividualOptions(CLI::App& command, IndividualChoice& choice) {
-    auto* generation = command.add_option("--generation", choice.generation, "Of the individual, from 0");
+void addIndividualOptions(Command command, IndividualChoice& choice) {
+    const Option generation =
+        command.addOption("--generation", choice.generation, "Of the individual, from 0");
     command
-        .add_option(
+        .addOption(
             "--individual", choice.individual,
             "Its number in the generation, from 0 (default: the winner). Without both: the final track that "
             "was chosen in the studio, or else the first of the last selection, or the winner with the "
             "greatest success")
-        ->needs(generation);
+        .needs(generation);
 }
 
 Attempt<study::Winner> findIndividual(const store::StudyFile& file, const IndividualChoice& choice) {

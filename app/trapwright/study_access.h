@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "app/trapwright/command_options.h"
 #include "app/trapwright/exit_codes.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
@@ -37,7 +37,7 @@ struct IndividualChoice {
 };
 
 /// Adds --generation and --individual.
-void addIndividualOptions(CLI::App& command, IndividualChoice& choice);
+void addIndividualOptions(Command command, IndividualChoice& choice);
 
 /// The individual that is meant: the one named; a generation's winner; otherwise the final track that was
 /// chosen in the studio, or the first of the last selection, or without any the best winner

@@ -87,35 +87,34 @@ bool CreationOptions::given() const {
            contact || surface || settingsFile || paper;
 }
 
-void addCreationOptions(CLI::App& command, CreationOptions& options) {
-    command.add_option("--preset", options.preset, "Start from the paper's Table 1: cuboid or cone");
-    command.add_option("--part", options.part.part, "The part: a file, or the name of a bundled one");
+void addCreationOptions(Command command, CreationOptions& options) {
+    command.addOption("--preset", options.preset, "Start from the paper's Table 1: cuboid or cone");
+    command.addOption("--part", options.part.part, "The part: a file, or the name of a bundled one");
     addPartOptions(command, options.part);
-    command.add_option(
+    const Option contact = command.addOption(
         "--contact", options.contact,
         "Friction, restitution and density by pair: abs-on-printed-plastic, steel-on-steel-sheet ... "
         "`trapwright materials` lists them");
     command
-        .add_option(
+        .addOption(
             "--surface", options.surface,
             "What the track's surface is made of, for friction and restitution with the part's material: "
             "printed-pla, steel-sheet ...")
-        ->excludes("--contact");
-    command.add_option("--settings", options.settingsFile,
-                       "Settings in JSON, as `trapwright settings` prints them");
-    command.add_flag("--paper", options.paper, "The paper's own choices where the defaults go past it");
+        .excludes(contact);
+    command.addOption("--settings", options.settingsFile,
+                      "Settings in JSON, as `trapwright settings` prints them");
+    command.addFlag("--paper", options.paper, "The paper's own choices where the defaults go past it");
 }
 
-void addSettingOptions(CLI::App& command, SettingOptions& options) {
-    command.add_option("--set", options.assignments, "Set one setting, as in --set track.segmentWidth_mm=50")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    command.add_option("--generations", options.generations, "Generations in all");
-    command.add_option("--population", options.population, "Individuals of a generation");
-    command.add_option("--trials", options.trials, "Simulated trials of every individual");
-    command.add_option("--seed", options.seed, "Of all random numbers");
-    command.add_option(
+void addSettingOptions(Command command, SettingOptions& options) {
+    command.addOption("--set", options.assignments, "Set one setting, as in --set track.segmentWidth_mm=50")
+        .type("KEY=VALUE")
+        .repeatable();
+    command.addOption("--generations", options.generations, "Generations in all");
+    command.addOption("--population", options.population, "Individuals of a generation");
+    command.addOption("--trials", options.trials, "Simulated trials of every individual");
+    command.addOption("--seed", options.seed, "Of all random numbers");
+    command.addOption(
         "--engine", options.engine,
         "What simulates: native, simbody, or hybrid (native, each generation's winner checked by simbody)");
 }

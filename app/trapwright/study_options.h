@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/trapwright/command_options.h"
 #include "app/trapwright/console.h"
 #include "app/trapwright/part_source.h"
 #include "app/trapwright/study_access.h"
@@ -37,8 +37,8 @@ struct SettingOptions {
     std::optional<std::string> engine;
 };
 
-void addCreationOptions(CLI::App& command, CreationOptions& options);
-void addSettingOptions(CLI::App& command, SettingOptions& options);
+void addCreationOptions(Command command, CreationOptions& options);
+void addSettingOptions(Command command, SettingOptions& options);
 
 /// The settings with what the user set. An unknown engine is a failure; ranges are not looked at.
 Attempt<study::Settings> applySettings(study::Settings settings, const SettingOptions& options);
