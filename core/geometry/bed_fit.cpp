@@ -87,7 +87,12 @@ BedFit fitOnBed(const TriangleMesh& mesh, const BuildSpace& space) {
         best.turn = turn;
         best.size = {size.x(), size.y(), height};
     };
-    const std::vector<double> turns = listTurns(footprint);
+    // What fits as it lies is not turned, nor is what fits by a quarter turn turned further.
+    for (const double turn : {0.0, 0.5 * base::kPi}) {
+        attempt(turn);
+        if (least <= 1.0 + kRounding) break;
+    }
+    const std::vector<double> turns = least <= 1.0 + kRounding ? std::vector{0.0} : listTurns(footprint);
     for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
         attempt(turns[i]);
         if (turns[i + 1] - turns[i] < kRounding) continue;

@@ -26,10 +26,11 @@ struct BedFit {
 /// The convex hull of what the vertices are above, counter-clockwise (Andrew 1979).
 std::vector<base::Vec2> computeFootprint(const TriangleMesh& mesh);
 
-/// Turns the solid about the upright axis so that it fills as little of the bed as it can: the larger of the
-/// two shares of the bed's sides is least. Exact: between two turns at which an edge of the footprint lies
-/// along a side of the bed both sizes are concave in the angle, so the least of the larger one is at such a
-/// turn or where the two shares are equal.
+/// Leaves the solid as it is if it fits so, or turns it by a quarter if it fits so. Otherwise turns it about
+/// the upright axis so that it fills as little of the bed as it can: the larger of the two shares of the
+/// bed's sides is least. Exact: between two turns at which an edge of the footprint lies along a side of the
+/// bed both sizes are concave in the angle, so the least of the larger one is at such a turn or where the two
+/// shares are equal.
 BedFit fitOnBed(const TriangleMesh& mesh, const BuildSpace& space);
 
 }  // namespace trapwright::geometry

@@ -221,10 +221,20 @@ WeightedRate estimateWeighted(std::span<const Stratum> strata, double confidence
     Interval interval = calcBounds(kinds, 0.5 * (1.0 - confidence));
     if (failuresAreRarer) interval = {1.0 - interval.high, 1.0 - interval.low};
     const double share = untried ? tried / whole : 1.0;
-    WeightedRate result;
-    if (!untried) result.rate = successes / tried;
-    result.interval = {share * interval.low, share * interval.high + (1.0 - share)};
-    return result;
+    return {calcWeightedRate(strata), {share * interval.low, share * interval.high + (1.0 - share)}};
+}
+
+std::optional<double> calcWeightedRate(std::span<const Stratum> strata) {
+    double weights = 0.0;
+    double successes = 0.0;
+    for (const Stratum& stratum : strata) {
+        if (!(stratum.weight > 0.0)) continue;
+        if (stratum.count.trials == 0) return std::nullopt;
+        weights += stratum.weight;
+        successes += stratum.weight * stratum.count.successes / stratum.count.trials;
+    }
+    if (!(weights > 0.0)) return std::nullopt;
+    return successes / weights;
 }
 
 }  // namespace trapwright::stats

@@ -29,4 +29,8 @@ struct WeightedRate {
 /// 0.1 s for strata of several 1000 trials.
 WeightedRate estimateWeighted(std::span<const Stratum> strata, double confidence = 0.95);
 
+/// The rate alone, at once: the sum of weight times rate over the weights that are met. None while a kind
+/// that is met was never tried.
+std::optional<double> calcWeightedRate(std::span<const Stratum> strata);
+
 }  // namespace trapwright::stats

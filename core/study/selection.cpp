@@ -7,6 +7,7 @@
 #include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
+#include "core/study/validation.h"
 
 namespace trapwright::study {
 
@@ -87,28 +88,37 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     return record;
 }
 
-std::optional<stats::Count> findSuccess(std::span<const SelectionRecord> selections,
+stats::Interval TrackSuccess::calcInterval() const {
+    return stats::estimateWeighted(strata).interval;
+}
+
+std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selections,
                                         std::span<const ValidationRecord> validations,
-                                        const Winner& individual) {
+                                        const Winner& individual, std::span<const part::PoseGroup> groups) {
+    using Source = TrackSuccess::Source;
     const auto isMeant = [&](const auto& of) {
         return of.generation == individual.generation && of.individual == individual.individual;
     };
+    const auto allAlike = [](Source source, const stats::Count& count) {
+        return TrackSuccess{source, count.share(), count, {{1.0, count}}};
+    };
     const auto validation = std::find_if(validations.rbegin(), validations.rend(), isMeant);
-    stats::Count counted;
     if (validation != validations.rend()) {
-        for (const ValidationRow& row : validation->rows) {
-            counted.trials += row.trials;
-            counted.successes += row.trials - row.failures;
-        }
+        const ValidationRow total = calcTotal(*validation);
+        const stats::Count count{total.trials - total.failures, total.trials};
+        std::vector<stats::Stratum> strata = listStrata(*validation, groups);
+        if (const auto rate = stats::calcWeightedRate(strata))
+            return TrackSuccess{Source::validation, *rate, count, std::move(strata)};
+        if (count.trials > 0) return allAlike(Source::validation, count);
     }
-    if (counted.trials > 0) return counted;
     // The newest that has simulated it.
     for (const SelectionRecord& selection : std::views::reverse(selections)) {
         const auto entry = std::find_if(selection.entries.begin(), selection.entries.end(), isMeant);
         if (entry != selection.entries.end() && entry->trials > 0)
-            return stats::Count{entry->oriented, entry->trials};
+            return allAlike(Source::selection, {entry->oriented, entry->trials});
     }
-    return individual.record.success();
+    if (const auto learned = individual.record.success()) return allAlike(Source::learning, *learned);
+    return std::nullopt;
 }
 
 }  // namespace trapwright::study

@@ -43,6 +43,31 @@ void add(ValidationRow& sum, const ValidationRow& row) {
     sum.fellOff += row.fellOff;
 }
 
+std::vector<ValidationGroup> groupRows(const ValidationRecord& record,
+                                       std::span<const part::PoseGroup> groups) {
+    std::vector<ValidationGroup> grouped;
+    for (const part::PoseGroup& group : groups)
+        grouped.push_back({group.poses, group.probability, {}, {}});
+    for (const ValidationRow& row : record.rows) {
+        auto own = std::find_if(grouped.begin(), grouped.end(), [&](const ValidationGroup& group) {
+            return std::find(group.poses.begin(), group.poses.end(), row.pose) != group.poses.end();
+        });
+        if (own == grouped.end()) own = grouped.insert(own, {{row.pose}, 0.0, {}, {}});
+        own->sum.pose = own->poses.front();
+        own->rows.push_back(row);
+        add(own->sum, row);
+    }
+    std::erase_if(grouped, [](const ValidationGroup& group) { return group.rows.empty(); });
+    return grouped;
+}
+
+std::vector<stats::Stratum> strataOf(std::span<const ValidationGroup> groups) {
+    std::vector<stats::Stratum> strata;
+    for (const ValidationGroup& group : groups)
+        strata.push_back({group.weight, {group.sum.trials - group.sum.failures, group.sum.trials}});
+    return strata;
+}
+
 }  // namespace
 
 base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner& individual,
@@ -104,25 +129,16 @@ ValidationRow calcTotal(const ValidationRecord& record) {
     return total;
 }
 
+std::vector<stats::Stratum> listStrata(const ValidationRecord& record,
+                                       std::span<const part::PoseGroup> groups) {
+    return strataOf(groupRows(record, groups));
+}
+
 ValidationTable tabulate(const ValidationRecord& record, std::span<const part::PoseGroup> groups) {
     ValidationTable table;
-    for (const part::PoseGroup& group : groups)
-        table.groups.push_back({group.poses, group.probability, {}, {}});
-    for (const ValidationRow& row : record.rows) {
-        auto own = std::find_if(table.groups.begin(), table.groups.end(), [&](const ValidationGroup& group) {
-            return std::find(group.poses.begin(), group.poses.end(), row.pose) != group.poses.end();
-        });
-        if (own == table.groups.end()) own = table.groups.insert(own, {{row.pose}, 0.0, {}, {}});
-        own->sum.pose = own->poses.front();
-        own->rows.push_back(row);
-        add(own->sum, row);
-    }
-    std::erase_if(table.groups, [](const ValidationGroup& group) { return group.rows.empty(); });
+    table.groups = groupRows(record, groups);
     table.total = calcTotal(record);
-    std::vector<stats::Stratum> strata;
-    for (const ValidationGroup& group : table.groups)
-        strata.push_back({group.weight, {group.sum.trials - group.sum.failures, group.sum.trials}});
-    table.weighted = stats::estimateWeighted(strata);
+    table.weighted = stats::estimateWeighted(strataOf(table.groups));
     return table;
 }
 

@@ -39,6 +39,10 @@ struct ValidationTable {
     stats::WeightedRate weighted;         // success, weighted by how often parts land so
 };
 
+/// Successes in each group of poses, as they are weighted. `groups` as of tabulate().
+std::vector<stats::Stratum> listStrata(const ValidationRecord& record,
+                                       std::span<const part::PoseGroup> groups);
+
 /// `groups` are the part's (weighPoseGroups); a pose that none of them has stands for itself, with no weight.
 ValidationTable tabulate(const ValidationRecord& record, std::span<const part::PoseGroup> groups);
 

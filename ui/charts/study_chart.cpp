@@ -31,14 +31,21 @@ void StudyChart::appendCheck(const study::CheckRecord& check) {
     update();
 }
 
+void StudyChart::setEmptyTexts(const QString& before, const QString& without) {
+    before_ = before;
+    without_ = without;
+    update();
+}
+
 void StudyChart::update() {
+    const bool begun = !studies_.empty() && !studies_.front().summaries.empty();
+    if (!before_.isEmpty()) setEmptyText(begun ? without_ : before_);
     setSheet(make_(studies_));
 }
 
 SuccessChart::SuccessChart(QWidget* parent) : StudyChart("success", tr("Success"), &successSheet, parent) {
-    setEmptyText(tr(
-        "The learning curve begins when the first generation is complete. Generations that were learned by a "
-        "program that did not count success have none."));
+    setEmptyTexts(tr("The learning curve begins when the first generation is complete."),
+                  tr("These generations were learned by an older Trapwright, which did not count success."));
 }
 
 FitnessChart::FitnessChart(QWidget* parent) : StudyChart("fitness", tr("Fitness"), &fitnessSheet, parent) {

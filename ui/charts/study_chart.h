@@ -24,10 +24,16 @@ class StudyChart : public CurveChart {
     void appendGeneration(const study::GenerationSummary& summary, double trialsPerSecond);
     void appendCheck(const study::CheckRecord& check);
 
+ protected:
+    /// What is shown instead of curves: `before` the first generation, `without` where generations have none.
+    void setEmptyTexts(const QString& before, const QString& without);
+
  private:
     void update();
 
     SheetMaker make_;
+    QString before_;
+    QString without_;
     std::vector<StudyCurves> studies_;
 };
 

@@ -14,6 +14,7 @@ struct Text {
 };
 
 constexpr double kPercent = 100.0;
+constexpr double kRounding = 1e-9;
 const QString kNothing = QStringLiteral("–");
 
 }  // namespace
@@ -50,10 +51,15 @@ QString boundsText(const std::optional<stats::Count>& success) {
 }
 
 QString successWord(const std::optional<stats::Count>& success) {
-    if (!success) return kNothing;
-    // 99.6 % must not look like 100 %.
-    const bool whole = 100 * success->successes % success->trials == 0;
-    return Text::tr("%1 %").arg(fixed(kPercent * success->share(), whole ? 0 : 1));
+    return successWord(success ? std::optional(success->share()) : std::nullopt);
+}
+
+QString successWord(const std::optional<double>& rate) {
+    if (!rate) return kNothing;
+    // 99.96 % must not look like 100 %, but 95 % need not be 95.0 %.
+    const double shown = kPercent * *rate;
+    const bool whole = std::abs(shown - std::round(shown)) < kRounding;
+    return Text::tr("%1 %").arg(fixed(shown, whole ? 0 : 1));
 }
 
 QString shareText(const std::optional<stats::Count>& success) {

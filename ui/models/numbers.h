@@ -31,6 +31,7 @@ QString poseName(std::span<const int> poses);
 QString percent(const std::optional<stats::Count>& success);
 /// "95 %", "99.6 %", or a dash: as short as it is exact.
 QString successWord(const std::optional<stats::Count>& success);
+QString successWord(const std::optional<double>& rate);
 /// "85.0 % (62.1 … 96.8)", or a dash.
 QString shareText(const std::optional<stats::Count>& success);
 /// "62.1 … 96.8", in percent; a dash where success is not known.

@@ -311,16 +311,16 @@ void ExportPage::exportWhenBuilt(const QString& format) {
     wanted_ = format;
 }
 
-std::optional<stats::Count> ExportPage::successOfTrack() const {
+std::optional<study::TrackSuccess> ExportPage::successOfTrack() const {
     const auto winner = session_->loadWinner(tracks_->currentData(kGeneration).toInt(),
                                              tracks_->currentData(kIndividual).toInt());
     if (!winner) return std::nullopt;
-    return study::findSuccess(session_->selections(), session_->validations(), *winner);
+    return session_->findSuccess(*winner);
 }
 
 void ExportPage::exportAs(const QString& format) {
     const auto success = successOfTrack();
-    if (!success || success->share() >= findings_->leastSuccess()) return askForPath(format, printed_);
+    if (!success || success->rate >= findings_->leastSuccess()) return askForPath(format, printed_);
     auto* question = new QMessageBox(this);
     question->setObjectName("dialog.success");
     question->setAttribute(Qt::WA_DeleteOnClose);

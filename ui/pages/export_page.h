@@ -44,7 +44,7 @@ class ExportPage : public Page {
     void exportAs(const QString& format);
     void askForPath(const QString& format, const std::shared_ptr<const session::PrintedTrack>& printed);
     void tellWritten(const std::vector<work::ExportedFile>& files);
-    [[nodiscard]] std::optional<stats::Count> successOfTrack() const;
+    [[nodiscard]] std::optional<study::TrackSuccess> successOfTrack() const;
     [[nodiscard]] std::vector<scene::Highlight> highlights() const;
     void showScene();
 

@@ -492,7 +492,10 @@ void PartPage::edit(const study::Settings& settings, const QString& what) {
 void PartPage::showScene() {
     if (scene_ == nullptr) return;
     if (session_) {
-        scene_->showStablePoses(session_->part());
+        std::vector<double> shares;
+        for (const part::PoseGroup& group : study::weighPoseGroups(*session_->part(), session_->settings()))
+            shares.push_back(group.probability);
+        scene_->showStablePoses(session_->part(), std::move(shares));
     } else {
         scene_->clear();
     }

@@ -12,6 +12,7 @@
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
+#include "ui/models/numbers.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/print_row.h"
 
@@ -73,12 +74,12 @@ std::shared_ptr<const geometry::TriangleMesh> takeOut(const geometry::TriangleMe
 
 }  // namespace
 
-QString successText(const stats::Count& success) {
-    const stats::Interval bounds = stats::calcClopperPearson(success.successes, success.trials);
-    return PrintFindings::tr("%1 % (%2 to %3 %) of %4 parts")
-        .arg(numberText(100.0 * success.share()), numberText(100.0 * bounds.low),
-             numberText(100.0 * bounds.high))
-        .arg(success.trials);
+QString successText(const study::TrackSuccess& success) {
+    const stats::Interval bounds = success.calcInterval();
+    return PrintFindings::tr("%1 (%2 %) of %L3 parts")
+        .arg(models::successWord(std::optional(success.rate)),
+             models::boundsText(bounds, success.count.trials))
+        .arg(success.count.trials);
 }
 
 PrintFindings::PrintFindings(QWidget* parent)
@@ -150,8 +151,9 @@ PrintFindings::Check PrintFindings::addCheck(QGridLayout& grid, const QString& k
     return check;
 }
 
-void PrintFindings::show(const session::PrintedTrack& printed, const std::optional<stats::Count>& counted,
-                         const PrintChoice& choice, const track::Printer& printer) {
+void PrintFindings::show(const session::PrintedTrack& printed,
+                         const std::optional<study::TrackSuccess>& counted, const PrintChoice& choice,
+                         const track::Printer& printer) {
     setVisible(true);
     success_ = counted;
     judgeSuccess();
@@ -189,7 +191,7 @@ void PrintFindings::judge(Subject subject, Tone tone, const QString& text) {
 void PrintFindings::judgeSuccess() {
     if (!success_)
         return judge(success, Tone::warning, tr("not known: select the final track, or validate this one"));
-    if (success_->share() >= leastSuccess_) return judge(success, Tone::good, successText(*success_));
+    if (success_->rate >= leastSuccess_) return judge(success, Tone::good, successText(*success_));
     judge(success, Tone::bad,
           tr("%1: below %2 %").arg(successText(*success_), numberText(100.0 * leastSuccess_)));
 }

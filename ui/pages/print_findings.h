@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/stats/binomial.h"
+#include "core/study/selection.h"
 #include "ui/look/theme.h"
 #include "ui/pages/print_form.h"
 #include "ui/scene/contents.h"
@@ -27,7 +27,7 @@ class PrintFindings : public QWidget {
     explicit PrintFindings(QWidget* parent);
 
     /// `counted`: the track's success, if it is known.
-    void show(const session::PrintedTrack& printed, const std::optional<stats::Count>& counted,
+    void show(const session::PrintedTrack& printed, const std::optional<study::TrackSuccess>& counted,
               const PrintChoice& choice, const track::Printer& printer);
     void clear();
     /// What is to be marked in the scene now.
@@ -66,14 +66,14 @@ class PrintFindings : public QWidget {
 
     std::vector<Check> checks_;            // by Subject
     std::vector<scene::Highlight> flaws_;  // by row of the list
-    std::optional<stats::Count> success_;
+    std::optional<study::TrackSuccess> success_;
     double leastSuccess_;
     int picked_ = -1;  // row of the last click; -1: none
     PrintRow* least_;
     QListWidget* list_;
 };
 
-/// "98.2 % (97.1 to 98.9 %) of 1000 parts"
-QString successText(const stats::Count& success);
+/// "98.2 % (97.1 … 98.9 %) of 1,000 parts"
+QString successText(const study::TrackSuccess& success);
 
 }  // namespace trapwright::pages

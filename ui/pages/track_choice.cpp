@@ -8,8 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "core/study/pose_weights.h"
-#include "core/study/validation.h"
+#include "core/study/selection.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/models/numbers.h"
@@ -33,40 +32,24 @@ QString nameOf(int generation, int individual) {
     return TrackChoice::tr("Generation %1, individual %2").arg(generation).arg(individual);
 }
 
-/// Success by the trials that tell most, and which they are.
-struct KnownSuccess {
-    std::optional<stats::Count> success;
-    QString source;
-};
+using Success = std::optional<study::TrackSuccess>;
 
-/// By the newest validation, else the newest comparison, else what was counted while learning.
-KnownSuccess findSuccess(const StudySession& session, const study::Winner& winner) {
-    const auto isOf = [&](const auto& entry) {
-        return entry.generation == winner.generation && entry.individual == winner.individual;
-    };
-    KnownSuccess known{winner.record.success(), TrackChoice::tr("while learning")};
-    for (const study::SelectionRecord& selection : session.selections())
-        for (const study::SelectionEntry& entry : selection.entries)
-            if (isOf(entry) && entry.trials > 0)
-                known = {stats::Count{entry.oriented, entry.trials}, TrackChoice::tr("comparison")};
-    for (const study::ValidationRecord& validation : session.validations()) {
-        const study::ValidationRow total = study::calcTotal(validation);
-        if (isOf(validation) && total.trials > 0)
-            known = {stats::Count{total.trials - total.failures, total.trials},
-                     TrackChoice::tr("validation")};
-    }
-    return known;
+QString sourceOf(const Success& success) {
+    using Source = study::TrackSuccess::Source;
+    if (success && success->source == Source::validation) return TrackChoice::tr("validation");
+    if (success && success->source == Source::selection) return TrackChoice::tr("comparison");
+    return TrackChoice::tr("while learning");
 }
 
 /// Why nobody should want this track; empty if there is nothing against it.
-QString findObjection(const KnownSuccess& known, const study::IndividualRecord& record) {
-    if (known.success && known.success->successes == 0) {
+QString findObjection(const Success& success, const study::IndividualRecord& record) {
+    if (success && success->count.successes == 0) {
         return TrackChoice::tr(
                    "Its success is 0 %: of %1 parts none finished in the expected orientation (%2).")
-            .arg(known.success->trials)
-            .arg(known.source);
+            .arg(success->count.trials)
+            .arg(sourceOf(success));
     }
-    if (known.success) return {};
+    if (success) return {};
     if (record.trials == 0) return TrackChoice::tr("It was never simulated: its surface crosses itself.");
     if (record.finished == 0) return TrackChoice::tr("None of %1 parts finished.").arg(record.trials);
     return {};
@@ -144,9 +127,11 @@ void TrackChoice::listWinners() {
     list_->clear();
     if (!session_) return;
     const auto add = [this](const study::Winner& winner) {
-        list_->addItem(tr("%1: %2").arg(nameOf(winner.generation, winner.individual),
-                                        models::successWord(findSuccess(*session_, winner).success)),
-                       winner.generation);
+        const Success success = session_->findSuccess(winner);
+        list_->addItem(
+            tr("%1: %2").arg(nameOf(winner.generation, winner.individual),
+                             models::successWord(success ? std::optional(success->rate) : std::nullopt)),
+            winner.generation);
         list_->setItemData(list_->count() - 1, winner.individual, kIndividualRole);
         if (winner_ && isSame(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
     };
@@ -172,31 +157,25 @@ void TrackChoice::showFacts() {
     if (compared != nullptr)
         facts.emplace_back(tr("Comparison"),
                            models::shareText(stats::Count{compared->oriented, compared->trials}));
-    const study::ValidationRecord* validated = nullptr;
-    for (const study::ValidationRecord& validation : session_->validations())
-        if (validation.generation == winner_->generation && validation.individual == winner_->individual)
-            validated = &validation;
-    const KnownSuccess known = findSuccess(*session_, *winner_);
-    std::optional<study::ValidationTable> table;
-    if (validated != nullptr)
-        table = study::tabulate(*validated, study::weighPoseGroups(*session_->part(), session_->settings()));
-    if (table && table->weighted.rate) {
-        const stats::Count alike{table->total.trials - table->total.failures, table->total.trials};
-        success_->showWeighted(table->weighted, tr("validation, weighted by how often parts land so"));
-        facts.emplace_back(tr("All trials alike"), models::shareText(alike));
+    const Success success = session_->findSuccess(*winner_);
+    if (success && success->source == study::TrackSuccess::Source::validation) {
+        success_->showWeighted({success->rate, success->calcInterval()},
+                               tr("validation, weighted by how often parts land so"));
+        facts.emplace_back(tr("All trials alike"), models::shareText(success->count));
     } else {
-        success_->show(known.success, known.success ? tr("%1 of %2 parts, %3")
-                                                          .arg(known.success->successes)
-                                                          .arg(known.success->trials)
-                                                          .arg(known.source)
-                                                    : known.source);
+        success_->show(success ? std::optional(success->count) : std::nullopt,
+                       success ? tr("%1 of %2 parts, %3")
+                                     .arg(success->count.successes)
+                                     .arg(success->count.trials)
+                                     .arg(sourceOf(success))
+                               : sourceOf(success));
     }
     facts_->show(facts);
 }
 
 void TrackChoice::askAndChoose() {
     if (!session_ || !winner_) return;
-    const QString objection = findObjection(findSuccess(*session_, *winner_), winner_->record);
+    const QString objection = findObjection(session_->findSuccess(*winner_), winner_->record);
     if (objection.isEmpty()) return choose();
     auto* box = new QMessageBox(QMessageBox::Warning, tr("Trapwright"),
                                 tr("Make the track of %1 the final one?")

@@ -56,6 +56,7 @@ struct SceneContents {
     TrackMarks marks;
     std::shared_ptr<const geometry::TriangleMesh> solid;
     std::shared_ptr<const part::Part> stablePoses;  // of this part, side by side on a flat
+    std::vector<double> poseShares;  // of parts, by group of alike poses; empty: the part's own
     std::shared_ptr<const part::Part> part;
     std::vector<base::Pose> partPoses;  // part frame to room; the first is solid, the others are ghosts
     std::vector<QColor> partColours;    // by index; missing or invalid: the theme's

@@ -82,8 +82,17 @@ OverlayItem makeHeading(const QStringList& lines, const QPointF& centre, bool fi
             }};
 }
 
+/// The place at which a label lies at the left of the area, where it would cover it.
+QPointF moveBeside(const QPointF& centre, const QString& text, const QRectF& area) {
+    const QSizeF size = sizeOf({text});
+    const QRectF label(centre - QPointF(0.5 * size.width(), 0.5 * size.height()), size);
+    if (!label.intersects(area)) return centre;
+    return {area.left() - 0.5 * size.width() - 4.0, centre.y()};
+}
+
+/// `legend`: where the labels of marks must not lie.
 void addTrackLabels(std::vector<OverlayItem>& items, const SceneContents& contents, const Camera& camera,
-                    const QSizeF& screen) {
+                    const QSizeF& screen, const QRectF& legend) {
     const track::Track& track = *contents.track;
     const SceneTheme& theme = contents.theme;
     const QFontMetricsF metrics(QGuiApplication::font());
@@ -111,7 +120,8 @@ void addTrackLabels(std::vector<OverlayItem>& items, const SceneContents& conten
     }
     const auto addMark = [&](const QString& name, const Vec3& place, double above) {
         if (const auto at = camera.project(place, screen))
-            items.push_back(makeLabel(name, *at - QPointF(0.0, above), theme.accent, theme));
+            items.push_back(
+                makeLabel(name, moveBeside(*at - QPointF(0.0, above), name, legend), theme.accent, theme));
     };
     if (contents.marks.startPoint) {
         // Above the part that lies there.
@@ -134,7 +144,8 @@ void addPoseLabels(std::vector<OverlayItem>& items, const SceneContents& content
     for (std::size_t i = 0; i < row.labels.size(); ++i) {
         const auto place = camera.project(row.labels[i], screen);
         if (!place) continue;
-        const double percent = 100.0 * row.groups[i].probability;
+        const bool given = i < contents.poseShares.size();
+        const double percent = 100.0 * (given ? contents.poseShares[i] : row.groups[i].probability);
         const QString share = QLocale().toString(percent, 'f', percent < 9.95 ? 1 : 0) + QStringLiteral(" %");
         const QString name = QString::fromStdString(part::namePoses(row.groups[i].poses)).replace(u'-', u'–');
         items.push_back(makeHeading({name, share}, *place, true, contents.theme));
@@ -175,7 +186,7 @@ void addScaleBar(std::vector<OverlayItem>& items, const SceneContents& contents,
 }
 
 void addHeightLegend(std::vector<OverlayItem>& items, const SceneContents& contents, const QSizeF& screen) {
-    const HeightRange range = heightRangeOf(*contents.track);
+    const HeightRange range = heightRangeOf(contents);
     const QFontMetricsF metrics(QGuiApplication::font());
     const double barHeight = std::clamp(0.28 * screen.height(), 90.0, 220.0);
     const double barWidth = 14.0;
@@ -220,10 +231,11 @@ std::vector<OverlayItem> overlayOf(const SceneContents& contents, const Camera& 
                                    std::optional<StandardView> hovered) {
     std::vector<OverlayItem> items;
     if (isEmpty(contents)) return items;
-    if (contents.track) addTrackLabels(items, contents, camera, screen);
+    if (isShadedByHeight(contents)) addHeightLegend(items, contents, screen);
+    const QRectF legend = items.empty() ? QRectF() : items.front().area;
+    if (contents.track) addTrackLabels(items, contents, camera, screen, legend);
     if (contents.stablePoses) addPoseLabels(items, contents, camera, screen);
     addScaleBar(items, contents, camera, screen);
-    if (contents.track && contents.heightShading) addHeightLegend(items, contents, screen);
     if (contents.part && contents.forceLegend) items.push_back(makeForceLegend(contents, camera, screen));
     items.push_back({orbitCubeArea(screen), [=, theme = contents.theme](QPainter& painter) {
                          paintOrbitCube(painter, camera, theme, screen, hovered);

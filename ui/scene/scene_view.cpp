@@ -41,6 +41,7 @@ void SceneView::State::setSubject(Subject subject) {
     contents.track = std::move(subject.track);
     contents.solid = std::move(subject.solid);
     contents.stablePoses = std::move(subject.stablePoses);
+    heightShading->setEnabled(contents.track || contents.solid);
     // A track and the solid made of it lie in the same place.
     if (wasEmpty || wasPoses != (contents.stablePoses != nullptr)) {
         camera = homeCamera(contents);
@@ -110,7 +111,8 @@ void SceneView::showSolid(std::shared_ptr<const geometry::TriangleMesh> solid) {
     state_->setSubject({.solid = std::move(solid)});
 }
 
-void SceneView::showStablePoses(std::shared_ptr<const part::Part> part) {
+void SceneView::showStablePoses(std::shared_ptr<const part::Part> part, std::vector<double> shares) {
+    state_->contents.poseShares = std::move(shares);
     state_->setSubject({.stablePoses = std::move(part)});
 }
 

@@ -36,7 +36,8 @@ class SceneView : public QWidget {
     /// or while the user has not moved the camera. Null shows none.
     void showTrack(std::shared_ptr<const track::Track> track, const TrackMarks& marks = {});
     void showSolid(std::shared_ptr<const geometry::TriangleMesh> solid);
-    void showStablePoses(std::shared_ptr<const part::Part> part);
+    /// `shares`: of parts that land in each group of alike poses, for the labels; empty: the part's own.
+    void showStablePoses(std::shared_ptr<const part::Part> part, std::vector<double> shares = {});
 
     /// The part to be placed by setPartPoses. Null removes it, its poses, traces and contacts.
     void showPart(std::shared_ptr<const part::Part> part);

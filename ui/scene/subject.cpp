@@ -41,13 +41,24 @@ geometry::Box boxOf(const SceneContents& contents) {
     return box;
 }
 
-HeightRange heightRangeOf(const track::Track& track) {
+bool isShadedByHeight(const SceneContents& contents) {
+    return contents.heightShading && (contents.track || contents.solid);
+}
+
+HeightRange heightRangeOf(const SceneContents& contents) {
     HeightRange range{1e300, -1e300};
-    for (const track::CrossSection& section : track.sections) {
-        for (const base::Vec2& point : section.points) {
-            range.low = std::min(range.low, point.y());
-            range.high = std::max(range.high, point.y());
+    if (contents.track) {
+        for (const track::CrossSection& section : contents.track->sections) {
+            for (const base::Vec2& point : section.points) {
+                range.low = std::min(range.low, point.y());
+                range.high = std::max(range.high, point.y());
+            }
         }
+    } else if (contents.solid) {
+        const geometry::Box box = geometry::calcBoundingBox(*contents.solid);
+        range = {box.low.z(), box.high.z()};
+    } else {
+        return {};
     }
     // A flat track needs a range, too.
     if (range.high - range.low < 1e-3) {

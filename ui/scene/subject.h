@@ -17,11 +17,15 @@ Camera homeCamera(const SceneContents& contents);
 /// nothing. [m]
 geometry::Box boxOf(const SceneContents& contents);
 
-/// The lowest and the highest point of what height shading colours. [m]
+/// Whether there is something that is coloured by its height, and that is wanted.
+bool isShadedByHeight(const SceneContents& contents);
+
+/// The lowest and the highest point of what height shading colours: of a track's surface, of a whole solid.
+/// [m]
 struct HeightRange {
     double low = 0.0;
     double high = 1.0;
 };
-HeightRange heightRangeOf(const track::Track& track);
+HeightRange heightRangeOf(const SceneContents& contents);
 
 }  // namespace trapwright::scene

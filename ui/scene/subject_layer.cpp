@@ -130,17 +130,13 @@ struct SubjectLayer::State {
     }
 
     void makeSolid(const SceneContents& contents) {
-        bodyMapper->SetInputData(
-            makeFlatMesh(*contents.solid, [&](std::size_t) { return contents.theme.leadIn; }));
-        body->VisibilityOn();
+        showFullyLit(*contents.solid, contents.theme.leadIn);
         shadow.make(*contents.solid);
     }
 
-    void makeFlat(const SceneContents& contents) {
-        const PoseRow row = makePoseRow(*contents.stablePoses);
-        const double depth = row.flat.size().y();
-        const TriangleMesh slab = makeSlab(row.flat, kFlatThickness * depth, 0.18 * depth);
-        const auto data = makeFlatMesh(slab, [&](std::size_t) { return contents.theme.leadIn; });
+    /// As a surface without a light map.
+    void showFullyLit(const TriangleMesh& mesh, const QColor& colour) {
+        const auto data = makeFlatMesh(mesh, [&](std::size_t) { return colour; });
         vtkNew<vtkFloatArray> everywhereLight;
         everywhereLight->SetNumberOfComponents(2);
         everywhereLight->SetNumberOfTuples(data->GetNumberOfPoints());
@@ -149,6 +145,13 @@ struct SubjectLayer::State {
         surfaceMapper->SetInputData(data);
         lightMap->SetInputData(toImage({1, 1, {255, 255}}));
         surface->VisibilityOn();
+    }
+
+    void makeFlat(const SceneContents& contents) {
+        const PoseRow row = makePoseRow(*contents.stablePoses);
+        const double depth = row.flat.size().y();
+        const TriangleMesh slab = makeSlab(row.flat, kFlatThickness * depth, 0.18 * depth);
+        showFullyLit(slab, contents.theme.leadIn);
         shadow.make(slab);
     }
 };
@@ -174,9 +177,8 @@ void SubjectLayer::show(const SceneContents& contents, std::span<const Shade> sh
         state_->shown.theme = contents.theme;
         state_->made = true;
     }
-    const HeightRange range = contents.track ? heightRangeOf(*contents.track) : HeightRange{};
-    setHeightRange(*state_->surface, contents.heightShading && contents.track, range.low * kDrawn,
-                   range.high * kDrawn);
+    const HeightRange range = heightRangeOf(contents);
+    setHeightRange(*state_->surface, isShadedByHeight(contents), range.low * kDrawn, range.high * kDrawn);
     setShades(*state_->surface, shades);
 }
 

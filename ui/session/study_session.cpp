@@ -4,6 +4,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/thread_priority.h"
+#include "core/study/pose_weights.h"
 #include "core/study/settings.h"
 #include "core/trial/fitness.h"
 #include "ui/session/study_session_state.h"
@@ -167,6 +168,12 @@ const std::vector<study::SelectionRecord>& StudySession::selections() const {
 
 const std::vector<study::ValidationRecord>& StudySession::validations() const {
     return state_->validations;
+}
+
+std::optional<study::TrackSuccess> StudySession::findSuccess(const study::Winner& individual) const {
+    std::vector<part::PoseGroup> groups;
+    if (part() && !validations().empty()) groups = study::weighPoseGroups(*part(), settings());
+    return study::findSuccess(selections(), validations(), individual, groups);
 }
 
 base::Result<study::GenerationRecord> StudySession::loadGeneration(int index) const {

@@ -20,6 +20,7 @@
 #include "core/study/physical_validation.h"
 #include "core/study/pose_drops.h"
 #include "core/study/records.h"
+#include "core/study/selection.h"
 #include "core/study/settings.h"
 #include "core/trial/outcome.h"
 #include "core/work/failure.h"
@@ -97,6 +98,8 @@ class StudySession : public QObject {
     /// Oldest first.
     [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
     [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
+    /// What is known of the success of an individual (study::findSuccess).
+    [[nodiscard]] std::optional<study::TrackSuccess> findSuccess(const study::Winner& individual) const;
     /// Read from the file, unless it is the newest generation or a winner.
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
     [[nodiscard]] base::Result<study::Winner> loadWinner(int generation, int individual) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/stats/binomial.h"
+#include "core/study/selection.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
@@ -75,6 +76,7 @@ StatusLine::StatusLine(QWidget* parent)
     bar_->setFixedSize(120, 8);
     addWidget(bar_);
     generation_ = addField("generation", tr("Generations learned"));
+    success_ = addField("success", tr("Success of the best track so far"));
     individual_ = addField("individual", tr("Individual of the generation"));
     speed_ = addField("speed", tr("Trials per second"));
     left_ = addField("left", tr("Time left"));
@@ -106,10 +108,15 @@ void StatusLine::setSession(session::StudySession* session) {
         connect(session_, &StudySession::partChanged, this, &StatusLine::update);
         connect(session_, &StudySession::generationSaved, this, &StatusLine::update);
         connect(session_, &StudySession::generationSaved, this, &StatusLine::updateEngines);
+        connect(session_, &StudySession::generationSaved, this, &StatusLine::updateSuccess);
+        connect(session_, &StudySession::selectionSaved, this, &StatusLine::updateSuccess);
+        connect(session_, &StudySession::validationSaved, this, &StatusLine::updateSuccess);
+        connect(session_, &StudySession::chosenChanged, this, &StatusLine::updateSuccess);
         connect(session_, &StudySession::settingsChanged, this, &StatusLine::updateEngines);
         connect(session_, &StudySession::checkSaved, this, &StatusLine::updateEngines);
     }
     update();
+    updateSuccess();
     updateEngines();
 }
 
@@ -157,6 +164,25 @@ void StatusLine::update() {
     constexpr int kSteps = 1000;
     bar_->setMaximum(kSteps);
     bar_->setValue(qRound(std::clamp(whole, 0.0, 1.0) * kSteps));
+}
+
+/// Of the final track once there is one, until then of the best winner.
+void StatusLine::updateSuccess() {
+    const study::Winner* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
+    const auto chosen = session_ ? session_->chosen() : std::nullopt;
+    if (chosen) best = &*chosen;
+    const auto success = best != nullptr ? session_->findSuccess(*best) : std::nullopt;
+    success_->setVisible(success.has_value());
+    if (!success) return;
+    success_->setText(tr("success %1").arg(models::successWord(std::optional(success->rate))));
+    success_->setToolTip(
+        (chosen ? tr("Share of parts that finished in the expected orientation on the final track, "
+                     "generation %1: %L2 of %L3")
+                : tr("Share of parts that finished in the expected orientation on the best track so "
+                     "far, generation %1: %L2 of %L3"))
+            .arg(best->generation)
+            .arg(success->count.successes)
+            .arg(success->count.trials));
 }
 
 void StatusLine::updateEngines() {

@@ -13,7 +13,8 @@ class StudySession;
 namespace trapwright::window {
 
 /// What the open study is doing, at the bottom of the window: state, generation, individual, trials per
-/// second, time left, and what the reference engine says of the last winner that it checked.
+/// second, time left, success of the track that counts, and what the reference engine says of the last winner
+/// that it checked.
 class StatusLine : public QStatusBar {
     Q_OBJECT
  public:
@@ -27,6 +28,7 @@ class StatusLine : public QStatusBar {
  private:
     QLabel* addField(const QString& name, const QString& meaning);
     void update();
+    void updateSuccess();
     void updateEngines();
 
     QPointer<session::StudySession> session_;
@@ -34,6 +36,7 @@ class StatusLine : public QStatusBar {
     QLabel* state_;
     QProgressBar* bar_;
     QLabel* generation_;
+    QLabel* success_;
     QLabel* individual_;
     QLabel* speed_;
     QLabel* left_;

@@ -7,7 +7,6 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "core/stats/binomial.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 
@@ -120,15 +119,13 @@ void StudyCard::setCover(const StudyCover& cover) {
         picture_->setText(cover.part);
     }
     if (cover.success) {
-        const auto [successes, trials] = *cover.success;
-        const stats::Interval bounds = stats::calcClopperPearson(successes, trials);
+        const auto& [rate, bounds, count] = *cover.success;
         success_->setText(tr("<b>%1 %</b> success (%2 … %3)")
-                              .arg(percent(static_cast<double>(successes) / trials), percent(bounds.low),
-                                   percent(bounds.high)));
+                              .arg(percent(rate), percent(bounds.low), percent(bounds.high)));
         setToolTip(study_ + '\n' +
                    tr("%L1 of %L2 parts ended as wanted; in brackets the 95 % bounds (Clopper and Pearson).")
-                       .arg(successes)
-                       .arg(trials));
+                       .arg(count.successes)
+                       .arg(count.trials));
     } else if (cover.generations > 0) {
         success_->setText(tr("%1 of %2 generations").arg(cover.generations).arg(cover.wanted));
     } else {

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/study/pose_weights.h"
 #include "core/study/selection.h"
+#include "core/work/study_design.h"
 #include "ui/look/text.h"
 #include "ui/scene/picture_maker.h"
 #include "ui/scene/when_ready.h"
@@ -27,7 +29,7 @@ struct StudyCovers::Contents {
 
 namespace {
 
-constexpr int kVersion = 1;  // of the cache's files
+constexpr int kVersion = 2;  // of the cache's files
 
 QString cacheFolder() {
     return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/covers";
@@ -50,6 +52,21 @@ std::optional<study::Winner> findTrack(const store::StudyFile& file,
     if (!winners) return std::nullopt;
     const study::Winner* best = study::findBestWinner(*winners);
     return best != nullptr ? std::optional(*best) : std::nullopt;
+}
+
+std::optional<StudyCover::Success> readSuccess(const store::StudyFile& file,
+                                               std::span<const study::SelectionRecord> selections,
+                                               std::span<const study::ValidationRecord> validations,
+                                               const study::Winner& track) {
+    std::vector<part::PoseGroup> groups;
+    // The part is made anew for its poses, which only a validation needs.
+    if (!validations.empty()) {
+        if (const auto design = work::loadDesign(file))
+            groups = study::weighPoseGroups(*design->part, design->settings);
+    }
+    const auto success = study::findSuccess(selections, validations, track, groups);
+    if (!success) return std::nullopt;
+    return StudyCover::Success{success->rate, success->calcInterval(), success->count};
 }
 
 }  // namespace
@@ -118,7 +135,7 @@ void StudyCovers::next() {
             contents.cover.wanted = settings->evolution.generations;
             contents.track = settings->track;
             if (const auto track = findTrack(*file, *selections)) {
-                contents.cover.success = study::findSuccess(*selections, *validations, *track);
+                contents.cover.success = readSuccess(*file, *selections, *validations, *track);
                 contents.genes = track->record.chromosome;
             }
             return contents;
@@ -183,7 +200,9 @@ bool StudyCovers::readCache(const QString& study) {
     cover.generations = kept["generations"].toInt();
     cover.wanted = kept["wanted"].toInt();
     if (kept.contains("trials"))
-        cover.success = stats::Count{kept["successes"].toInt(), kept["trials"].toInt()};
+        cover.success = {kept["rate"].toDouble(),
+                         {kept["low"].toDouble(), kept["high"].toDouble()},
+                         {kept["successes"].toInt(), kept["trials"].toInt()}};
     cover.picture.load(cacheName(study) + ".png");
     cover.picture.setDevicePixelRatio(pixelRatio_);
     covers_[study] = cover;
@@ -199,8 +218,11 @@ void StudyCovers::writeCache(const QString& study, const QString& state) const {
                      {"generations", cover.generations},
                      {"wanted", cover.wanted}};
     if (cover.success) {
-        kept["successes"] = cover.success->successes;
-        kept["trials"] = cover.success->trials;
+        kept["rate"] = cover.success->rate;
+        kept["low"] = cover.success->interval.low;
+        kept["high"] = cover.success->interval.high;
+        kept["successes"] = cover.success->count.successes;
+        kept["trials"] = cover.success->count.trials;
     }
     // A cache that cannot be written costs time and nothing else.
     if (!QDir().mkpath(cacheFolder())) return;

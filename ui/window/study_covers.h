@@ -26,8 +26,13 @@ struct StudyCover {
     QString part;
     int generations = 0;  // learned
     int wanted = 0;
-    std::optional<stats::Count> success;
-    QImage picture;  // of its best track, or of the empty layout; null: could not be drawn
+    struct Success {
+        double rate = 0.0;
+        stats::Interval interval;
+        stats::Count count;
+    };
+    std::optional<Success> success;  // as study::findSuccess() knows it
+    QImage picture;                  // of its best track, or of the empty layout; null: could not be drawn
 };
 
 /// Covers of studies, read from their files and drawn in the background, one after the other, and kept in the

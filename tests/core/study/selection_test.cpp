@@ -2,6 +2,8 @@
 
 #include <QTest>
 
+#include "core/study/validation.h"
+
 using namespace trapwright;
 using study::findSuccess;
 
@@ -11,10 +13,11 @@ class SelectionTest : public QObject {
  private slots:
     void successIsThatOfTheNewestWord() {
         study::Winner winner{4, 2, {}};
-        QVERIFY(!findSuccess({}, {}, winner));
+        QVERIFY(!findSuccess({}, {}, winner, {}));
         winner.record.trials = 100;
         winner.record.oriented = 70;
-        QCOMPARE(findSuccess({}, {}, winner)->successes, 70);
+        QCOMPARE(findSuccess({}, {}, winner, {})->count.successes, 70);
+        QCOMPARE(findSuccess({}, {}, winner, {})->rate, 0.7);
 
         study::SelectionEntry entry;
         entry.generation = 4;
@@ -22,19 +25,34 @@ class SelectionTest : public QObject {
         entry.trials = 1000;
         entry.oriented = 991;
         const std::vector<study::SelectionRecord> selections = {{"simbody", {entry}}, {"simbody", {}}};
-        QCOMPARE(findSuccess(selections, {}, winner)->successes, 991);
+        QCOMPARE(findSuccess(selections, {}, winner, {})->count.successes, 991);
 
         // Validated twice: 10 of 30 failed, then 3 of 20.
         study::ValidationRecord first{4, 2, "native", {}, 0.0, {{0, 10, 4}, {1, 20, 6}}};
         study::ValidationRecord second{4, 2, "native", {}, 0.0, {{0, 20, 3}}};
         study::ValidationRecord other{4, 3, "native", {}, 0.0, {{0, 20, 20}}};
         const std::vector<study::ValidationRecord> validations = {first, second, other};
-        QCOMPARE(findSuccess({}, {&first, 1}, winner)->successes, 20);
-        QCOMPARE(findSuccess({}, validations, winner)->successes, 17);
-        QCOMPARE(findSuccess({}, validations, winner)->trials, 20);
-        QCOMPARE(findSuccess(selections, validations, winner)->successes, 17);
+        QCOMPARE(findSuccess({}, {&first, 1}, winner, {})->count.successes, 20);
+        QCOMPARE(findSuccess({}, validations, winner, {})->count.successes, 17);
+        QCOMPARE(findSuccess({}, validations, winner, {})->count.trials, 20);
+        QCOMPARE(findSuccess(selections, validations, winner, {})->count.successes, 17);
         winner.individual = 3;
-        QCOMPARE(findSuccess(selections, validations, winner)->successes, 0);
+        QCOMPARE(findSuccess(selections, validations, winner, {})->count.successes, 0);
+    }
+
+    // 6 of 10 in a pose in which 90 % land, 20 of 20 in the other: 0.9 0.6 + 0.1 = 0.64, not 26 of 30.
+    void aValidationCountsAsPartsLand() {
+        const study::Winner winner{4, 2, {}};
+        const study::ValidationRecord record{4, 2, "native", {}, 0.0, {{0, 10, 4}, {1, 20, 0}}};
+        const std::vector<part::PoseGroup> groups = {{{0}, 0.9}, {{1}, 0.1}};
+        const auto success = findSuccess({}, {&record, 1}, winner, groups);
+        QCOMPARE(success->rate, 0.64);
+        QCOMPARE(success->count.successes, 26);
+        QCOMPARE(success->source, study::TrackSuccess::Source::validation);
+        const auto table = study::tabulate(record, groups);
+        QCOMPARE(success->rate, *table.weighted.rate);
+        QCOMPARE(success->calcInterval().low, table.weighted.interval.low);
+        QCOMPARE(success->calcInterval().high, table.weighted.interval.high);
     }
 };
 

@@ -59,7 +59,7 @@ class PhysicalModelTest : public QObject {
         const QString csv = models::toCsv(model);
         QVERIFY(csv.contains("98.5"));
         QVERIFY2(csv.startsWith("Pose,Sim. T,F,P [%],\"Simulated success, 95 % Clopper-Pearson low [%]\","
-                                "\"Simulated success, 95 % Clopper-Pearson high [%]\",Real T,"),
+                                "\"Simulated success, 95 % Clopper-Pearson high [%]\",Feeder T,"),
                  qPrintable(csv));
         QVERIFY2(csv.contains(",96.76387055") && csv.contains(",99.447589"), qPrintable(csv));
     }

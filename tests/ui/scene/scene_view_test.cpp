@@ -4,10 +4,13 @@
 #include <QApplication>
 #include <QSignalSpy>
 #include <QTest>
+#include <algorithm>
 
 #include "tests/ui/scene/scene_samples.h"
 #include "ui/scene/height_colours.h"
 #include "ui/scene/orbit_cube.h"
+#include "ui/scene/overlay.h"
+#include "ui/scene/subject.h"
 #include "ui/scene/surface_places.h"
 
 using namespace trapwright;
@@ -153,6 +156,35 @@ class SceneViewTest : public QObject {
         const double before = samples::shareOfHue(grab(), highest);
         view_->setHeightShading(true);
         QVERIFY(samples::shareOfHue(grab(), highest) > before + 0.003);
+        // The solid to be printed as well.
+        view_->showSolid(std::make_shared<const geometry::TriangleMesh>(cuboidTrack_->solid));
+        const double shaded = samples::shareOfHue(grab(), highest);
+        view_->setHeightShading(false);
+        QVERIFY(shaded > samples::shareOfHue(grab(), highest) + 0.003);
+        // Where nothing has heights the switch cannot be used.
+        const auto actions = view_->viewActions();
+        const auto found = std::find_if(actions.begin(), actions.end(), [](const QAction* one) {
+            return one->shortcut() == QKeySequence(Qt::Key_H);
+        });
+        QVERIFY(found != actions.end());
+        const QAction* action = *found;
+        QVERIFY(action->isEnabled());
+        view_->showStablePoses(cuboid_);
+        QVERIFY(!action->isEnabled());
+    }
+
+    void theHeightLegendCoversNoMark() {
+        scene::SceneContents contents;
+        contents.track = cuboidTrack_;
+        contents.marks = {false, true, false, false};
+        contents.heightShading = true;
+        for (const double width : {260.0, 360.0, 480.0, 640.0, 900.0}) {
+            const QSizeF screen(width, 420.0);
+            const auto fitted = scene::fitted(scene::homeCamera(contents), scene::boxOf(contents), screen);
+            const auto items = scene::overlayOf(contents, fitted, screen, std::nullopt);
+            QCOMPARE(items.size(), 4U);  // legend, finish, scale bar, orbit cube
+            QVERIFY(!items[0].area.intersects(items[1].area));
+        }
     }
 
     void edgesAreDrawn() {

@@ -6,7 +6,9 @@
 
 #include "app/trapwright/engines.h"
 #include "core/study/presets.h"
+#include "core/study/selection.h"
 #include "tests/ui/window/user.h"
+#include "ui/models/numbers.h"
 #include "ui/session/part_import.h"
 #include "ui/session/recovery_note.h"
 
@@ -51,6 +53,10 @@ class RunningTest : public QObject {
         action(window, "run.stopAfterGeneration")->trigger();
         QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
         QVERIFY(window.findChild<QLabel*>("status.generation")->text().endsWith("of 100000 generations"));
+        const study::Winner* best = study::findBestWinner(session->winners());
+        auto* success = window.findChild<QLabel*>("status.success");
+        QVERIFY(success->isVisible());
+        QCOMPARE(success->text(), "success " + models::successWord(best->record.success()));
         // The settings belong to the scores from now on.
         window.showPage("track");
         QVERIFY(window.findChild<QWidget*>("track.locked")->isVisible());
