@@ -212,6 +212,23 @@ std::string describe(const PhysicalTable& table) {
         probabilityText(*total.p), where);
 }
 
+std::string summarize(const PhysicalTable& table) {
+    const PhysicalRow& total = table.total;
+    if (total.physical.trials == 0) return "No part has been placed on the feeder yet.";
+    const bool trained = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
+    const bool weighted = table.rows.size() > 1 && table.weighted.physical.rate;
+    const PhysicalRow& shown = weighted ? table.weighted : total;
+    std::string text =
+        fmt::format("{}{} on the {} ({:.1f} to {:.1f} %)", trained ? "For training: " : "",
+                    shareText(shown.physical), trained ? "virtual feeder" : "feeder",
+                    kPercent * shown.physical.bounds.low, kPercent * shown.physical.bounds.high);
+    if (!total.p) return text + ". Not validated in simulation.";
+    text += fmt::format(", {} in simulation{}. ", shareText(shown.simulated), weighted ? ", weighted" : "");
+    const std::string p = *total.p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", *total.p);
+    if (*total.p >= kLevel) return text + fmt::format("No difference shown ({}).", p);
+    return text + fmt::format("The feeder does {} ({}).", calcDirection(table) > 0.0 ? "better" : "worse", p);
+}
+
 /// "99.0 %    98.2 ...  99.5 %"
 std::string rateText(const SuccessCount& count) {
     if (count.trials == 0) return fmt::format("{:>8}   {:>20}", "-", "-");
@@ -277,6 +294,7 @@ PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalV
     table.feeders = countFeeders(physical);
     table.notice = feederNotice(physical);
     table.verdict = describe(table);
+    table.summary = summarize(table);
     return table;
 }
 

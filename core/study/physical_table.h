@@ -45,7 +45,8 @@ struct PhysicalTable {
     PhysicalRow weighted;           // the same trials, rates weighted by how often parts land so
     FeederCount feeders;            // that made the physical trials
     std::string notice;             // feederNotice: to be said before any number
-    std::string verdict;            // whether the two differ, in a sentence or two
+    std::string verdict;            // whether the two differ, in a few sentences
+    std::string summary;            // the same in a line, rates weighted where they are known to be
 };
 
 /// Without `simulated` that side has no trials. `groups` are the part's (weighPoseGroups); a pose that none

@@ -1,7 +1,6 @@
 #include "core/study/selection.h"
 
 #include <algorithm>
-#include <ranges>
 #include <tuple>
 
 #include "core/study/final_orientation.h"
@@ -111,12 +110,12 @@ std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selecti
             return TrackSuccess{Source::validation, *rate, count, std::move(strata)};
         if (count.trials > 0) return allAlike(Source::validation, count);
     }
-    // The newest that has simulated it.
-    for (const SelectionRecord& selection : std::views::reverse(selections)) {
+    const SelectionEntry* newest = nullptr;
+    for (const SelectionRecord& selection : selections) {
         const auto entry = std::find_if(selection.entries.begin(), selection.entries.end(), isMeant);
-        if (entry != selection.entries.end() && entry->trials > 0)
-            return allAlike(Source::selection, {entry->oriented, entry->trials});
+        if (entry != selection.entries.end() && entry->trials > 0) newest = &*entry;
     }
+    if (newest != nullptr) return allAlike(Source::selection, {newest->oriented, newest->trials});
     if (const auto learned = individual.record.success()) return allAlike(Source::learning, *learned);
     return std::nullopt;
 }

@@ -181,10 +181,12 @@ void ValidatePage::showTable() {
     const study::PhysicalTable table =
         study::comparePhysical(study::findSimulated(session_->validations(), *physical), *physical,
                                study::weighPoseGroups(*session_->part(), session_->settings()));
-    // The verdict names the virtual feeder already; there is little room for more.
-    const bool training = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
-    const QString notice = training ? tr("For training.") : QString::fromStdString(table.notice);
-    table_->setHead(QString("%1 %2").arg(notice, QString::fromStdString(table.verdict)).trimmed());
+    // Above the table there is room for a line or two; the whole of it is in the report.
+    const QString notice = QString::fromStdString(table.feeders.mixed() ? table.notice : std::string());
+    table_->setHead(QString("%1 %2").arg(notice, QString::fromStdString(table.summary)).trimmed(),
+                    QString("%1 %2")
+                        .arg(QString::fromStdString(table.notice), QString::fromStdString(table.verdict))
+                        .trimmed());
     model_.setTable(table);
     table_->setPinned(PhysicalModel::kTotals);
 }

@@ -46,7 +46,7 @@ std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
          tr("Parts of the winner that finished in the expected orientation, of all its trials."),
          [](const Row& r) { return percentValue(r.summary.statistics.success); },
          [](const Row& r) { return percent(r.summary.statistics.success); }},
-        {tr("95 % bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
+        {tr("Bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
          [](const Row& r) { return boundsValues(r.summary.statistics.success).front(); },
          [](const Row& r) { return boundsText(r.summary.statistics.success); },
          [] { return boundsTitles(tr("Success")); },

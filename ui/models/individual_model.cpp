@@ -22,7 +22,7 @@ std::vector<Column<IndividualRow>> IndividualModel::makeColumns() {
         {tr("Success [%]"), tr("Parts that finished in the expected orientation, of all trials."),
          [](const Row& r) { return percentValue(r.record.success()); },
          [](const Row& r) { return percent(r.record.success()); }},
-        {tr("95 % bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
+        {tr("Bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
          [](const Row& r) { return boundsValues(r.record.success()).front(); },
          [](const Row& r) { return boundsText(r.record.success()); },
          [] { return boundsTitles(tr("Success")); },

@@ -26,7 +26,7 @@ std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
          tr("Parts that finished in the expected orientation: this track's most frequent one."),
          [](const Row& r) { return percentValue(r.entry.oriented, r.entry.trials); },
          [](const Row& r) { return percent(r.entry.oriented, r.entry.trials); }},
-        {tr("95 % bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
+        {tr("Bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
          [](const Row& r) { return QVariant(100.0 * r.bounds.low); },
          [](const Row& r) { return boundsText(r.bounds, r.entry.trials); },
          [] { return boundsTitles(tr("Success")); },

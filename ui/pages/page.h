@@ -69,6 +69,8 @@ class Page : public QWidget {
     void failed(const QString& what, const QString& message);
     /// A page shall be shown; its name. Empty, while no study is open: none needs to be.
     void pageWanted(const QString& name);
+    /// One of the page's own panels has what the user waited for; its name. Comes to the front if it is open.
+    void panelWanted(const QString& name);
     /// A new study of this part shall be opened in place of the one that is open, if any.
     void studyWanted(const trapwright::work::LoadedPart& part);
     /// A new study with the settings and the part of the open one, and no generations, shall be opened in its

@@ -75,8 +75,10 @@ std::shared_ptr<const geometry::TriangleMesh> takeOut(const geometry::TriangleMe
 }  // namespace
 
 QString successText(const study::TrackSuccess& success) {
+    const bool weighted = success.source == study::TrackSuccess::Source::validation;
     const stats::Interval bounds = success.calcInterval();
-    return PrintFindings::tr("%1 (%2 %) of %L3 parts")
+    return (weighted ? PrintFindings::tr("%1 (%2 %), weighted, of %L3 parts")
+                     : PrintFindings::tr("%1 (%2 %) of %L3 parts"))
         .arg(models::successWord(std::optional(success.rate)),
              models::boundsText(bounds, success.count.trials))
         .arg(success.count.trials);

@@ -161,8 +161,10 @@ void ResultTable::arrange() {
     }
 }
 
-void ResultTable::setHead(const QString& text) {
+void ResultTable::setHead(const QString& text, const QString& details) {
     text_->setText(text);
+    text_->setToolTip(details);
+    text_->setAccessibleDescription(details);
 }
 
 void ResultTable::setEmptyText(const QString& text) {

@@ -19,7 +19,8 @@ class ResultTable : public QWidget {
  public:
     ResultTable(const QString& name, const QString& title, QAbstractItemModel& model);
 
-    void setHead(const QString& text);
+    /// `details` come as a tip.
+    void setHead(const QString& text, const QString& details = {});
     void setEmptyText(const QString& text);
     void setLinkColumns(const QSet<int>& columns);
     /// So many of the last rows stay in sight below the others: totals.

@@ -123,6 +123,7 @@ void ReviewPage::setSession(StudySession* session) {
         const study::SelectionRecord& last = session_->selections().back();
         if (!last.entries.empty())
             choice_->setWinner(last.entries.front().generation, last.entries.front().individual);
+        emit panelWanted("comparison");
     });
     // What totals are weighted by.
     connect(session_, &StudySession::settingsChanged, this, &ReviewPage::showValidation);
@@ -130,6 +131,7 @@ void ReviewPage::setSession(StudySession* session) {
         choice_->refresh();
         showValidation();
         review_.refreshSources();
+        emit panelWanted("validation");
     });
 }
 

@@ -159,6 +159,8 @@ void MainWindow::connectPage(pages::Page& page) {
         messageOf_ = &page;
     });
     connect(&page, &pages::Page::pageWanted, this, &MainWindow::showPage);
+    connect(&page, &pages::Page::panelWanted, this,
+            [this, &page](const QString& panel) { docks_->bringToFront(page, panel); });
     connect(&page, &pages::Page::studyWanted, this, [this](const work::LoadedPart& part) {
         whenClosable([this, part] {
             report(tr("No study can be made"), desk_.createDraft(part));

@@ -81,6 +81,13 @@ void PageDocks::show(std::size_t page) {
     if (!window_.restoreState(QSettings().value(setting()).toByteArray(), kLayoutVersion)) arrange();
 }
 
+void PageDocks::bringToFront(const pages::Page& page, const QString& panel) {
+    if (shown_ == kNoPage || pages_[static_cast<std::size_t>(shown_)] != &page) return;
+    auto* dock = window_.findChild<QDockWidget*>("dock." + page.face().name + "." + panel);
+    // One that was closed stays so.
+    if (dock != nullptr && !dock->isHidden()) dock->raise();
+}
+
 void PageDocks::hideAll() {
     remember();
     shown_ = kNoPage;

@@ -27,6 +27,8 @@ class PageDocks : public QObject {
 
     /// Puts the page into the inspector and its panels where they were when it was shown last.
     void show(std::size_t page);
+    /// Brings a panel of the page before the others of its area, if that page is shown and the panel is open.
+    void bringToFront(const pages::Page& page, const QString& panel);
     /// No docks at all, as long as no study is open.
     void hideAll();
     /// Writes the arrangement that is seen.

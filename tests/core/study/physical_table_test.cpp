@@ -105,6 +105,7 @@ class PhysicalTableTest : public QObject {
         // little.
         QVERIFY2(std::abs(table.total.p.value() - 0.0452) < 0.004,
                  qPrintable(QString::number(*table.total.p)));
+        QVERIFY2(contains(table.summary, "The feeder does better (p = 0.0"), table.summary.c_str());
         QVERIFY2(contains(table.verdict, "600 of 600") && contains(table.verdict, "better"),
                  table.verdict.c_str());
         const std::string text = study::formatPhysical(table);
@@ -276,6 +277,7 @@ class PhysicalTableTest : public QObject {
         QVERIFY2(contains(text, "\n1-6 ") && contains(text, "90.6 %") && contains(text, "Total, weighted") &&
                      contains(text, "98.9 %") && contains(text, "Total, alike"),
                  text.c_str());
+        QVERIFY2(contains(table.summary, ", weighted"), table.summary.c_str());
         QVERIFY2(contains(table.verdict, "200 of 300") && contains(table.verdict, "Weighted"),
                  table.verdict.c_str());
         const std::string csv = study::physicalTableCsv(table);

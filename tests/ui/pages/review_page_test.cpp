@@ -166,7 +166,8 @@ class ReviewPageTest : public QObject {
         const auto best = user.session()->selections().back().entries.front();
         QCOMPARE(user.session()->chosen()->generation, best.generation);
         QTRY_VERIFY(user.session()->state() == session::RunState::idle || user.waitForReplay());
-        user.find<QDockWidget>("dock.review.comparison")->raise();
+        // What was waited for is in front.
+        QTRY_VERIFY(user.comparison().isVisible());
         user.click(user.comparison(), 1, models::SelectionModel::Generation);
         const auto second = user.session()->selections().back().entries.back();
         QTRY_VERIFY(
