@@ -260,7 +260,7 @@ QString cells(const study::SuccessCount& count, bool weighted) {
     return QString("<td>%1</td><td>%2</td><td><b>%3</b></td><td>%4</td>")
         .arg(weighted ? QString() : QString::number(count.trials),
              weighted ? QString() : QString::number(count.failures), models::percent(count.rate),
-             models::boundsText(count.bounds, count.trials));
+             models::boundsText(count.bounds, count.trials).replace(u' ', QChar::Nbsp));
 }
 
 QString resultRow(const study::PhysicalRow& row) {

@@ -108,7 +108,7 @@ std::vector<Column<ValidationTableRow>> ValidationModel::makeColumns() {
          [](const Row& r) { return r.weight ? fixed(kPercent * *r.weight, 1) : QString(); }},
         {tr("Trials"), tr("Simulated trials (T)."), &countOf<&ValidationRow::trials>,
          &countText<&ValidationRow::trials>},
-        {tr("Failures"), tr("Parts that did not finish in the expected orientation (F)."),
+        {tr("Failed"), tr("Parts that did not finish in the expected orientation (F)."),
          &countOf<&ValidationRow::failures>, &countText<&ValidationRow::failures>},
         {tr("Success [%]"), tr("Parts that finished in the expected orientation (P)."),
          [](const Row& r) { return percentValue(r.rate); }, [](const Row& r) { return percent(r.rate); }},

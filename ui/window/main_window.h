@@ -73,6 +73,7 @@ class MainWindow : public QMainWindow {
     void askForPart();
     void askForDraft();
     void askForStudy();
+    void save();
     void askForSaveAs(const std::function<void()>& afterwards);
     void importPart(const std::filesystem::path& file, bool asNewStudy);
     void openStudy(const std::filesystem::path& file, bool learn = false);

@@ -67,6 +67,8 @@ void MainWindow::addFileMenu() {
         addItem(examples, "example." + name, {}, text, {}, this, [this, name] { openExample(name, false); });
     }
     menu.addSeparator();
+    studyActions_ << addItem(menu, "file.save", {}, tr("&Save"), QKeySequence(Qt::CTRL | Qt::Key_S), this,
+                             &MainWindow::save);
     studyActions_ << addItem(menu, "file.saveAs", "save-as", tr("Save &as..."),
                              QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S), this,
                              [this] { askForSaveAs([] {}); });

@@ -73,6 +73,14 @@ void MainWindow::askForSaveAs(const std::function<void()>& afterwards) {
                         });
 }
 
+/// A study with a name is saved already: whoever presses Ctrl+S out of habit is told so.
+void MainWindow::save() {
+    if (desk_.isDraft()) return askForSaveAs([] {});
+    frame_->messages().show(look::MessageKind::info, tr("Everything is saved"),
+                            tr("A study keeps each change and each generation as it happens. \"Save as\" "
+                               "copies it under another name."));
+}
+
 void MainWindow::importPart(const std::filesystem::path& file, bool asNewStudy) {
     pageAfterImport_ = "part";
     const auto import = [this, file] {

@@ -286,7 +286,7 @@ class RecordModelsTest : public QObject {
         model.setValidation(paperTable());
         const QStringList lines = models::toCsv(model).split('\n');
         QCOMPARE(lines.size(), 9);
-        QVERIFY(lines[0].startsWith("Pose,Share [%],Trials,Failures,Success [%]"));
+        QVERIFY(lines[0].startsWith("Pose,Share [%],Trials,Failed,Success [%]"));
         QVERIFY(lines[2].startsWith("2,0,1000,10,99,"));
         QVERIFY(lines[7].startsWith("All alike,,6000,38,"));
     }

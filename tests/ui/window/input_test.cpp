@@ -187,12 +187,12 @@ class InputTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(widget->isVisible() && widget->isEnabled(), kPatience);
         widget->setFocus();
         QTRY_VERIFY(widget->hasFocus());
-        const auto shading = [&] { return user.scene().heightShading; };
-        const bool before = shading();
-        QTest::keyClick(widget, Qt::Key_H);
-        QCOMPARE(shading(), works ? !before : before);
-        QTest::keyClick(widget, Qt::Key_H);
-        QCOMPARE(shading(), before);
+        const auto edges = [&] { return user.scene().edges; };
+        const bool before = edges();
+        QTest::keyClick(widget, Qt::Key_E);
+        QCOMPARE(edges(), works ? !before : before);
+        QTest::keyClick(widget, Qt::Key_E);
+        QCOMPARE(edges(), before);
     }
 
     void importHasItsKeyOnEveryPage_data() {
@@ -332,10 +332,17 @@ class InputTest : public QObject {
         User user;
         user.action("example.cuboid")->trigger();
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
-        user.action("file.saveAs")->trigger();
+        QTest::keyClick(&user.window, Qt::Key_S, Qt::ControlModifier);
         QVERIFY(user.dialog() != nullptr);
         QCOMPARE(QFileInfo(user.dialog()->selectedFiles().value(0)).fileName(), QString("cuboid.trap"));
         QVERIFY(user.dialog()->directory().exists());
+    }
+
+    void aStudyWithANameIsSavedAlready() {
+        User user(study_);
+        QTest::keyClick(&user.window, Qt::Key_S, Qt::ControlModifier);
+        QVERIFY(user.dialog() == nullptr);
+        QVERIFY(user.message().contains("as it happens"));
     }
 
     void noTitleOfAColumnIsCut_data() { addPages(); }
