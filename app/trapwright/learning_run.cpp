@@ -135,7 +135,7 @@ Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inp
         [&](const study::CheckRecord& record) { display.print(describeCheck(record)); }, control);
     if (checked) return true;
     if (checked.error().kind == work::FailureKind::cancelled) return false;
-    return toFailure(checked.error());
+    return toFailure(checked.error(), file);
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyIn
         events.checked = [&](const study::CheckRecord& record) { display.print(describeCheck(record)); };
         return work::learn(file, inputs, makeWorkEngine, events, control);
     }();
-    if (!learned) return toFailure(learned.error());
+    if (!learned) return toFailure(learned.error(), file);
     LearningReport report;
     report.end = learned->end;
     report.interrupted = learned->end == study::LearningEnd::cancelled ||
@@ -180,6 +180,8 @@ Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyIn
         if (!finished) return finished.failure();
         report.interrupted = !*finished;
     }
+    if (const auto there = file.checkInPlace(); !there)
+        return toFailure({work::FailureKind::saving, there.error().message}, file);
     return report;
 }
 

@@ -22,7 +22,7 @@ Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const stud
         const WorkDisplay display(console, watchTrials("Selection", trials, control));
         return work::selectAndSave(file, inputs, std::move(*candidates), control);
     }();
-    if (!record) return toFailure(record.error());
+    if (!record) return toFailure(record.error(), file);
     return std::move(*record);
 }
 
@@ -36,7 +36,7 @@ Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const s
                                   watchTrials("Validation", work::countValidationTrials(inputs), control));
         return work::validateAndSave(file, inputs, individual, expected, control);
     }();
-    if (!record) return toFailure(record.error());
+    if (!record) return toFailure(record.error(), file);
     return std::move(*record);
 }
 

@@ -20,4 +20,13 @@ Failure toFailure(const work::Failure& failure) {
     return {ExitCode::fault, failure.message};
 }
 
+Failure toFailure(const work::Failure& failure, const store::StudyFile& file) {
+    Failure told = toFailure(failure);
+    if (failure.kind != work::FailureKind::saving || file.checkInPlace()) return told;
+    const auto rescued = file.rescue();
+    told.message += rescued ? " The copy is " + rescued->string() + "."
+                            : " It could not be copied: " + rescued.error().message;
+    return told;
+}
+
 }  // namespace trapwright::app

@@ -1,6 +1,7 @@
 #include "core/base/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -49,9 +50,14 @@ bool writeAll(int descriptor, std::string_view content) {
 
 }  // namespace
 
-Result<std::string> readFile(const std::filesystem::path& path) {
+Result<std::string> readFile(const std::filesystem::path& path, std::size_t mostBytes) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.get() < 0) return makeError("open", path, errno);
+    struct stat status {};
+    if (::fstat(file.get(), &status) != 0) return makeError("open", path, errno);
+    // Some devices never end. A pipe does: `--settings <(...)`.
+    if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode))
+        return Error{"Cannot read " + path.string() + ": it is a device. Choose a file."};
     std::string content;
     std::array<char, 65536> buffer{};
     for (;;) {
@@ -60,6 +66,10 @@ Result<std::string> readFile(const std::filesystem::path& path) {
         if (count < 0) return makeError("read", path, errno);
         if (count == 0) return content;
         content.append(buffer.data(), static_cast<std::size_t>(count));
+        if (content.size() > mostBytes) {
+            return Error{"Cannot read " + path.string() + ": it is longer than " +
+                         std::to_string(mostBytes >> 20U) + " MiB. Choose another file."};
+        }
     }
 }
 

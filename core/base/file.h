@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,8 +9,9 @@
 
 namespace trapwright::base {
 
-/// The whole content of a file. An error that names the file and the system's reason.
-Result<std::string> readFile(const std::filesystem::path& path);
+/// The whole content of a file. An error that names the file and the system's reason; a device, a folder, or
+/// more than `mostBytes`, is one, too.
+Result<std::string> readFile(const std::filesystem::path& path, std::size_t mostBytes = 1ULL << 30U);
 
 /// Puts `content` where `path` is, or leaves there what was: the content is written to a new file beside it,
 /// synced and renamed. An error (full disk, read-only folder) names the file and the system's reason.

@@ -101,14 +101,29 @@ void JsonObject::close() {
 }
 
 Result<Json> parseJson(std::string_view text) {
+    constexpr std::size_t kMostBytes = 64ULL << 20U;
+    constexpr int kDeepest = 32;
+    if (text.size() > kMostBytes) return Error{"the text is longer than 64 MiB, which no such file is"};
+    // What is nested too deeply is dropped as it is read, and so is never a tree that something would walk.
+    bool tooDeep = false;
+    const Json::parser_callback_t keep = [&](int depth, Json::parse_event_t, Json&) {
+        tooDeep = tooDeep || depth > kDeepest;
+        return !tooDeep;
+    };
     try {
-        return Json::parse(text, nullptr, true, true);
+        Json json = Json::parse(text, keep, true, true);
+        if (tooDeep) return Error{fmt::format("something is nested more than {} levels deep", kDeepest)};
+        return json;
     } catch (const Json::parse_error& error) {
         const std::string_view before = text.substr(0, error.byte);
         return Error{fmt::format(
             "the text is not JSON: line {} is not what must stand there. Look for a comma, a quote or a "
             "bracket in it or before it",
             1 + std::count(before.begin(), before.end(), '\n'))};
+    } catch (const Json::exception& error) {
+        // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+        const std::string_view reason = error.what();
+        return Error{fmt::format("the text cannot be used: {}", reason.substr(reason.find("] ") + 2))};
     }
 }
 

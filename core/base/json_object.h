@@ -66,7 +66,8 @@ class JsonObject {
     std::set<std::string> known_;
 };
 
-/// Reads a whole text. Error: which line is not JSON. Comments are allowed.
+/// Reads a whole text. Comments are allowed. Error: which line is not JSON; a number that no double holds, as
+/// 1e999; what is nested deeper than any file of ours; a text of more than 64 MiB.
 Result<Json> parseJson(std::string_view text);
 
 /// A whole number, or a text such as "0x1000".

@@ -21,6 +21,13 @@ constexpr std::array<std::pair<State, std::string_view>, 6> kStates = {{
 
 constexpr double kCoastTime = 1.5;  // [s] that a feeder may take from the end of its drive to rest
 
+/// Limits that are no numbers would limit nothing: with these nothing moves.
+Limits keepSafe(Limits limits) {
+    limits.highest = limits.highest > 0.0 ? std::min(limits.highest, 1.0) : 0.0;
+    limits.rampPerSecond = limits.rampPerSecond > 0.0 ? limits.rampPerSecond : 0.0;
+    return limits;
+}
+
 bool isRest(const Command& command) {
     return !command.enable && command.setPoint == 0.0;
 }
@@ -35,7 +42,7 @@ std::string_view nameOf(State state) {
 }
 
 Supervisor::Supervisor(const Limits& limits, const Agreement& agreement)
-    : limits_(limits), agreement_(agreement) {}
+    : limits_(keepSafe(limits)), agreement_(agreement) {}
 
 void Supervisor::setTarget(double setPoint) {
     // Not a number is no wish: nothing is safer than zero.
@@ -48,7 +55,7 @@ void Supervisor::setFrequency(std::optional<double> frequency) {
 }
 
 void Supervisor::setLimits(const Limits& limits) {
-    limits_ = limits;
+    limits_ = keepSafe(limits);
     setTarget(target_);
 }
 

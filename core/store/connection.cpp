@@ -205,6 +205,12 @@ base::Result<DatabasePtr> openBeside(const std::filesystem::path& path) {
     });
 }
 
+bool isInPlace(SQLite::Database& database) {
+    int moved = 0;
+    const int answer = sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+    return answer != SQLITE_OK || moved == 0;
+}
+
 base::Result<DatabasePtr> openForReading(const std::filesystem::path& path) {
     if (const auto file = checkStudyFile(path); !file) return file.error();
     const std::string doing = "The study could not be opened";

@@ -30,6 +30,9 @@ base::Result<std::unique_ptr<SQLite::Database>> openForWriting(const std::filesy
 /// The same once more for a study that openForWriting has open, which needs no checks.
 base::Result<std::unique_ptr<SQLite::Database>> openBeside(const std::filesystem::path& path);
 
+/// Whether the path that was opened still leads to this file: nobody has deleted, moved or replaced it.
+bool isInPlace(SQLite::Database& database);
+
 /// Opens an existing study for reading, while it is being written, and in folders that cannot be written.
 base::Result<std::unique_ptr<SQLite::Database>> openForReading(const std::filesystem::path& path);
 

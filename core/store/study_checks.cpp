@@ -29,10 +29,9 @@ study::CheckRecord readCheck(const SQLite::Statement& query) {
 }  // namespace
 
 base::Status StudyFile::saveCheck(const study::CheckRecord& record) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
     const std::string doing =
         "The check of generation " + std::to_string(record.generation) + " could not be saved";
-    return guarded(path(), doing, [&]() -> base::Status {
+    return state_->save(doing, [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         SQLite::Statement present(database, "SELECT count(*) FROM winner_check WHERE generation = ?");

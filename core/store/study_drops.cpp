@@ -33,8 +33,7 @@ base::Result<study::DropRecord> readHead(const std::filesystem::path& path, cons
 }  // namespace
 
 base::Status StudyFile::addDropTest(const study::DropRecord& record) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The drop test could not be saved", [&]() -> base::Status {
+    return state_->save("The drop test could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("drop_test");

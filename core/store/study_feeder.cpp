@@ -76,8 +76,7 @@ base::Result<calibration::Calibration> readCalibration(const std::filesystem::pa
 }  // namespace
 
 base::Status StudyFile::appendDriveLog(std::span<const drive::LogEntry> entries) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The drive's log could not be saved", [&]() -> base::Status {
+    return state_->save("The drive's log could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         SQLite::Statement row(database,
@@ -114,8 +113,7 @@ base::Result<std::vector<drive::LogEntry>> StudyFile::loadDriveLog(double from, 
 }
 
 base::Status StudyFile::addCalibration(const calibration::Calibration& calibration) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The measurement could not be saved", [&]() -> base::Status {
+    return state_->save("The measurement could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("calibration");

@@ -152,9 +152,22 @@ StudyFile::State::~State() {
 }
 
 base::Status StudyFile::State::checkWritable() const {
-    if (lock) return base::success();
-    return base::Error{"The study " + path.string() +
-                       " is open for reading only, so nothing can be saved in it."};
+    if (!lock) {
+        return base::Error{"The study " + path.string() +
+                           " is open for reading only, so nothing can be saved in it."};
+    }
+    return checkInPlace();
+}
+
+base::Status StudyFile::State::checkInPlace() const {
+    if (isInPlace(*database)) return base::success();
+    std::error_code missing;
+    const bool replaced = std::filesystem::exists(path, missing);
+    return base::Error{
+        "The study " + path.string() + " was " +
+        (replaced ? "replaced by another file" : "deleted or moved") +
+        " while it was open, so that nothing more can be saved in it. What was saved until then "
+        "can still be copied."};
 }
 
 int StudyFile::State::countRows(const std::string& table) const {
@@ -266,10 +279,9 @@ base::Result<StoredPart> StudyFile::loadPart() const {
 }
 
 base::Status StudyFile::changeSettings(const study::Settings& settings) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
     const auto present = loadSettings();
     if (!present) return present.error();
-    return guarded(path(), "The settings could not be saved", [&]() -> base::Status {
+    return state_->save("The settings could not be saved", [&]() -> base::Status {
         if (!study::keepsScores(*present, settings) && state_->countRows("generation") > 0) {
             return base::Error{
                 "The study " + path().string() +
@@ -284,8 +296,7 @@ base::Status StudyFile::changeSettings(const study::Settings& settings) {
 }
 
 base::Status StudyFile::changePart(const StoredPart& part, const study::Settings& settings) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The part could not be saved", [&]() -> base::Status {
+    return state_->save("The part could not be saved", [&]() -> base::Status {
         if (state_->countRows("generation") > 0) {
             return base::Error{"The study " + path().string() +
                                " has generations that were made with its part. Make a new study for another "
@@ -297,6 +308,24 @@ base::Status StudyFile::changePart(const StoredPart& part, const study::Settings
         transaction.commit();
         return base::success();
     });
+}
+
+base::Status StudyFile::checkInPlace() const {
+    return state_->checkInPlace();
+}
+
+base::Result<std::filesystem::path> StudyFile::rescue() const {
+    constexpr int kMostTries = 1000;
+    std::error_code missing;
+    for (int number = 1; number <= kMostTries; ++number) {
+        std::filesystem::path copy = path().parent_path() / path().stem();
+        copy += number == 1 ? std::string("-rescued") : "-rescued-" + std::to_string(number);
+        copy += path().extension();
+        if (std::filesystem::exists(std::filesystem::symlink_status(copy, missing))) continue;
+        if (const auto copied = copyTo(copy); !copied) return copied.error();
+        return copy;
+    }
+    return base::Error{"There are too many rescued copies beside " + path().string() + ". Move them away."};
 }
 
 base::Status StudyFile::copyTo(const std::filesystem::path& path) const {

@@ -83,6 +83,12 @@ class StudyFile {
     /// exists.
     base::Status copyTo(const std::filesystem::path& path) const;
 
+    /// An error if the path does not lead to the open file any more, because that was deleted or replaced
+    /// meanwhile. All that saves is an error then, and rescue() keeps what there is.
+    [[nodiscard]] base::Status checkInPlace() const;
+    /// Copies all that is saved to a new study beside the path, "cuboid-rescued.trap". Its path.
+    [[nodiscard]] base::Result<std::filesystem::path> rescue() const;
+
     /// Adds the next generation (index = generationCount) in one transaction.
     base::Status saveGeneration(const study::GenerationRecord& record);
     [[nodiscard]] base::Result<int> generationCount() const;

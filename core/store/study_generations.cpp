@@ -120,9 +120,8 @@ base::Result<std::vector<study::Winner>> readWinners(SQLite::Database& database,
 }  // namespace
 
 base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
     const std::string doing = "Generation " + std::to_string(record.index) + " could not be saved";
-    return guarded(path(), doing, [&]() -> base::Status {
+    return state_->save(doing, [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int count = state_->countRows("generation");

@@ -79,8 +79,7 @@ base::Result<study::PhysicalTrial> readTrial(const std::filesystem::path& path,
 }  // namespace
 
 base::Status StudyFile::chooseWinner(const std::optional<IndividualPlace>& winner) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The choice of the final track could not be saved", [&]() -> base::Status {
+    return state_->save("The choice of the final track could not be saved", [&]() -> base::Status {
         if (!winner) {
             state_->database->exec("DELETE FROM chosen_winner");
             return base::success();
@@ -103,8 +102,7 @@ base::Result<std::optional<IndividualPlace>> StudyFile::loadChosenWinner() const
 }
 
 base::Status StudyFile::addPhysicalValidation(const study::PhysicalValidation& validation) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The physical validation could not be saved", [&]() -> base::Status {
+    return state_->save("The physical validation could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("physical_validation");
@@ -130,8 +128,7 @@ base::Status StudyFile::addPhysicalValidation(const study::PhysicalValidation& v
 }
 
 base::Status StudyFile::addPhysicalTrial(int validation, const study::PhysicalTrial& trial) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), kNotSaved, [&]() -> base::Status {
+    return state_->save(kNotSaved, [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         if (!hasValidation(database, validation)) {
@@ -150,9 +147,8 @@ base::Status StudyFile::addPhysicalTrial(int validation, const study::PhysicalTr
 }
 
 base::Status StudyFile::removeLastPhysicalTrial(int validation) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
     const std::string doing = "The last trial on the feeder could not be taken back";
-    return guarded(path(), doing, [&]() -> base::Status {
+    return state_->save(doing, [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int trials = countTrials(database, validation);

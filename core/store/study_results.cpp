@@ -36,8 +36,7 @@ study::ValidationRow readRow(const SQLite::Statement& query) {
 }  // namespace
 
 base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The selection could not be saved", [&]() -> base::Status {
+    return state_->save("The selection could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("selection");
@@ -85,8 +84,7 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
 }
 
 base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
-    if (auto writable = state_->checkWritable(); !writable) return writable;
-    return guarded(path(), "The validation could not be saved", [&]() -> base::Status {
+    return state_->save("The validation could not be saved", [&]() -> base::Status {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("validation");

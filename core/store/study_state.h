@@ -24,8 +24,18 @@ struct StudyFile::State {
     State& operator=(const State&) = delete;
     ~State();
 
-    /// An error if the study was opened for reading only.
+    /// An error if the study was opened for reading only, or its file is not where it was.
     [[nodiscard]] base::Status checkWritable() const;
+    [[nodiscard]] base::Status checkInPlace() const;
+    /// What work() returns, or the error that its exception means. An error if the study cannot be written,
+    /// or if its file was deleted or replaced before or meanwhile: nobody would find again what was saved.
+    template <class Work>
+    [[nodiscard]] base::Status save(const std::string& doing, const Work& work) const {
+        if (auto writable = checkWritable(); !writable) return writable;
+        auto saved = guarded(path, doing, work);
+        if (auto writable = checkWritable(); !writable) return writable;
+        return saved;
+    }
     /// How many rows the table has; its rows are numbered from 0.
     [[nodiscard]] int countRows(const std::string& table) const;
 };

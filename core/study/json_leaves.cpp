@@ -96,6 +96,8 @@ class LeafCollector : public nlohmann::json_sax<nlohmann::json> {
 }  // namespace
 
 base::Result<std::map<std::string, JsonLeaf>> readJsonLeaves(const std::string& text) {
+    constexpr std::size_t kMostBytes = 1ULL << 20U;
+    if (text.size() > kMostBytes) return base::Error{"the text is longer than 1 MiB, which no settings are"};
     LeafCollector collector;
     if (!nlohmann::json::sax_parse(text, &collector)) return base::Error{collector.failure};
     return std::move(collector.leaves);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/file.h"
+#include "core/base/json_object.h"
 #include "core/track/track_builder.h"
 #include "core/track/track_solid.h"
 
@@ -229,9 +230,9 @@ std::string trackToJson(const TrackFile& file) {
 }
 
 base::Result<TrackFile> trackFromJson(const std::string& text) {
-    const Json object = Json::parse(text, nullptr, false);
-    if (object.is_discarded()) return base::Error{"The track is not valid JSON."};
-    Reader reader(object);
+    const auto object = base::parseJson(text);
+    if (!object) return base::Error{fmt::format("The track cannot be read: {}.", object.error().message)};
+    Reader reader(*object);
     TrackFile file = readValues(reader);
     if (!reader.problem().empty())
         return base::Error{fmt::format("The track cannot be read: {}.", reader.problem())};

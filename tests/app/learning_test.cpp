@@ -130,6 +130,34 @@ class LearningTest : public QObject {
         QVERIFY(!QFile::exists(folder_->filePath("slow.trap.lock")));
     }
 
+    void aStudyThatIsDeletedWhileItLearnsIsRescued_data() {
+        QTest::addColumn<bool>("replaced");
+        QTest::newRow("deleted") << false;
+        QTest::newRow("replaced") << true;
+    }
+
+    void aStudyThatIsDeletedWhileItLearnsIsRescued() {
+        QFETCH(bool, replaced);
+        if (replaced) QVERIFY(learn(quickStudy("other.trap", 1)).code == 0);
+        const QByteArray other = replaced ? dumpOf("other.trap") : QByteArray();
+        auto process = start(folder_->path(), quickStudy("gone.trap", 100000));
+        QVERIFY(waitForGenerations(*process, 2));
+        QVERIFY(QFile::remove(folder_->filePath("gone.trap")));
+        if (replaced) QVERIFY(QFile::rename(folder_->filePath("other.trap"), folder_->filePath("gone.trap")));
+        const Ran ran = finish(*process);
+        QVERIFY2(ran.code == 4, ran.all());
+        QVERIFY2(ran.errors.contains("gone-rescued.trap") && !ran.output.contains("Done"), ran.all());
+        QVERIFY2(ran.errors.contains(replaced ? "replaced by another file" : "deleted or moved"), ran.all());
+        // Whole generations, those of a run that was not disturbed.
+        const QByteArray dump = dumpOf("gone-rescued.trap");
+        const int saved = static_cast<int>(dump.count('\n')) / 8;
+        QVERIFY(saved >= 2);
+        QVERIFY(learn(quickStudy("whole.trap", saved)).code == 0);
+        QCOMPARE(dumpOf("whole.trap"), dump);
+        QCOMPARE(QFile::exists(folder_->filePath("gone.trap")), replaced);
+        if (replaced) QCOMPARE(dumpOf("gone.trap"), other);
+    }
+
     void resumedWithMoreGenerations() {
         QVERIFY(learn(quickStudy("whole.trap", 3)).code == 0);
         QVERIFY(learn(quickStudy("longer.trap", 2)).code == 0);

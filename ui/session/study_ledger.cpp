@@ -35,6 +35,17 @@ base::Status StudyLedger::finish() {
     return written.get_future().get();
 }
 
+void StudyLedger::moveTo(std::optional<store::StudyFile> file) {
+    // Here, not on the thread: whoever has moved the study knows that the old file is closed afterwards.
+    std::promise<void> moved;
+    thread_->post([&] {
+        file_ = std::move(file);
+        moved.set_value();
+        (void)write();
+    });
+    moved.get_future().get();
+}
+
 base::Status StudyLedger::write() {
     while (!left_.empty()) {
         base::Status status = file_ ? left_.front()(*file_) : cannotWrite();

@@ -30,6 +30,8 @@ class StudyLedger {
     void add(Note note);
     /// Waits until all is written; the error of the first note that cannot be.
     base::Status finish();
+    /// Writes into this file from now on, also what could not be written so far.
+    void moveTo(std::optional<store::StudyFile> file);
 
  private:
     base::Status write();

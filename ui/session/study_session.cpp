@@ -170,6 +170,10 @@ const std::vector<study::ValidationRecord>& StudySession::validations() const {
     return state_->validations;
 }
 
+bool StudySession::isInPlace() const {
+    return state_->reader && state_->reader->checkInPlace().ok();
+}
+
 std::optional<study::TrackSuccess> StudySession::findSuccess(const study::Winner& individual) const {
     std::vector<part::PoseGroup> groups;
     if (part() && !validations().empty()) groups = study::weighPoseGroups(*part(), settings());
@@ -226,14 +230,19 @@ base::Status StudySession::saveAs(const std::filesystem::path& path) {
         return base::Error{"The study " + state_->path.string() +
                            " is at work. Stop that, and save it then under another name."};
     }
-    if (auto noted = state_->ledger->finish(); !noted) return noted;
+    const bool gone = !isInPlace();
+    // What could not be noted in a file that is gone is noted in its copy.
+    if (auto noted = state_->ledger->finish(); !noted && !gone) return noted;
     // The thread that writes is idle, so this takes no longer than the copying.
-    state_->reader.reset();
+    std::optional<store::StudyFile> before;
+    before.swap(state_->reader);
+    if (!gone) before.reset();
     std::promise<base::Status> moved;
     std::optional<store::StudyFile> ledger;
     state_->work->post([&] {
-        auto status = state_->writer.savePending();
+        base::Status status = gone ? base::success() : state_->writer.savePending();
         if (status) status = state_->writer.moveTo(path, state_->environment.program);
+        if (status && gone) status = state_->writer.savePending();
         if (status) {
             auto beside = state_->writer.file().openBeside();
             if (beside) ledger.emplace(std::move(*beside));
@@ -243,8 +252,11 @@ base::Status StudySession::saveAs(const std::filesystem::path& path) {
     base::Status status = moved.get_future().get();
     if (status) {
         state_->path = path;
-        state_->ledger = std::make_unique<StudyLedger>(
-            std::move(ledger), [this](const std::string& message) { tellNotNoted(message); });
+        state_->ledger->moveTo(std::move(ledger));
+    }
+    if (!status && gone) {
+        state_->reader.swap(before);
+        return status;
     }
     auto reader = store::StudyFile::openReadOnly(state_->path);
     if (!reader) return reader.error();

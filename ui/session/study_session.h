@@ -210,6 +210,9 @@ class StudySession : public QObject {
     /// there are generations, or where nothing useful fits.
     [[nodiscard]] std::optional<LearningDraft> draft() const;
 
+    /// Whether the study's file is where it was. If it was deleted or replaced, nothing more can be saved in
+    /// it, and saveAs() keeps what there is.
+    [[nodiscard]] bool isInPlace() const;
     /// Copies the study to a new file and goes on with that one. An error if something goes on, or if the
     /// path exists.
     base::Status saveAs(const std::filesystem::path& path);

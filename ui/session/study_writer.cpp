@@ -18,7 +18,14 @@ base::Status StudyWriter::savePending() {
         part.swap(part_);
     }
     if (!settings) return base::success();
-    return part ? file_.changePart(*part, *settings) : file_.changeSettings(*settings);
+    auto saved = part ? file_.changePart(*part, *settings) : file_.changeSettings(*settings);
+    if (!saved) {
+        // Unless there are newer ones by now.
+        const std::lock_guard lock(mutex_);
+        if (!settings_) settings_ = std::move(settings);
+        if (!part_) part_ = std::move(part);
+    }
+    return saved;
 }
 
 base::Status StudyWriter::moveTo(const std::filesystem::path& path, const std::string& program) {

@@ -19,7 +19,7 @@ class StudyWriter {
 
     /// Has these settings, and the part if one is given, saved by the next savePending().
     void setPending(const study::Settings& settings, const std::shared_ptr<const store::StoredPart>& part);
-    /// Saves the newest settings that are not saved yet.
+    /// Saves the newest settings that are not saved yet. What cannot be saved stays pending.
     base::Status savePending();
     [[nodiscard]] store::StudyFile& file() { return file_; }
     /// Copies the study and goes on with the copy.

@@ -286,6 +286,12 @@ void MainWindow::fail(const QString& what, const QString& message) {
 /// one.
 void MainWindow::failSession(const QString& what, const QString& message) {
     const RunState state = desk_.session()->state();
+    if (!desk_.session()->isInPlace()) {
+        frame_->messages().show(look::MessageKind::error, what, message,
+                                {{tr("Save a copy..."), [this] { askForSaveAs([] {}); }}});
+        messageOf_ = nullptr;
+        return;
+    }
     fail(what, message);
     if (state == RunState::idle || state == RunState::simulating) messageOf_ = pages_[page_];
 }

@@ -116,7 +116,13 @@ void StudyDesk::close(bool keepDraft) {
 base::Status StudyDesk::saveAs(const std::filesystem::path& file) {
     const std::filesystem::path before = session_->path();
     const bool wasDraft = isDraft();
-    if (file == before) return base::Error{file.string() + " is the study that is open, saved as it is."};
+    if (file == before) {
+        return base::Error{
+            session_->isInPlace()
+                ? file.string() + " is the study that is open, saved as it is."
+                : "That is the name of the file that is gone, which is still kept for it. Choose "
+                  "another one."};
+    }
     auto replaced = store::ReplacedStudy::setAside(file);
     if (!replaced) return replaced.error();
     auto saved = session_->saveAs(file);

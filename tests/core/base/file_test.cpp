@@ -33,6 +33,16 @@ class FileTest : public QObject {
         QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"a"});
     }
 
+    void devicesAndWhatIsTooLongAreRefused() {
+        const QTemporaryDir folder;
+        const auto endless = base::readFile("/dev/zero");
+        QVERIFY(!endless.ok() && endless.error().message.find("device") != std::string::npos);
+        QVERIFY(base::writeFile(at(folder, "a"), std::string((1U << 20U) + 1, 'a')).ok());
+        QVERIFY(base::readFile(at(folder, "a"), (1U << 20U) + 1).ok());
+        const auto tooLong = base::readFile(at(folder, "a"), 1U << 20U);
+        QVERIFY(!tooLong.ok() && tooLong.error().message.find("longer than 1 MiB") != std::string::npos);
+    }
+
     void namesWhatCannotBeReadOrWritten() {
         const QTemporaryDir folder;
         const auto missing = base::readFile(at(folder, "missing"));

@@ -117,6 +117,9 @@ class ProfileTest : public QObject {
         row("not JSON", with("\"version\": 1,", "\"version\": 1"), {"not JSON", "line 1", "comma"});
         row("empty", "", {"not JSON"});
         row("a list", "[]", {"{ ... }"});
+        row("a number that no double holds", with("\"version\": 1", "\"version\": 1e999"), {"1e999"});
+        row("deep nesting", std::string(100000, '['), {"not JSON"});
+        row("deep nesting that ends", std::string(5000, '[') + std::string(5000, ']'), {"levels deep"});
         row("another format", with("trapwright drive", "trapwright track"),
             {"\"format\"", "trapwright drive"});
         row("a later version", with("\"version\": 1", "\"version\": 2"), {"\"version\"", "1"});

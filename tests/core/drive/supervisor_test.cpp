@@ -123,6 +123,23 @@ class SupervisorTest : public QObject {
         QCOMPARE(bench.told.setPoint, expected);
     }
 
+    void limitsThatAreNoNumbersLetNothingMove() {
+        const double none = std::nan("");
+        Bench bench;
+        bench.run(0.5);
+        bench.supervisor.setLimits({none, 0.4});
+        bench.beatFor(3.0);
+        QCOMPARE(bench.told.setPoint, 0.0);
+        Bench other;
+        other.supervisor.setLimits({0.8, none});
+        other.supervisor.connected(other.now);
+        other.beatFor(1.0);
+        other.supervisor.setTarget(0.5);
+        QVERIFY(other.supervisor.start());
+        other.beatFor(3.0);
+        QCOMPARE(other.told.setPoint, 0.0);
+    }
+
     void theSameWishTwiceChangesNothing() {
         Bench bench;
         bench.run(0.5);

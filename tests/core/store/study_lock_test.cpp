@@ -121,6 +121,53 @@ class StudyLockTest : public QObject {
                 .contains("exists already"));
     }
 
+    void aDeletedStudyTakesNothingMoreAndIsRescued() {
+        sample::write(path_, 1);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        VERIFY_OK(study->saveGeneration(sample::generation(1)));
+        auto beside = study->openBeside();
+        VERIFY_OK(beside);
+        VERIFY_OK(study->checkInPlace());
+        std::filesystem::remove(path_);
+        const QString message = sample::messageOf(study->saveGeneration(sample::generation(2)));
+        QVERIFY2(message.contains("was deleted or moved"), qPrintable(message));
+        QVERIFY(sample::messageOf(beside->chooseWinner({})).contains("was deleted or moved"));
+        QVERIFY(!study->openBeside().ok());
+
+        const auto rescued = study->rescue();
+        VERIFY_OK(rescued);
+        QCOMPARE(rescued->filename().string(), std::string("study-rescued.trap"));
+        auto copy = StudyFile::open(*rescued, sample::kProgram);
+        VERIFY_OK(copy);
+        QCOMPARE(copy->generationCount().value(), 2);
+        QVERIFY(sample::equal(copy->loadGeneration(1).value(), sample::generation(1)));
+        VERIFY_OK(copy->saveGeneration(sample::generation(2)));
+        // Nothing is written over.
+        QCOMPARE(study->rescue().value().filename().string(), std::string("study-rescued-2.trap"));
+    }
+
+    void aStudyThatTookAnothersPlaceStaysAsItIs() {
+        sample::write(path_, 1);
+        const std::filesystem::path other = path_.parent_path() / "other.trap";
+        sample::write(other, 3);
+        {
+            auto study = StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(study);
+            VERIFY_OK(study->saveGeneration(sample::generation(1)));
+            std::filesystem::rename(other, path_);
+            const QString message = sample::messageOf(study->saveGeneration(sample::generation(2)));
+            QVERIFY2(message.contains("was replaced by another file"), qPrintable(message));
+            VERIFY_OK(study->rescue());
+        }
+        QVERIFY(!std::filesystem::exists(path_.string() + "-wal"));
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QCOMPARE(study->generationCount().value(), 3);
+        for (int i = 0; i < 3; ++i)
+            QVERIFY(sample::equal(study->loadGeneration(i).value(), sample::generation(i)));
+    }
+
     void lockIsMovedWithItsOwner() {
         auto lock = store::FileLock::acquire(path_);
         VERIFY_OK(lock);

@@ -79,7 +79,7 @@ class TrackFileTest : public QObject {
         QTest::addColumn<QByteArray>("from");
         QTest::addColumn<QByteArray>("to");
         QTest::addColumn<QByteArray>("named");
-        QTest::newRow("not JSON") << QByteArray("{") << QByteArray("") << QByteArray("not valid JSON");
+        QTest::newRow("not JSON") << QByteArray("{") << QByteArray("") << QByteArray("not JSON");
         QTest::newRow("other format")
             << QByteArray("trapwright track") << QByteArray("something") << QByteArray("\"format\"");
         QTest::newRow("newer version")
@@ -103,7 +103,7 @@ class TrackFileTest : public QObject {
             << QByteArray("leadOutSegments");
         QTest::newRow("no feeder type")
             << QByteArray("\"linear\"") << QByteArray("\"spiral\"") << QByteArray("spiral");
-        QTest::newRow("an array") << QByteArray("{") << QByteArray("[{") << QByteArray("not valid JSON");
+        QTest::newRow("an array") << QByteArray("{") << QByteArray("[{") << QByteArray("not JSON");
     }
     void refuses() {
         QFETCH(QByteArray, from);

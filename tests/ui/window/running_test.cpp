@@ -93,6 +93,42 @@ class RunningTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(!window.isVisible(), 5000);
     }
 
+    // Nothing but the generation in progress is lost, and the user is asked where the rest is to go.
+    void aStudyThatIsDeletedWhileItLearnsIsSavedElsewhere() {
+        const QString study = folder_.filePath("gone.trap");
+        QVERIFY(QFile::copy(QString::fromStdString(study_), study));
+        window::MainWindow window{{app::makeWorkEngine, "trapwright test", state_}};
+        window.show();
+        window.openFile(study.toStdString());
+        QTRY_VERIFY_WITH_TIMEOUT(window.desk().session() != nullptr, kPatience);
+        auto* session = window.desk().session();
+        action(window, "run.start")->trigger();
+        QTRY_VERIFY_WITH_TIMEOUT(session->summaries().size() >= 2, kPatience);
+        QVERIFY(QFile::remove(study));
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
+        QVERIFY(!session->isInPlace());
+        auto* message = window.findChild<look::MessageBar*>("messageBar");
+        QVERIFY2(message->text().contains("was deleted or moved"), qPrintable(message->text()));
+        QPushButton* save = message->findChild<QPushButton*>();
+        QCOMPARE(save->text(), QString("Save a copy..."));
+        const std::size_t learned = session->summaries().size();
+
+        // The old name is still kept for it; another one takes all, and learning goes on there.
+        QVERIFY(!window.desk().saveAs(study.toStdString()).ok());
+        const auto copy = folder_.filePath("rescued.trap").toStdString();
+        const auto saved = window.desk().saveAs(copy);
+        QVERIFY2(saved.ok(), saved.ok() ? "" : saved.error().message.c_str());
+        QVERIFY(session->isInPlace());
+        QCOMPARE(store::StudyFile::openReadOnly(copy).value().generationCount().value(),
+                 static_cast<int>(learned));
+        action(window, "run.start")->trigger();
+        QTRY_VERIFY_WITH_TIMEOUT(session->summaries().size() > learned, kPatience);
+        action(window, "run.stopNow")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
+        QCOMPARE(store::StudyFile::openReadOnly(copy).value().generationCount().value(),
+                 static_cast<int>(session->summaries().size()));
+    }
+
     // The note of a program that is gone: its lock is free, its file is there.
     void afterABadEndItOffersToGoOn() {
         {
