@@ -166,21 +166,24 @@ void StatusLine::update() {
     bar_->setValue(qRound(std::clamp(whole, 0.0, 1.0) * kSteps));
 }
 
-/// Of the final track once there is one, until then of the best winner.
+/// Of the final track: until one is chosen that is the best winner.
 void StatusLine::updateSuccess() {
     const study::Winner* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
     const auto chosen = session_ ? session_->chosen() : std::nullopt;
-    if (chosen) best = &*chosen;
-    const auto success = best != nullptr ? session_->findSuccess(*best) : std::nullopt;
+    const study::Winner* shown = chosen ? &*chosen : best;
+    const auto success = shown != nullptr ? session_->findSuccess(*shown) : std::nullopt;
     success_->setVisible(success.has_value());
     if (!success) return;
-    success_->setText(tr("success %1").arg(models::successWord(std::optional(success->rate))));
+    const bool other =
+        best != nullptr && (shown->generation != best->generation || shown->individual != best->individual);
+    success_->setText((other ? tr("final track: success %1") : tr("success %1"))
+                          .arg(models::successWord(std::optional(success->rate))));
     success_->setToolTip(
-        (chosen ? tr("Share of parts that finished in the expected orientation on the final track, "
-                     "generation %1: %L2 of %L3")
-                : tr("Share of parts that finished in the expected orientation on the best track so "
-                     "far, generation %1: %L2 of %L3"))
-            .arg(best->generation)
+        (success->source == study::TrackSuccess::Source::validation
+             ? tr("Generation %1: success of its validation, weighted by how often parts land "
+                  "in each pose. %L2 of all %L3 parts finished in the expected orientation.")
+             : tr("Generation %1: %L2 of %L3 parts finished in the expected orientation."))
+            .arg(shown->generation)
             .arg(success->count.successes)
             .arg(success->count.trials));
 }
