@@ -15,7 +15,7 @@ std::atomic<int> signalCount{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 void countSignal(int signal) {
-    const int count = signalCount.fetch_add(signal == SIGTERM ? 2 : 1);
+    const int count = signalCount.fetch_add(signal == SIGINT ? 1 : 2);
     if (count >= 2) ::_exit(static_cast<int>(ExitCode::interrupted));
 }
 
@@ -29,11 +29,15 @@ InterruptCounter::InterruptCounter() {
     action.sa_flags = SA_RESTART;
     ::sigaction(SIGINT, &action, &interruptBefore_);
     ::sigaction(SIGTERM, &action, &terminateBefore_);
+    // The terminal is gone; under nohup nobody minds.
+    ::sigaction(SIGHUP, nullptr, &hangUpBefore_);
+    if (hangUpBefore_.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
 }
 
 InterruptCounter::~InterruptCounter() {
     ::sigaction(SIGINT, &interruptBefore_, nullptr);
     ::sigaction(SIGTERM, &terminateBefore_, nullptr);
+    ::sigaction(SIGHUP, &hangUpBefore_, nullptr);
 }
 
 int InterruptCounter::count() const {

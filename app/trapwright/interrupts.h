@@ -5,7 +5,8 @@
 namespace trapwright::app {
 
 /// While this lives, Ctrl-C (SIGINT) is counted instead of ending the process, up to the second time; a third
-/// ends it at once. SIGTERM counts as two. One at a time in a process.
+/// ends it at once. SIGTERM and SIGHUP count as two; SIGHUP under nohup not at all. One at a time in a
+/// process.
 class InterruptCounter {
  public:
     InterruptCounter();
@@ -19,6 +20,7 @@ class InterruptCounter {
  private:
     struct sigaction interruptBefore_ {};
     struct sigaction terminateBefore_ {};
+    struct sigaction hangUpBefore_ {};
 };
 
 }  // namespace trapwright::app

@@ -59,6 +59,17 @@ std::string immutableUri(const std::filesystem::path& path) {
     return uri + "?immutable=1";
 }
 
+/// For SQLite, which takes ":memory:" and "file:" for something else.
+std::string fileName(const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).string();
+}
+
+/// A study may come from anywhere: what its schema says is not run, nor can it be made to damage itself.
+void distrust(SQLite::Database& database) {
+    sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+}
+
 /// Ours, and of a version that we know? Reads the file, so that an unreadable one fails here.
 base::Status checkIdentity(SQLite::Database& database, const std::filesystem::path& path) {
     if (database.execAndGet("PRAGMA application_id").getInt() != kApplicationId) {
@@ -82,8 +93,9 @@ base::Status checkContent(SQLite::Database& database, const std::filesystem::pat
 
 base::Result<DatabasePtr> openReader(const std::filesystem::path& path, bool immutable) {
     auto database = std::make_unique<SQLite::Database>(
-        immutable ? immutableUri(path) : path.string(),
+        immutable ? immutableUri(path) : fileName(path),
         SQLite::OPEN_READONLY | (immutable ? SQLite::OPEN_URI : 0), kBusyTimeout);
+    distrust(*database);
     if (const auto known = checkIdentity(*database, path); !known) return known.error();
     const int version = database->execAndGet("PRAGMA user_version").getInt();
     if (version < currentSchemaVersion()) {
@@ -183,7 +195,8 @@ base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
     }
     return guarded(path, "The study could not be opened", [&]() -> base::Result<DatabasePtr> {
         auto database =
-            std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout);
+            std::make_unique<SQLite::Database>(fileName(path), SQLite::OPEN_READWRITE, kBusyTimeout);
+        distrust(*database);
         if (const auto known = checkIdentity(*database, path); !known) return known.error();
         const std::string check = database->execAndGet("PRAGMA quick_check(1)").getString();
         if (check != "ok") return damaged(path, check);
@@ -199,7 +212,8 @@ base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
 base::Result<DatabasePtr> openBeside(const std::filesystem::path& path) {
     return guarded(path, "The study could not be opened", [&]() -> base::Result<DatabasePtr> {
         auto database =
-            std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout);
+            std::make_unique<SQLite::Database>(fileName(path), SQLite::OPEN_READWRITE, kBusyTimeout);
+        distrust(*database);
         database->exec("PRAGMA synchronous = FULL");
         return database;
     });

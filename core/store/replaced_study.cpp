@@ -13,10 +13,17 @@ namespace {
 
 // A study, and what SQLite keeps beside it while it is open.
 constexpr std::array kFiles = {"", "-wal", "-shm"};
-constexpr auto kAside = ".replaced";
 
-std::filesystem::path asideOf(const std::filesystem::path& path) {
-    return path.string() + kAside;
+/// A name beside the study that nobody has.
+std::filesystem::path findAside(const std::filesystem::path& path) {
+    std::filesystem::path aside;
+    std::error_code missing;
+    int number = 0;
+    do {
+        aside = path.string() + ".replaced" + (number == 0 ? "" : "-" + std::to_string(number));
+        ++number;
+    } while (std::filesystem::exists(std::filesystem::symlink_status(aside, missing)));
+    return aside;
 }
 
 /// Moves those of a study's files that there are. The study itself first: without it nothing is moved.
@@ -42,28 +49,29 @@ base::Result<ReplacedStudy> ReplacedStudy::setAside(const std::filesystem::path&
     }
     const auto lock = FileLock::acquire(path);
     if (!lock) return lock.error();
-    if (const std::error_code failure = moveFiles(path, asideOf(path))) {
+    std::filesystem::path aside = findAside(path);
+    if (const std::error_code failure = moveFiles(path, aside)) {
         return base::Error{path.string() + " cannot be replaced (" + failure.message() +
                            "). Choose another name or folder."};
     }
-    return ReplacedStudy(path);
+    return ReplacedStudy(Moved{path, std::move(aside)});
 }
 
-ReplacedStudy::ReplacedStudy(std::optional<std::filesystem::path> path) : path_(std::move(path)) {}
+ReplacedStudy::ReplacedStudy(std::optional<Moved> moved) : moved_(std::move(moved)) {}
 
-ReplacedStudy::ReplacedStudy(ReplacedStudy&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+ReplacedStudy::ReplacedStudy(ReplacedStudy&& other) noexcept : moved_(std::exchange(other.moved_, {})) {}
 
 ReplacedStudy::~ReplacedStudy() {
-    if (path_) moveFiles(asideOf(*path_), *path_);
+    if (moved_) moveFiles(moved_->aside, moved_->path);
 }
 
 void ReplacedStudy::discard() {
-    if (!path_) return;
+    if (!moved_) return;
     for (const char* suffix : kFiles) {
         std::error_code ignored;
-        std::filesystem::remove(asideOf(*path_).string() + suffix, ignored);
+        std::filesystem::remove(moved_->aside.string() + suffix, ignored);
     }
-    path_.reset();
+    moved_.reset();
 }
 
 }  // namespace trapwright::store

@@ -23,9 +23,13 @@ class ReplacedStudy {
     void discard();
 
  private:
-    explicit ReplacedStudy(std::optional<std::filesystem::path> path);
+    struct Moved {
+        std::filesystem::path path;   // that it had
+        std::filesystem::path aside;  // where it is; a name that nobody had
+    };
+    explicit ReplacedStudy(std::optional<Moved> moved);
 
-    std::optional<std::filesystem::path> path_;  // that it had; none if there was no such file
+    std::optional<Moved> moved_;  // none if there was no such file
 };
 
 }  // namespace trapwright::store

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <ctime>
 #include <system_error>
 
@@ -54,6 +55,25 @@ void writeNewStudy(SQLite::Database& database, const study::Settings& settings, 
     transaction.commit();
 }
 
+/// An empty file of a name that nobody has, beside the study that is to be made. An error tells the system's
+/// reason.
+base::Result<std::filesystem::path> beginUnfinished(const std::filesystem::path& path) {
+    constexpr int kMostTries = 1000;
+    int reason = EEXIST;
+    for (int number = 0; number < kMostTries && reason == EEXIST; ++number) {
+        std::filesystem::path unfinished = std::filesystem::absolute(path);
+        unfinished += ".new-" + std::to_string(::getpid()) + "-" + std::to_string(number);
+        const int descriptor = ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            ::close(descriptor);
+            return unfinished;
+        }
+        reason = errno;
+    }
+    return base::Error{"The study " + path.string() + " could not be made (" +
+                       std::generic_category().message(reason) + "). Use a folder that you can write."};
+}
+
 void removeUnfinished(const std::filesystem::path& path) {
     std::error_code missing;
     std::filesystem::remove(path, missing);
@@ -95,9 +115,9 @@ base::Result<FileLock> placeNew(const std::filesystem::path& path, const Write& 
                            "that study back and open it once."};
     }
 
-    std::filesystem::path unfinished = path;
-    unfinished += ".new";
-    removeUnfinished(unfinished);
+    const auto begun = beginUnfinished(path);
+    if (!begun) return begun.error();
+    const std::filesystem::path& unfinished = *begun;
     const auto made = guarded(path, "The study could not be made", [&]() -> base::Status {
         write(unfinished);
         return base::success();

@@ -100,6 +100,29 @@ class LearningTest : public QObject {
         QCOMPARE(dumpOf("whole.trap"), dump);
     }
 
+    void aTerminalThatIsGoneStopsAtOnceAndInOrder() {
+        auto process = start(folder_->path(), quickStudy("hung.trap", 100000));
+        QVERIFY(waitForGenerations(*process, 1));
+        ::kill(static_cast<pid_t>(process->processId()), SIGHUP);
+        const Ran ran = finish(*process);
+        QVERIFY2(ran.code == 130, ran.all());
+        const QByteArray dump = dumpOf("hung.trap");
+        QVERIFY(!dump.isEmpty() && dump.count('\n') % 8 == 0);
+        QVERIFY(!QFile::exists(folder_->filePath("hung.trap.lock")));
+        QVERIFY(!QFile::exists(folder_->filePath("hung.trap-wal")));
+    }
+
+    void namesThatMeanSomethingToSqliteAreFiles() {
+        for (const char* name : {":memory:", "file:study.trap?mode=memory"}) {
+            const Ran ran = learn(quickStudy(name, 1));
+            QVERIFY2(ran.code == 0, ran.all());
+            QVERIFY(
+                QFile::exists(folder_->path() + "/" + name));  // for Qt, too, a colon begins something else
+            QCOMPARE(dumpOf(name).count('\n'), 8);
+        }
+        QCOMPARE(QDir(folder_->path()).entryList(QDir::Files).size(), 2);
+    }
+
     /// One long run serves for all that happens beside it.
     void othersBesideAndInterruptTwice() {
         QStringList slow = quickStudy("slow.trap", 100000);

@@ -374,6 +374,7 @@ void MaterialsDialog::removeCurrent() {
                         tr("Remove your own entry \"%1\"?").arg(fromText(part::pairTitle(*pair))),
                         QMessageBox::NoButton, this);
     question->setObjectName("materials.removeQuestion");
+    question->setTextFormat(Qt::PlainText);
     question->setAttribute(Qt::WA_DeleteOnClose);
     auto* yes = question->addButton(tr("Remove"), QMessageBox::AcceptRole);
     question->addButton(QMessageBox::Cancel);

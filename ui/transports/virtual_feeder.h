@@ -48,7 +48,8 @@ class VirtualFeeder {
     [[nodiscard]] virtual bool watchdogActed() const = 0;
     /// What it was told last.
     [[nodiscard]] virtual drive::Command command() const = 0;
-    /// Everything that it was told. Over Modbus set-point and enable come one after the other.
+    /// Everything that it was told, the newest 20,000. Over Modbus set-point and enable come one after the
+    /// other.
     [[nodiscard]] virtual std::vector<drive::Command> commands() const = 0;
 };
 

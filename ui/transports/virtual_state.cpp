@@ -19,6 +19,8 @@ Trouble VirtualState::trouble() const {
 void VirtualState::tell(const drive::Command& command) {
     const std::lock_guard lock(mutex_);
     model_.tell(command, clock());
+    constexpr std::size_t kMostKept = 20000;  // half an hour and more
+    if (commands_.size() == kMostKept) commands_.pop_front();
     commands_.push_back(command);
 }
 
@@ -55,7 +57,7 @@ drive::Command VirtualState::command() const {
 
 std::vector<drive::Command> VirtualState::commands() const {
     const std::lock_guard lock(mutex_);
-    return commands_;
+    return {commands_.begin(), commands_.end()};
 }
 
 double VirtualState::clock() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <mutex>
 #include <vector>
 
@@ -35,7 +36,7 @@ class VirtualState {
     mutable std::mutex mutex_;
     mutable drive::FeederModel model_;  // goes on whenever it is looked at
     Trouble trouble_ = Trouble::none;
-    std::vector<drive::Command> commands_;
+    std::deque<drive::Command> commands_;  // the newest
 };
 
 /// How long a late answer takes.

@@ -1,3 +1,4 @@
+#include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
 
@@ -32,6 +33,9 @@ QMessageBox* question(QWidget* parent, const QString& name, const QString& text,
     box->setObjectName(name);
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->setInformativeText(detail);
+    // A part may be called what looks like rich text.
+    for (auto* label : box->findChildren<QLabel*>())
+        label->setTextFormat(Qt::PlainText);
     return box;
 }
 

@@ -4,7 +4,9 @@
 #include <QtTest>
 #include <csignal>
 
+#include "core/base/file.h"
 #include "core/store/file_lock.h"
+#include "core/store/replaced_study.h"
 #include "sample_study.h"
 
 using namespace trapwright;
@@ -166,6 +168,22 @@ class StudyLockTest : public QObject {
         QCOMPARE(study->generationCount().value(), 3);
         for (int i = 0; i < 3; ++i)
             QVERIFY(sample::equal(study->loadGeneration(i).value(), sample::generation(i)));
+    }
+
+    void nobodysFileBesideIsTouched() {
+        const std::filesystem::path beside = path_.string() + ".new";
+        const std::filesystem::path aside = path_.string() + ".replaced";
+        VERIFY_OK(base::writeFile(beside, "mine"));
+        VERIFY_OK(base::writeFile(aside, "mine, too"));
+        sample::write(path_, 1);
+        QCOMPARE(base::readFile(beside).value(), std::string("mine"));
+        auto replaced = store::ReplacedStudy::setAside(path_);
+        VERIFY_OK(replaced);
+        sample::write(path_, 2);
+        replaced->discard();
+        QCOMPARE(StudyFile::openReadOnly(path_).value().generationCount().value(), 2);
+        QCOMPARE(base::readFile(aside).value(), std::string("mine, too"));
+        QCOMPARE(QDir(folder_->path()).entryList(QDir::Files).size(), 3);
     }
 
     void lockIsMovedWithItsOwner() {
