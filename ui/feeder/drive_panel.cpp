@@ -125,6 +125,10 @@ QWidget* DrivePanel::makeSetPoint() {
             [this](int value) { link_.setTarget(static_cast<double>(value) / kSliderSteps); });
     connect(setPoint_, &QDoubleSpinBox::valueChanged, this,
             [this](double value) { link_.setTarget(value / kPercent); });
+    connect(setPoint_, &QDoubleSpinBox::editingFinished, this, [this] {
+        // Also told when the focus leaves.
+        if (setPoint_->hasFocus()) emit setPointGiven();
+    });
     connect(start_, &QPushButton::clicked, &link_, &DriveLink::start);
     return box;
 }

@@ -32,6 +32,8 @@ class DrivePanel : public QWidget {
 
  signals:
     void failed(const QString& what, const QString& message);
+    /// A set-point was typed and Enter pressed: the keys belong to the trials again.
+    void setPointGiven();
 
  private:
     QWidget* makeSetPoint();

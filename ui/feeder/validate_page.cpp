@@ -82,6 +82,7 @@ void ValidatePage::addInspector(const session::Environment& environment) {
     column->addLayout(stop);
     column->addWidget(scroll, 1);
     connect(drive_, &DrivePanel::failed, this, &Page::failed);
+    connect(drive_, &DrivePanel::setPointGiven, this, [this] { bar_->setFocus(); });
     connect(report_, &ReportCard::failed, this, &Page::failed);
 }
 

@@ -78,6 +78,25 @@ class ValidatePageTest : public QObject {
         checkReport(user);
     }
 
+    // With the keyboard alone: what follows the set-point is the first trial.
+    void theKeysBelongToTheTrialsAfterASetPoint() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        QVERIFY(user.reach());
+        user.plan(1, false);
+        auto* setPoint = user.find<QDoubleSpinBox>("feeder.setPoint");
+        setPoint->setFocus();
+        setPoint->selectAll();
+        QTest::keyClicks(setPoint, "60");
+        user.press(Qt::Key_Return);
+        user.press(Qt::Key_Space);
+        QCOMPARE(user.guide().stage(), Stage::running);
+        QVERIFY(bench.moves());
+        user.press(Qt::Key_S);
+        QCOMPARE(user.trials().size(), std::size_t(1));
+        QCOMPARE(user.trials().front().setPoint, 0.6);
+    }
+
     void theSceneShowsHowToPlaceThePart() {
         Bench bench;
         Operator user(bench, study_.copy());
