@@ -8,6 +8,8 @@
 #include <IGESControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Poly_Triangulation.hxx>
@@ -20,6 +22,8 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
+#include <XSControl_Reader.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <exception>
 
 #include <fmt/format.h>
@@ -33,6 +37,8 @@ namespace {
 using base::Error;
 
 constexpr double kChordTolerance = 1e-3;             // of the part's size
+constexpr double kSmallest = 1e-3;                   // of what can be a part [mm]
+constexpr double kLargest = 1e5;                     // [mm]
 constexpr double kAngleStep = 10.0 * base::kDegree;  // between neighbouring facets of a curve
 
 void appendFace(const TopoDS_Face& face, geometry::TriangleMesh& mesh) {
@@ -66,6 +72,11 @@ base::Result<FileMesh> tessellate(const std::filesystem::path& path, const TopoD
         return Error{fmt::format("{} has no solids or surfaces. Export the part as a solid", path.string())};
     }
     const double size = std::sqrt(box.SquareExtent());
+    // A number that is damaged may make a mesh without end.
+    if (!(size > kSmallest && size < kLargest)) {
+        return Error{fmt::format("{}: its shape is {:g} mm large, which no part is. Check the file",
+                                 path.string(), size)};
+    }
     // One thread: the mesh must not depend on the machine.
     const BRepMesh_IncrementalMesh mesher(shape, kChordTolerance * size, false, kAngleStep, false);
     if (!mesher.IsDone()) {
@@ -111,6 +122,18 @@ std::string describe(IFSelect_ReturnStatus status) {
     }
 }
 
+/// What OpenCASCADE's own check finds wrong in the file that was read; empty if nothing. A model with a fail
+/// may not be made into a shape: what refers to something that is not there ends the program.
+std::string findFail(XSControl_Reader& reader) {
+    Interface_CheckIterator checks = reader.WS()->ModelCheckList(true);
+    for (checks.Start(); checks.More(); checks.Next()) {
+        const Handle(Interface_Check)& check = checks.Value();
+        if (!check->HasFailed()) continue;
+        return fmt::format("entity {} of the file: {}", checks.Number(), check->CFail(1));
+    }
+    return {};
+}
+
 /// Runs a reader and turns what it throws into an error.
 template <class Read>
 base::Result<FileMesh> guarded(const std::filesystem::path& path, const char* format, Read read) {
@@ -132,6 +155,7 @@ base::Result<FileMesh> readStepFile(const std::filesystem::path& path) {
         STEPControl_Reader reader;
         const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
         if (status != IFSelect_RetDone) return unreadable(path, "STEP", describe(status));
+        if (const std::string fail = findFail(reader); !fail.empty()) return unreadable(path, "STEP", fail);
         TColStd_SequenceOfAsciiString lengths;
         TColStd_SequenceOfAsciiString angles;
         TColStd_SequenceOfAsciiString solidAngles;
@@ -146,6 +170,7 @@ base::Result<FileMesh> readIgesFile(const std::filesystem::path& path) {
         IGESControl_Reader reader;
         const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
         if (status != IFSelect_RetDone) return unreadable(path, "IGES", describe(status));
+        if (const std::string fail = findFail(reader); !fail.empty()) return unreadable(path, "IGES", fail);
         const Handle(TCollection_HAsciiString) unit = reader.IGESModel()->GlobalSection().UnitName();
         reader.TransferRoots();
         return tessellate(path, reader.OneShape(), unit.IsNull() ? "mm" : unit->ToCString());
