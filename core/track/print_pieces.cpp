@@ -354,6 +354,7 @@ std::vector<std::vector<base::Vec3>> findCutOutline(const Track& track, const Pr
         }
     }
     std::vector<std::vector<base::Vec3>> lines;
+    lines.reserve(open.size());
     for (const auto& [from, to] : open) {
         lines.push_back({piece.solid.vertices[static_cast<std::size_t>(from)],
                          piece.solid.vertices[static_cast<std::size_t>(to)]});

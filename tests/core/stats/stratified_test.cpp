@@ -132,13 +132,15 @@ class StratifiedTest : public QObject {
         double worst = 1.0;
         double sum = 0.0;
         int count = 0;
-        for (double p = 0.01; p < 1.0; p += 0.0241) {
-            for (double q = 0.01; q < 1.0; q += 0.0273) {
+        for (int i = 0; i <= 41; ++i) {
+            for (int j = 0; j <= 36; ++j) {
+                const double p = 0.01 + 0.0241 * i;
+                const double q = 0.01 + 0.0273 * j;
                 const double truth = weight * p + (1.0 - weight) * q;
                 double covered = 0.0;
                 for (int x = 0; x <= a; ++x) {
                     for (int y = 0; y <= b; ++y) {
-                        const Interval& one = intervals[static_cast<std::size_t>(x * (b + 1) + y)];
+                        const Interval& one = intervals[static_cast<std::size_t>(x) * (b + 1) + y];
                         if (one.low <= truth + 1e-9 && truth <= one.high + 1e-9)
                             covered += calcBinomial(x, a, p) * calcBinomial(y, b, q);
                     }
