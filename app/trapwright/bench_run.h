@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/trapwright/command_options.h"
 #include "app/trapwright/console.h"
 #include "app/trapwright/exit_codes.h"
+#include "app/trapwright/options.h"
 #include "core/bench/benchmark.h"
 
 namespace trapwright::app {

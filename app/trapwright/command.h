@@ -3,9 +3,9 @@
 #include <functional>
 #include <string>
 
-#include "app/trapwright/command_options.h"
 #include "app/trapwright/console.h"
 #include "app/trapwright/exit_codes.h"
+#include "app/trapwright/options.h"
 
 namespace trapwright::app {
 

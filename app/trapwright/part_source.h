@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/trapwright/command_options.h"
 #include "app/trapwright/exit_codes.h"
+#include "app/trapwright/options.h"
 #include "core/part/materials.h"
 #include "core/work/part_source.h"
 

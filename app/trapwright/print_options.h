@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/trapwright/command_options.h"
 #include "app/trapwright/exit_codes.h"
+#include "app/trapwright/options.h"
 #include "core/geometry/print_check.h"
 #include "core/track/print_pieces.h"
 #include "core/track/printer.h"

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "app/trapwright/command_options.h"
 #include "app/trapwright/exit_codes.h"
+#include "app/trapwright/options.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
 #include "core/work/study_engines.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/trapwright/command_options.h"
 #include "app/trapwright/console.h"
+#include "app/trapwright/options.h"
 #include "app/trapwright/part_source.h"
 #include "app/trapwright/study_access.h"
 #include "core/store/study_file.h"

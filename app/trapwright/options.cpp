@@ -1,4 +1,4 @@
-#include "app/trapwright/command_options.h"
+#include "app/trapwright/options.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
