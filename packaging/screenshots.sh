@@ -59,7 +59,8 @@ shoot() {
     local size=$1 scale=$2 theme=$3 name=$4
     for which in learned fresh; do
         mkdir -p "$out/$which"
-        # Each picture's window may change its study.
+        # Each picture's window may change its study, and a reader that was cut off may leave a journal beside it.
+        rm -f "$work"/shown.trap*
         cp -- "$([[ $which == fresh ]] && echo "$work/fresh.trap" || echo "$learned")" "$work/shown.trap"
         QT_SCALE_FACTOR=$scale LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb \
             xvfb-run -a -s "-screen 0 2560x1440x24 +extension GLX" \

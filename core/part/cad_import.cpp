@@ -107,7 +107,7 @@ void silence() {
 
 Error unreadable(const std::filesystem::path& path, const char* format, const std::string& reason) {
     return Error{
-        fmt::format("{} could not be read as a {} file: {}. Check that it is complete and of that format",
+        fmt::format("{} could not be read as a {} file: {}. Check that it is complete and of that format.",
                     path.string(), format, reason)};
 }
 
@@ -129,7 +129,11 @@ std::string findFail(XSControl_Reader& reader) {
     for (checks.Start(); checks.More(); checks.Next()) {
         const Handle(Interface_Check)& check = checks.Value();
         if (!check->HasFailed()) continue;
-        return fmt::format("entity {} of the file: {}", checks.Number(), check->CFail(1));
+        // Number 0 are the fails of the model as a whole, whose texts name the entity themselves.
+        const Handle(Standard_Transient)& entity = reader.WS()->StartingEntity(checks.Number());
+        if (checks.Number() == 0 || entity.IsNull()) return check->CFail(1);
+        const Handle(TCollection_HAsciiString) label = reader.WS()->Model()->StringLabel(entity);
+        return fmt::format("{}: {}", label->ToCString(), check->CFail(1));
     }
     return {};
 }

@@ -216,7 +216,9 @@ std::string summarize(const PhysicalTable& table) {
     const PhysicalRow& total = table.total;
     if (total.physical.trials == 0) return "No part has been placed on the feeder yet.";
     const bool trained = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
-    const bool weighted = table.rows.size() > 1 && table.weighted.physical.rate;
+    // Both sides alike: without a pose's trials one of them has no weighted rate.
+    const bool weighted =
+        table.rows.size() > 1 && table.weighted.physical.rate && (!total.p || table.weighted.simulated.rate);
     const PhysicalRow& shown = weighted ? table.weighted : total;
     std::string text =
         fmt::format("{}{} on the {} ({:.1f} to {:.1f} %)", trained ? "For training: " : "",
@@ -226,7 +228,9 @@ std::string summarize(const PhysicalTable& table) {
     text += fmt::format(", {} in simulation{}. ", shareText(shown.simulated), weighted ? ", weighted" : "");
     const std::string p = *total.p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", *total.p);
     if (*total.p >= kLevel) return text + fmt::format("No difference shown ({}).", p);
-    return text + fmt::format("The feeder does {} ({}).", calcDirection(table) > 0.0 ? "better" : "worse", p);
+    // As the test compares them, which may be another way than the totals differ.
+    return text + fmt::format("The feeder does {}{} ({}).", calcDirection(table) > 0.0 ? "better" : "worse",
+                              table.rows.size() > 1 ? ", pose by pose" : "", p);
 }
 
 /// "99.0 %    98.2 ...  99.5 %"

@@ -69,7 +69,11 @@ void MainWindow::askForStudy() {
 }
 
 void MainWindow::askForSaveAs(const std::function<void()>& afterwards) {
-    look::askForNewFile(this, {"study", tr("Save the study as"), tr("Save"), studyFilter(), "trap", {}},
+    // The name of a study that lost its place is taken, or another's.
+    const bool lost = desk_.session() != nullptr && !desk_.session()->isInPlace();
+    look::askForNewFile(this,
+                        {"study", tr("Save the study as"), tr("Save"), studyFilter(), "trap",
+                         lost ? QStringLiteral("rescued") : QString()},
                         [this, afterwards](const std::filesystem::path& file) {
                             const base::Status saved = desk_.saveAs(file);
                             report(tr("The study cannot be saved there"), saved);
@@ -83,6 +87,7 @@ void MainWindow::save() {
     frame_->messages().show(look::MessageKind::info, tr("Everything is saved"),
                             tr("A study keeps each change and each generation as it happens. \"Save as\" "
                                "copies it under another name."));
+    messageOf_ = pages_[page_];
 }
 
 void MainWindow::importPart(const std::filesystem::path& file, bool asNewStudy) {

@@ -18,7 +18,7 @@ class JsonObjectTest : public QObject {
         QTest::newRow("nor a negative one") << QByteArray("{\"a\": [-1e4000]}") << "1e4000";
         QTest::newRow("no UTF-8") << QByteArray("{\"a\": \"\xff\xfe\"}") << "line 1";
         QTest::newRow("half a pair") << QByteArray("{\"a\": \"\\ud800\"}") << "line 1";
-        QTest::newRow("deep lists") << QByteArray(1000000, '[') << "levels deep";
+        QTest::newRow("deep lists without an end") << QByteArray(1000000, '[') << "line 1";
         QTest::newRow("deep lists that end")
             << QByteArray(200000, '[') + QByteArray(200000, ']') << "levels deep";
         QByteArray objects;
@@ -34,10 +34,8 @@ class JsonObjectTest : public QObject {
         const auto read =
             base::parseJson(std::string_view(text.data(), static_cast<std::size_t>(text.size())));
         QVERIFY(!read.ok());
-        // Deep nesting may be told as such or as a text that ends too early: never read, never a crash.
         const QString message = QString::fromStdString(read.error().message);
-        QVERIFY2(message.contains(word) || (word == "levels deep" && message.contains("line 1")),
-                 qPrintable(message));
+        QVERIFY2(message.contains(word), qPrintable(message));
     }
 
     void asDeepAsOursIsRead() {

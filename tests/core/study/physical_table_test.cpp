@@ -105,12 +105,25 @@ class PhysicalTableTest : public QObject {
         // little.
         QVERIFY2(std::abs(table.total.p.value() - 0.0452) < 0.004,
                  qPrintable(QString::number(*table.total.p)));
-        QVERIFY2(contains(table.summary, "The feeder does better (p = 0.0"), table.summary.c_str());
+        QVERIFY2(contains(table.summary, "The feeder does better, pose by pose (p = 0.0"),
+                 table.summary.c_str());
         QVERIFY2(contains(table.verdict, "600 of 600") && contains(table.verdict, "better"),
                  table.verdict.c_str());
         const std::string text = study::formatPhysical(table);
         QVERIFY2(contains(text, "99.4 %") && contains(text, "100.0 %") && contains(text, "Total, alike"),
                  text.c_str());
+    }
+
+    // Where a pose was never simulated there is no weighted rate of the simulation to stand beside the
+    // feeder's.
+    void aPoseWithoutSimulation() {
+        ValidationRecord record = simulated({0, 10, 5}, 1000);
+        record.rows[2].trials = record.rows[2].failures = record.rows[2].wrongOrientation = 0;
+        const std::vector<part::PoseGroup> groups = {{{0}, 0.6}, {{1}, 0.3}, {{2}, 0.1}};
+        const study::PhysicalTable table = study::comparePhysical(&record, physical({0, 1, 0}, 100), groups);
+        QVERIFY2(contains(table.summary, "99.7 % on the feeder") &&
+                     contains(table.summary, "99.5 % in simulation."),
+                 table.summary.c_str());
     }
 
     // Table 3.

@@ -343,6 +343,8 @@ class InputTest : public QObject {
         QTest::keyClick(&user.window, Qt::Key_S, Qt::ControlModifier);
         QVERIFY(user.dialog() == nullptr);
         QVERIFY(user.message().contains("as it happens"));
+        user.window.showPage("track");
+        QVERIFY(!user.message().contains("as it happens"));
     }
 
     void noTitleOfAColumnIsCut_data() { addPages(); }

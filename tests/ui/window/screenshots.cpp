@@ -15,6 +15,7 @@
 #include <cstdio>
 
 #include "app/trapwright/engines.h"
+#include "ui/look/message_bar.h"
 #include "ui/pages/page.h"
 #include "ui/scene/scene_view.h"
 #include "ui/window/main_window.h"
@@ -67,11 +68,18 @@ int main(int argc, char** argv) {
     window::MainWindow window({app::makeWorkEngine, "trapwright", {}});
     window.resize(size.at(0).toInt(), size.at(1).toInt());
     window.show();
-    if (!QTest::qWaitForWindowExposed(&window)) return 1;
+    if (!QTest::qWaitForWindowExposed(&window)) {
+        std::fputs("screenshots: the window was not shown\n", stderr);
+        return 1;
+    }
     camera.take(window, "welcome");
 
     window.openFile(arguments[2].toStdString());
-    if (!QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, 30000)) return 1;
+    if (!QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, 30000)) {
+        std::fprintf(stderr, "screenshots: %s was not opened: %s\n", qPrintable(arguments[2]),
+                     qPrintable(window.findChild<look::MessageBar*>()->text()));
+        return 1;
+    }
     for (const pages::Page* page : window.findChildren<pages::Page*>()) {
         window.showPage(page->face().name);
         camera.take(window, page->face().name);
