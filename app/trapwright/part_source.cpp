@@ -5,6 +5,7 @@
 #include "app/trapwright/work_failure.h"
 #include "core/base/resources.h"
 #include "core/study/presets.h"
+#include "core/work/part_process.h"
 
 namespace trapwright::app {
 
@@ -48,7 +49,7 @@ Attempt<part::MaterialPair> findPair(const std::string& surface, const LoadedPar
 }
 
 Attempt<LoadedPart> loadPart(const PartRequest& request) {
-    auto loaded = work::importPart(request);
+    auto loaded = work::importPartApart(request);
     if (!loaded) return toFailure(loaded.error().failure);
     return std::move(*loaded);
 }

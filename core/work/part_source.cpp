@@ -103,7 +103,11 @@ PartFailure describeBuild(const PartSource& source, const geometry::TriangleMesh
 
 }  // namespace
 
-base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request) {
+base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request,
+                                                 const std::function<void(std::string_view)>& tellStage) {
+    const auto begin = [&](std::string_view stage) {
+        if (tellStage) tellStage(stage);
+    };
     auto source = findSource(request);
     if (!source) return PartFailure{source.error()};
     const auto material = findMaterial(request, source->material);
@@ -112,10 +116,12 @@ base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request) {
     source->options.symmetryTolerance = request.tolerance.value_or(study::PartSettings{}.symmetryTolerance);
     source->options.symmetry = request.symmetry;
 
+    begin("reading the file");
     auto imported = part::importMesh(source->path, source->units);
     if (!imported) return describeImport(*source, imported.error());
     LoadedPart loaded;
     loaded.candidates = listCandidates(*imported);
+    begin("checking the mesh");
     loaded.found = geometry::checkMesh(imported->mesh);
     loaded.notes = std::move(imported->notes);
     if (request.closeLargeHoles) {
@@ -124,6 +130,7 @@ base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request) {
         imported->mesh = std::move(closed->mesh);
         loaded.notes.insert(loaded.notes.end(), closed->notes.begin(), closed->notes.end());
     }
+    begin("building the part");
     auto prepared = part::buildPart(imported->mesh, source->options);
     if (!prepared) return describeBuild(*source, imported->mesh, prepared.error());
     loaded.notes.insert(loaded.notes.end(), prepared->notes.begin(), prepared->notes.end());

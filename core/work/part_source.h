@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/math.h"
@@ -54,7 +56,9 @@ struct PartFailure {
     std::optional<geometry::MeshReport> mendable{};  // if closing its large holes would make it a solid
 };
 
-/// Imports and builds a part.
-base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request);
+/// Imports and builds a part; `tellStage` is called with what begins, such as "reading the file". Files of
+/// others are for importPartApart (part_process.h).
+base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request,
+                                                 const std::function<void(std::string_view)>& tellStage = {});
 
 }  // namespace trapwright::work

@@ -66,6 +66,9 @@ PartPage::PartPage(QWidget* parent)
     connect(importAction, &QAction::triggered, this, &PartPage::askForFile);
     addAction(importAction);
 
+    connect(&import_, &session::PartImport::stageChanged, this, [this](const QString& stage) {
+        if (import_.busy()) busyText_->setText(tr("%1: %2 ...").arg(importing_, stage));
+    });
     connect(&import_, &session::PartImport::finished, this, &PartPage::take);
     connect(&import_, &session::PartImport::unitNeeded, this,
             [this](const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates) {
@@ -270,7 +273,8 @@ void PartPage::askForFile() {
 
 void PartPage::import(const work::PartRequest& request) {
     question_->hide();
-    setBusy(tr("Reading %1 ...").arg(look::toText(std::filesystem::path(request.part).filename())));
+    importing_ = look::toText(std::filesystem::path(request.part).filename());
+    setBusy(tr("Reading %1 ...").arg(importing_));
     // Where it goes on, and what it asks, is to be seen without a study, too.
     emit pageWanted(face().name);
     import_.start(request);

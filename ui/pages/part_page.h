@@ -64,6 +64,7 @@ class PartPage : public Page {
     QPointer<session::StudySession> session_;
     scene::SceneView* scene_ = nullptr;  // while the page is shown
     session::PartImport import_;
+    QString importing_;  // the file's name
     session::NewestTask meshCheck_;
     std::optional<work::LoadedPart> imported_;     // the last one, for its report
     std::shared_ptr<const part::Part> shownMesh_;  // whose mesh was checked

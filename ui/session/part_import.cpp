@@ -1,12 +1,29 @@
 #include "ui/session/part_import.h"
 
+#include "core/work/part_process.h"
+
 namespace trapwright::session {
 
 PartImport::PartImport(QObject* parent) : QObject(parent) {}
 
+PartImport::~PartImport() {
+    control_.cancel();
+}
+
 void PartImport::start(const work::PartRequest& request) {
-    task_.start([this, request]() -> NewestTask::Deliver {
-        auto loaded = work::importPart(request);
+    control_.cancel();
+    control_ = {};
+    task_.start([this, request, control = control_]() -> NewestTask::Deliver {
+        const auto tellStage = [this, control](std::string_view stage) {
+            const auto text = QString::fromUtf8(stage.data(), static_cast<qsizetype>(stage.size()));
+            QMetaObject::invokeMethod(
+                this,
+                [this, control, text] {
+                    if (!control.cancelled()) emit stageChanged(text);
+                },
+                Qt::QueuedConnection);
+        };
+        auto loaded = work::importPartApart(request, control, tellStage);
         if (loaded) return [this, part = std::move(*loaded)] { emit finished(part); };
         return [this, request, why = loaded.error()] {
             if (!why.candidates.empty()) {
@@ -21,6 +38,7 @@ void PartImport::start(const work::PartRequest& request) {
 }
 
 void PartImport::cancel() {
+    control_.cancel();
     task_.cancel();
 }
 

@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QString>
 
+#include "core/base/run_control.h"
 #include "core/work/part_source.h"
 #include "ui/session/newest_task.h"
 
@@ -11,20 +12,24 @@ namespace trapwright::session {
 /// A part that is ready to be put into a study, and what was found and mended.
 using ImportedPart = work::LoadedPart;
 
-/// Imports part files in the background. The newest request wins: of those before it nothing is heard.
+/// Imports part files in the background, each in a process of its own, whatever it holds. The newest request
+/// wins: those before it are stopped, and nothing is heard of them.
 class PartImport : public QObject {
     Q_OBJECT
 
  public:
     explicit PartImport(QObject* parent = nullptr);
+    ~PartImport() override;
 
     /// Ends with one of the signals below.
     void start(const work::PartRequest& request);
-    /// Nothing is heard of what was asked for so far.
+    /// Stops what was asked for so far; nothing is heard of it.
     void cancel();
     [[nodiscard]] bool busy() const;
 
  signals:
+    /// What it does now, such as "reading the file".
+    void stageChanged(const QString& stage);
     void finished(const trapwright::session::ImportedPart& part);
     /// The file does not say its unit, and none can be assumed: ask, and start again with one of these.
     void unitNeeded(const trapwright::work::PartRequest& request,
@@ -35,6 +40,7 @@ class PartImport : public QObject {
     void failed(const trapwright::work::PartRequest& request, const QString& message);
 
  private:
+    base::RunControl control_;  // of the newest request
     NewestTask task_;
 };
 

@@ -21,6 +21,7 @@ class PartImportTest : public QObject {
     void partComesWithItsReport() {
         PartImport import;
         QSignalSpy failed(&import, &PartImport::failed);
+        QSignalSpy stages(&import, &PartImport::stageChanged);
         std::vector<ImportedPart> parts;
         connect(&import, &PartImport::finished, this,
                 [&](const ImportedPart& part) { parts.push_back(part); });
@@ -28,6 +29,8 @@ class PartImportTest : public QObject {
         QVERIFY(import.busy());
         QTRY_COMPARE(parts.size(), std::size_t{1});
         QVERIFY(!import.busy());
+        QVERIFY(stages.count() >= 3);
+        QCOMPARE(stages.front().front().toString(), QString("reading the file"));
         const ImportedPart& part = parts.front();
         QVERIFY(part.bundled);
         QCOMPARE(part.settings.file, std::string("cuboid"));
