@@ -101,6 +101,7 @@ Result<pid_t> spawn(const std::filesystem::path& program, std::vector<std::strin
                     int messages) {
     arguments.insert(arguments.begin(), program.string());
     std::vector<char*> list;
+    list.reserve(arguments.size() + 1);
     for (std::string& argument : arguments)
         list.push_back(argument.data());
     list.push_back(nullptr);

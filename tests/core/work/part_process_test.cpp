@@ -145,7 +145,7 @@ class PartProcessTest : public QObject {
 
  private:
     std::string write(const char* name, const std::string& text) {
-        const std::string path = folder_.filePath(name).toStdString();
+        std::string path = folder_.filePath(name).toStdString();
         std::ofstream(path) << text;
         return path;
     }
