@@ -2,7 +2,6 @@
 
 #include <QEvent>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QScrollArea>
@@ -94,9 +93,9 @@ Welcome::Welcome(QWidget* parent)
     font.setWeight(QFont::DemiBold);
     title->setFont(font);
 
-    auto* row = new QHBoxLayout(choices_);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(kGap);
+    choiceGrid_ = new QGridLayout(choices_);
+    choiceGrid_->setContentsMargins(0, 0, 0, 0);
+    choiceGrid_->setSpacing(kGap);
     QPushButton* example =
         addChoice("example", "example", tr("Watch an example"), tr("A 4 × 8 × 12 mm cuboid; learns at once"));
     QPushButton* draft = addChoice("draft", "draft", tr("Draft in 10 minutes"),
@@ -120,8 +119,6 @@ Welcome::Welcome(QWidget* parent)
     recentLayout->setSpacing(8);
     recentLayout->addWidget(heading);
     recentLayout->addLayout(recentGrid_);
-    recent_->setFixedWidth(kColumns * kChoiceWidth + (kColumns - 1) * kGap);
-
     auto* contents = new QWidget(area_);
     auto* layout = new QVBoxLayout(contents);
     layout->setContentsMargins(kGap, kGap, kGap, kGap);
@@ -140,6 +137,7 @@ Welcome::Welcome(QWidget* parent)
     whole->setContentsMargins(0, 0, 0, 0);
     whole->addWidget(area_);
     connect(covers_, &StudyCovers::ready, this, &Welcome::showCovers);
+    arrange(kColumns);
 }
 
 QPushButton* Welcome::addChoice(const QString& name, const QString& icon, const QString& title,
@@ -147,7 +145,6 @@ QPushButton* Welcome::addChoice(const QString& name, const QString& icon, const 
     auto* button = new Choice(icon, title, text, choices_);
     button->setObjectName("welcome." + name);
     button->installEventFilter(this);
-    choices_->layout()->addWidget(button);
     choiceCards_.push_back(button);
     return button;
 }
@@ -181,23 +178,38 @@ void Welcome::setRecent(const QStringList& studies, const QStringList& drafts) {
     }
     recentCards_.clear();
     const auto add = [this](const QString& study, bool draft) {
-        const auto place = static_cast<int>(recentCards_.size());
-        if (place == kRecentShown) return;
+        if (static_cast<int>(recentCards_.size()) == kRecentShown) return;
         auto* card = new StudyCard(study, draft, recent_);
         card->installEventFilter(this);
         connect(card, &StudyCard::openWanted, this, &Welcome::studyWanted);
         connect(card, &StudyCard::removeWanted, this, &Welcome::forgetWanted, Qt::QueuedConnection);
-        recentGrid_->addWidget(card, place / kColumns, place % kColumns);
-        card->show();  // at once, so that it can have the focus
         recentCards_.push_back(card);
     };
     for (const QString& draft : drafts)
         add(draft, true);
     for (const QString& study : studies)
         add(study, false);
+    arrange(columns_);
+    for (StudyCard* card : recentCards_)
+        card->show();  // at once, so that one can have the focus
     recent_->setVisible(!recentCards_.empty());
     if (isVisible()) askForCovers();
     if (hadFocus) focusLater();
+}
+
+/// All cards in so many columns: fewer where a page stands beside them, as while a part is read.
+void Welcome::arrange(int columns) {
+    columns_ = columns;
+    const auto fill = [columns](QGridLayout* grid, const auto& all) {
+        int place = 0;
+        for (QWidget* card : all) {
+            grid->addWidget(card, place / columns, place % columns);
+            ++place;
+        }
+    };
+    fill(choiceGrid_, choiceCards_);
+    fill(recentGrid_, recentCards_);
+    recent_->setFixedWidth(columns * kChoiceWidth + (columns - 1) * kGap);
 }
 
 void Welcome::askForCovers() {
@@ -228,9 +240,9 @@ void Welcome::goTo(QPushButton* from, int key) {
     int next = place;
     if (key == Qt::Key_Left) next = place - 1;
     if (key == Qt::Key_Right) next = place + 1;
-    if (key == Qt::Key_Up) next = place - kColumns;
+    if (key == Qt::Key_Up) next = place - columns_;
     if (key == Qt::Key_Down)
-        next = place / kColumns < last / kColumns ? std::min(place + kColumns, last) : place;
+        next = place / columns_ < last / columns_ ? std::min(place + columns_, last) : place;
     if (next < 0 || next > last) return;
     all[static_cast<std::size_t>(next)]->setFocus(Qt::TabFocusReason);
     area_->ensureWidgetVisible(all[static_cast<std::size_t>(next)]);
@@ -267,6 +279,14 @@ bool Welcome::eventFilter(QObject* watched, QEvent* event) {
         default:
             return QWidget::eventFilter(watched, event);
     }
+}
+
+void Welcome::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    const int fitting = (width() - kGap) / (kChoiceWidth + kGap);
+    // Three would leave one of the four ways to begin alone in its row.
+    const int columns = fitting >= kColumns ? kColumns : std::clamp(fitting, 1, kColumns / 2);
+    if (columns != columns_) arrange(columns);
 }
 
 void Welcome::showEvent(QShowEvent* event) {

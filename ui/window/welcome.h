@@ -37,6 +37,7 @@ class Welcome : public QWidget {
 
  protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
     void showEvent(QShowEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void changeEvent(QEvent* event) override;
@@ -46,6 +47,7 @@ class Welcome : public QWidget {
                            const QString& text);
     QWidget* makeNotes();
     [[nodiscard]] std::vector<QPushButton*> cards() const;
+    void arrange(int columns);
     void goTo(QPushButton* from, int key);
     void focusFirst();
     void focusLater();
@@ -53,7 +55,9 @@ class Welcome : public QWidget {
     void showCovers();
 
     QScrollArea* area_;
+    int columns_ = 0;  // of cards
     QWidget* choices_;
+    QGridLayout* choiceGrid_ = nullptr;
     std::vector<QPushButton*> choiceCards_;
     QWidget* recent_;
     QGridLayout* recentGrid_;

@@ -69,6 +69,25 @@ class FirstRunTest : public QObject {
         }
     }
 
+    // As beside the page of a part that is read.
+    void cardsAreInTwoRowsWhereThereIsLessRoom() {
+        User user;
+        QTRY_COMPARE(focused(user), QString("welcome.example"));
+        user.window.resize(900, 720);
+        const auto right = [&] {
+            const auto* open = user.find<QPushButton>("welcome.open");
+            return open->mapTo(user.find<QWidget>("welcome"), open->rect().bottomRight()).x();
+        };
+        QTRY_VERIFY(right() < user.find<QWidget>("welcome")->width());
+        press(user, Qt::Key_Down);
+        QCOMPARE(focused(user), QString("welcome.import"));
+        press(user, Qt::Key_Right);
+        QCOMPARE(focused(user), QString("welcome.open"));
+        user.window.resize(1280, 720);
+        QTRY_COMPARE(user.find<QPushButton>("welcome.open")->y(),
+                     user.find<QPushButton>("welcome.example")->y());
+    }
+
     void returnOpensTheStudyThatWasOpenLast() {
         const QString path = folder_.filePath("return.trap");
         saveStudy(path);
