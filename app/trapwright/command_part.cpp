@@ -232,7 +232,7 @@ nlohmann::ordered_json dropsToJson(const study::DropRecord& record) {
 }
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
-    auto loaded = loadPart(options.part);
+    auto loaded = loadPart(options.part, console);
     if (!loaded) return loaded.failure();
     nlohmann::ordered_json json = partToJson(*loaded);
     console.print(describePart(*loaded, options.everyPose));

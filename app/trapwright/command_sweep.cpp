@@ -49,7 +49,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const double rows = std::floor((options.to - options.from) / options.step + kRounding) + 1.0;
     if (rows > kMostRows)
         return Failure{ExitCode::usage, fmt::format("--step {} is too fine.", options.step)};
-    auto loaded = loadPart(options.part);
+    auto loaded = loadPart(options.part, console);
     if (!loaded) return loaded.failure();
     auto engine = makeEngine(work::engineFor(options.engine, work::EngineUse::judging), {});
     if (!engine) return engine.failure();

@@ -61,7 +61,7 @@ std::string describeShare(const char* what, int count, int trials) {
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto file = track::readTrackFile(options.file);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
-    auto loaded = loadPart(options.part);
+    auto loaded = loadPart(options.part, console);
     if (!loaded) return loaded.failure();
     auto engine = makeEngine(work::engineFor(options.engine, work::EngineUse::judging),
                              {options.threads, options.step * 1e-3});

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "app/trapwright/work_display.h"
 #include "app/trapwright/work_failure.h"
 #include "core/base/resources.h"
 #include "core/study/presets.h"
@@ -48,8 +53,20 @@ Attempt<part::MaterialPair> findPair(const std::string& surface, const LoadedPar
                                material->name, known)};
 }
 
-Attempt<LoadedPart> loadPart(const PartRequest& request) {
-    auto loaded = work::importPartApart(request);
+Attempt<LoadedPart> loadPart(const PartRequest& request, const Console& console) {
+    std::mutex mutex;
+    std::string stage = "starting";
+    base::RunControl control;
+    const auto progress = [&] {
+        const std::lock_guard lock(mutex);
+        return fmt::format("{}: {}", std::filesystem::path(request.part).filename().string(), stage);
+    };
+    const auto tellStage = [&](std::string_view text) {
+        const std::lock_guard lock(mutex);
+        stage = text;
+    };
+    const WorkDisplay display(console, {progress, [&](int /*count*/) { control.cancel(); }});
+    auto loaded = work::importPartApart(request, control, tellStage);
     if (!loaded) return toFailure(loaded.error().failure);
     return std::move(*loaded);
 }

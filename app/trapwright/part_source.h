@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/trapwright/console.h"
 #include "app/trapwright/exit_codes.h"
 #include "app/trapwright/options.h"
 #include "core/part/materials.h"
@@ -19,7 +20,7 @@ std::filesystem::path findOwnMaterials();
 /// The pair of the part's material and this surface, of those that come with Trapwright and the user's.
 Attempt<part::MaterialPair> findPair(const std::string& surface, const LoadedPart& loaded);
 
-/// Imports and builds the part.
-Attempt<LoadedPart> loadPart(const PartRequest& request);
+/// Imports and builds the part; shows how far it is where that takes a while. Ctrl-C stops it at once.
+Attempt<LoadedPart> loadPart(const PartRequest& request, const Console& console);
 
 }  // namespace trapwright::app

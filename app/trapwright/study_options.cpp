@@ -163,7 +163,7 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
     auto applied = applySettings(*settings, options);
     if (!applied) return applied.failure();
     request.defaultDensity = applied->part.density;
-    auto loaded = loadPart(request);
+    auto loaded = loadPart(request, console);
     if (!loaded) return loaded.failure();
     if (creation.surface) {
         auto pair = findPair(*creation.surface, *loaded);
