@@ -26,7 +26,7 @@ void WinnerModel::append(study::Winner winner) {
 void WinnerModel::setPicture(int generation, const QPixmap& picture) {
     const int row = rowOf(generation);
     if (row < 0) return;
-    pictures_[generation] = picture;
+    pictures_.insert(generation, new QPixmap(picture));
     emit dataChanged(index(row), index(row), {Qt::DecorationRole});
 }
 
@@ -64,8 +64,8 @@ QVariant WinnerModel::data(const QModelIndex& index, int role) const {
         case SuccessRole:
             return successWord(record.success());
         case Qt::DecorationRole: {
-            const auto found = pictures_.find(winner.generation);
-            return found == pictures_.end() ? QVariant() : QVariant(found->second);
+            const QPixmap* picture = pictures_.object(winner.generation);
+            return picture == nullptr ? QVariant() : QVariant(*picture);
         }
         case Qt::TextAlignmentRole:
             return static_cast<int>(Qt::AlignCenter);

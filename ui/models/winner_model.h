@@ -1,8 +1,8 @@
 #pragma once
 
 #include <QAbstractListModel>
+#include <QCache>
 #include <QPixmap>
-#include <map>
 #include <vector>
 
 #include "core/study/records.h"
@@ -13,6 +13,9 @@ namespace trapwright::models {
 class WinnerModel : public QAbstractListModel {
     Q_OBJECT
  public:
+    /// So many pictures are kept, those that were looked at last: thousands would fill the memory.
+    static constexpr int kMostPictures = 256;
+
     explicit WinnerModel(QObject* parent = nullptr);
 
     void setWinners(std::vector<study::Winner> winners);
@@ -32,7 +35,7 @@ class WinnerModel : public QAbstractListModel {
 
  private:
     std::vector<study::Winner> winners_;
-    std::map<int, QPixmap> pictures_;
+    QCache<int, QPixmap> pictures_{kMostPictures};
 };
 
 }  // namespace trapwright::models

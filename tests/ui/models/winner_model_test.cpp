@@ -83,6 +83,26 @@ class WinnerModelTest : public QObject {
         model.setWinners({winnerOf(1)});
         QVERIFY(!model.hasPicture(1));
     }
+
+    // Thousands of generations must not fill the memory with pictures that nobody looks at.
+    void onlyPicturesThatWereSeenLastAreKept() {
+        constexpr int kMost = WinnerModel::kMostPictures;
+        std::vector<study::Winner> winners;
+        for (int i = 0; i < kMost + 10; ++i)
+            winners.push_back(winnerOf(i));
+        WinnerModel model;
+        model.setWinners(std::move(winners));
+        const QPixmap picture(8, 8);
+        for (int i = 0; i < kMost; ++i)
+            model.setPicture(i, picture);
+        QVERIFY(model.index(0).data(Qt::DecorationRole).isValid());  // it is looked at
+        for (int i = kMost; i < kMost + 10; ++i)
+            model.setPicture(i, picture);
+        QVERIFY(model.hasPicture(0) && model.hasPicture(kMost + 9));
+        for (int i = 1; i <= 10; ++i)
+            QVERIFY(!model.hasPicture(i));
+        QVERIFY(model.hasPicture(11));
+    }
 };
 
 QTEST_MAIN(WinnerModelTest)
