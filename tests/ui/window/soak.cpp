@@ -15,6 +15,7 @@
 #include <QTest>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <vector>
 
@@ -169,11 +170,14 @@ int main(int argc, char** argv) {
 
     QElapsedTimer clock;
     clock.start();
+    const std::clock_t processor = std::clock();
     window.openFile(arguments[2].toStdString());
     if (!QTest::qWaitFor([&] { return window.desk().session() != nullptr; }, kPatience))
         return fail("the study was not opened", window);
     QCoreApplication::processEvents();
-    std::printf("opened after %.2f s: %zu generations\n", 1e-3 * static_cast<double>(clock.elapsed()),
+    std::printf("opened after %.2f s, %.2f s of a processor: %zu generations\n",
+                1e-3 * static_cast<double>(clock.elapsed()),
+                static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
                 window.desk().session()->summaries().size());
     const int count = arguments.size() > 3 ? arguments[3].toInt() : 0;
     if (arguments[1] == "learn") return learn(window, count);
