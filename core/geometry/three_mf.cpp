@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/file.h"
+#include "core/geometry/package_size.h"
 
 namespace trapwright::geometry {
 
@@ -115,6 +116,8 @@ void appendObject(const Handle& object, double unit, TriangleMesh& mesh) {
 
 /// Reads a package into a model; its unit in metres.
 double readModel(std::string bytes, Handle& model) {
+    if (const base::Status status = checkPackageSize(bytes); !status)
+        throw PackageFailure(status.error().message);
     Handle reader;
     check(NMR::lib3mf_createmodel(model.out()), model);
     check(NMR::lib3mf_model_queryreader(model.get(), "3mf", reader.out()), model);
