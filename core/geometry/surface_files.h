@@ -7,11 +7,13 @@
 
 namespace trapwright::geometry {
 
-/// Reads a PLY (ASCII and binary) or OFF file through CGAL, in the unit of the file, which the formats do not
-/// tell. Faces with more than three corners are triangulated. CGAL and not assimp, which crashes on damaged
-/// files of these formats or takes them for whole. Errors name the file: damaged or cut short, a face with a
-/// vertex that is not there.
+/// Reads a PLY or STL (text and binary), OFF (text) or OBJ file in the unit of the file, which the formats do
+/// not tell. Faces with more than three corners are triangulated by CGAL. The formats are read by our own:
+/// CGAL's and assimp's readers crash on damaged files and refuse or misread whole ones. Errors name the file,
+/// the place in it and what is wrong there.
 base::Result<TriangleMesh> readPly(const std::filesystem::path& path);
 base::Result<TriangleMesh> readOff(const std::filesystem::path& path);
+base::Result<TriangleMesh> readAnyStl(const std::filesystem::path& path);
+base::Result<TriangleMesh> readObj(const std::filesystem::path& path);
 
 }  // namespace trapwright::geometry

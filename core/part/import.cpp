@@ -13,7 +13,6 @@
 #include "core/geometry/three_mf.h"
 #include "core/part/cad_import.h"
 #include "core/part/mesh_import.h"
-#include "core/part/stl_check.h"
 #include "core/part/units.h"
 
 namespace trapwright::part {
@@ -23,11 +22,6 @@ namespace {
 using base::Error;
 
 using Reader = base::Result<FileMesh> (*)(const std::filesystem::path&);
-
-base::Result<FileMesh> readStl(const std::filesystem::path& path) {
-    if (const base::Status status = checkStlFile(path); !status) return status.error();
-    return readMeshFile(path);
-}
 
 base::Result<FileMesh> readGltf(const std::filesystem::path& path) {
     base::Result<FileMesh> result = readMeshFile(path);
@@ -56,8 +50,8 @@ struct Format {
     Reader read;
 };
 
-constexpr std::array<Format, 11> kFormats = {{{".stl", readStl},
-                                              {".obj", readMeshFile},
+constexpr std::array<Format, 11> kFormats = {{{".stl", readSurface<geometry::readAnyStl>},
+                                              {".obj", readSurface<geometry::readObj>},
                                               {".ply", readSurface<geometry::readPly>},
                                               {".off", readSurface<geometry::readOff>},
                                               {".3mf", read3mf},
