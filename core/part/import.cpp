@@ -12,7 +12,7 @@
 #include "core/geometry/surface_files.h"
 #include "core/geometry/three_mf.h"
 #include "core/part/cad_import.h"
-#include "core/part/mesh_import.h"
+#include "core/part/gltf_import.h"
 #include "core/part/units.h"
 
 namespace trapwright::part {
@@ -22,13 +22,6 @@ namespace {
 using base::Error;
 
 using Reader = base::Result<FileMesh> (*)(const std::filesystem::path&);
-
-base::Result<FileMesh> readGltf(const std::filesystem::path& path) {
-    base::Result<FileMesh> result = readMeshFile(path);
-    if (result)
-        result->unit = LengthUnit{"m", 1.0};  // glTF 2.0, section 3.4: all linear distances are metres
-    return result;
-}
 
 base::Result<FileMesh> read3mf(const std::filesystem::path& path) {
     base::Result<geometry::PackagedMesh> package = geometry::read3mfWithUnit(path);
@@ -55,8 +48,8 @@ constexpr std::array<Format, 11> kFormats = {{{".stl", readSurface<geometry::rea
                                               {".ply", readSurface<geometry::readPly>},
                                               {".off", readSurface<geometry::readOff>},
                                               {".3mf", read3mf},
-                                              {".gltf", readGltf},
-                                              {".glb", readGltf},
+                                              {".gltf", readGltfFile},
+                                              {".glb", readGltfFile},
                                               {".step", readStepFile},
                                               {".stp", readStepFile},
                                               {".iges", readIgesFile},
