@@ -1,5 +1,8 @@
 #include "core/part/import.h"
 
+#include <sys/stat.h>
+
+#include <QDir>
 #include <QFile>
 #include <QTemporaryDir>
 #include <QTest>
@@ -11,6 +14,7 @@
 #include "core/geometry/mesh_files.h"
 #include "core/geometry/three_mf.h"
 #include "core/part/shapes.h"
+#include "mesh_files.h"
 
 using namespace trapwright;
 using base::kMillimetre;
@@ -106,6 +110,140 @@ class ImportTest : public QObject {
         QVERIFY(!imported->unitsFromFile);
         QCOMPARE(imported->notes.size(), std::size_t{1});
         QVERIFY(imported->notes[0].find("assumed millimetres") != std::string::npos);
+    }
+
+    void readsWhatExportersWrite_data() {
+        using namespace mesh_files;
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<QByteArray>("content");
+        const QByteArray points = vertices("v ", "");
+        const QByteArray faces = sides("f", 1, "", "");
+        QTest::newRow("OBJ, from the end") << "a.obj" << points + sides("f", -8, "", "");
+        QTest::newRow("OBJ, texture and normal")
+            << "a.obj" << points + "vt 0 0\nvn 0 0 1\n" + sides("f", 1, "/1/1", "");
+        QTest::newRow("OBJ, normal") << "a.obj" << points + "vn 0 0 1\n" + sides("f", 1, "//1", "");
+        QTest::newRow("OBJ, edges and points as faces") << "a.obj" << points + "f 3\nf 3 4\n" + faces;
+        QTest::newRow("OBJ, lines and points") << "a.obj" << points + "l 1 2 3\np 1\n" + faces;
+        QTest::newRow("OBJ, comments behind") << "a.obj" << points + sides("f", 1, "", " # a side");
+        QTest::newRow("OBJ, indented") << "a.obj" << vertices("  v ", "") + sides("  f", 1, "", "");
+        QTest::newRow("OBJ, parameter points") << "a.obj"
+                                               << "vp 0.1 0.2\n" + points + faces;
+        QTest::newRow("OBJ, byte order mark") << "a.obj"
+                                              << "\xef\xbb\xbf" + points + faces;
+        QTest::newRow("OBJ, continued lines") << "a.obj" << points + sides("f \\\n", 1, "", "");
+        QTest::newRow("OBJ, faces first") << "a.obj" << faces + points;
+        QTest::newRow("OBJ, colours") << "a.obj" << vertices("v ", " 1 0 0.5") + faces;
+        QTest::newRow("OBJ, groups") << "a.obj"
+                                     << "o a\ng\ns 1\n" + points + "g b c\nusemtl m\n" + faces;
+        QTest::newRow("OBJ, no such materials") << "a.obj"
+                                                << "mtllib gone.mtl\n" + points + faces;
+        QTest::newRow("OBJ, endless materials") << "a.obj"
+                                                << "mtllib /dev/zero\n" + points + faces;
+        QTest::newRow("OFF, no edges") << "a.off" << off().replace("8 6 12", "8 6");
+        QTest::newRow("OFF, comments") << "a.off" << off().replace("8 6 12", "# made\n\n8 6 12 # counts");
+        QTest::newRow("OFF, no keyword") << "a.off" << off().mid(4);
+        QTest::newRow("OFF, colours of faces")
+            << "a.off"
+            << "OFF 8 6 0\n" + vertices("", "") + sides("4", 0, "", " 255 0 0");
+        QTest::newRow("COFF") << "a.off"
+                              << "COFF\n8 6 0\n" + vertices("", " 9 9 9 255") + sides("4", 0, "", "");
+        QTest::newRow("PLY, CRLF") << "a.ply" << ply().replace("\n", "\r\n");
+        QTest::newRow("PLY, vertex_index") << "a.ply" << ply().replace("vertex_indices", "vertex_index");
+        QTest::newRow("PLY, another list")
+            << "a.ply"
+            << plyHeader("ascii", "", "property list uchar float uv\n") + "end_header\n" + vertices("", "") +
+                   sides("4", 0, "", " 2 0.5 0.5");
+        QTest::newRow("PLY, a list in vertices")
+            << "a.ply"
+            << plyHeader("ascii", "property list uchar int near\n", "") + "end_header\n" +
+                   vertices("", " 2 1 2") + sides("4", 0, "", "");
+        QTest::newRow("PLY, another element")
+            << "a.ply"
+            << plyHeader("ascii", "element edge 1\nproperty int a\n", "") + "end_header\n" +
+                   vertices("", "") + "3\n" + sides("4", 0, "", "");
+        QTest::newRow("PLY, a strip")
+            << "a.ply"
+            << "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float "
+               "z\n"
+               "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
+                   vertices("", "") + "14 3 2 7 6 4 2 0 3 1 7 5 4 1 0\n";
+        QTest::newRow("PLY, little-endian") << "a.ply" << binaryPly(false);
+        QTest::newRow("PLY, big-endian") << "a.ply" << binaryPly(true);
+        QTest::newRow("STL, capitals") << "a.stl" << stl().toUpper();
+        QTest::newRow("STL, blank lines first") << "a.stl"
+                                                << "\n  " + stl();
+        QTest::newRow("STL, stray bytes")
+            << "a.stl" << stl().replace(20, 1, "\x01") + QByteArray("\0\x1a", 2);
+        QTest::newRow("STL, Latin-1 name") << "a.stl" << stl().replace("solid cube", "solid W\xfcrfel");
+        QTest::newRow("STL, name of keywords") << "a.stl" << stl().replace("cube", "vertex endfacet");
+        QByteArray two = stl();
+        two.replace(two.indexOf("\nfacet", two.size() / 2), 1, "\nendsolid cube\nsolid b\n");
+        QTest::newRow("STL, two solids") << "a.stl" << two;
+        QTest::newRow("binary STL, solid") << "a.stl" << mesh_files::binaryStl("solid cube");
+        QTest::newRow("binary STL, bytes behind") << "a.stl" << mesh_files::binaryStl("solid cube") + "\n\n";
+        QTest::newRow("glTF") << "a.gltf" << embeddedGltf();
+        QTest::newRow("glTF, no scene")
+            << "a.gltf" << embeddedGltf().replace(",\"scenes\":[{\"nodes\":[0]}]", "");
+        QTest::newRow("glTF, a skin")
+            << "a.gltf"
+            << embeddedGltf()
+                   .replace("{\"mesh\":0}", "{\"mesh\":0,\"skin\":0},{}")
+                   .replace("\"nodes\":[0]}]", "\"nodes\":[0,1]}],\"skins\":[{\"joints\":[1]}]");
+        QTest::newRow("GLB") << "a.glb" << glb(true);
+        QTest::newRow("GLB, not aligned") << "a.glb" << glb(false);
+    }
+
+    void readsWhatExportersWrite() {
+        QFETCH(QString, name);
+        QFETCH(QByteArray, content);
+        const bool metres = name.endsWith(".gltf") || name.endsWith(".glb");
+        const auto imported = part::importMesh(write(name, content), metres ? "m" : "mm");
+        QVERIFY2(imported.ok(), imported ? "" : imported.error().message.c_str());
+        QCOMPARE(imported->mesh.triangles.size(), std::size_t{12});
+        const geometry::MassProperties properties = geometry::calcMassProperties(imported->mesh, 1.0);
+        QVERIFY(std::abs(properties.volume - 1e-6) < 1e-11);
+        QVERIFY((properties.centre - Vec3(5, 5, 5) * kMillimetre).norm() < 1e-8);
+    }
+
+    /// Other files that a part's file names are read only where they lie beside it.
+    void buffersBesideThePart_data() {
+        QTest::addColumn<QString>("uri");
+        QTest::addColumn<QString>("message");  // empty: is read
+        QTest::newRow("beside") << "my cube.bin"
+                                << "";
+        QTest::newRow("percent-encoded") << "my%20cube.bin"
+                                         << "";
+        QTest::newRow("below") << "data/cube.bin"
+                               << "";
+        QTest::newRow("there and back") << "data/../my cube.bin"
+                                        << "";
+        QTest::newRow("above") << "../cube.bin"
+                               << "outside the part's folder";
+        QTest::newRow("a link to above") << "link.bin"
+                                         << "outside the part's folder";
+        QTest::newRow("missing") << "gone.bin"
+                                 << "does not exist";
+        QTest::newRow("a pipe") << "pipe"
+                                << "not a regular file";
+        QTest::newRow("a folder") << "data"
+                                  << "not a regular file";
+    }
+
+    void buffersBesideThePart() {
+        QFETCH(QString, uri);
+        QFETCH(QString, message);
+        const QDir top(folder_.filePath("external"));
+        QVERIFY(top.mkpath("part/data"));
+        for (const char* name : {"cube.bin", "part/my cube.bin", "part/data/cube.bin"})
+            write("external/" + QString(name), mesh_files::gltfBuffer());
+        QFile::link(top.filePath("cube.bin"), top.filePath("part/link.bin"));
+        ::mkfifo(top.filePath("part/pipe").toLocal8Bit().constData(), 0600);
+        const auto imported = part::importMesh(
+            write("external/part/a.gltf", mesh_files::gltf("\"uri\":\"" + uri.toUtf8() + "\",")));
+        QCOMPARE(imported.ok(), message.isEmpty());
+        if (imported) return;
+        const QString found = QString::fromStdString(imported.error().message);
+        QVERIFY2(found.contains(message) && found.contains("a.gltf"), qPrintable(found));
     }
 
     void readsBinaryStl() {
@@ -248,6 +386,33 @@ class ImportTest : public QObject {
         QTest::newRow("OFF cut short") << "a.off" << QByteArray(kOff).left(40) << "cut short";
         QTest::newRow("OBJ, no such vertex") << "a.obj" << scaled(kObj, "f 2 3 4", "f 2 3 9") << "a.obj";
         QTest::newRow("garbage as PLY") << "a.ply" << QByteArray("ply\nformat ascii 1.0\n") << "a.ply";
+        using namespace mesh_files;
+        QTest::newRow("PLY, property first")
+            << "a.ply" << ply().replace("element vertex", "property int a\nelement vertex")
+            << "a property before the first element";
+        QTest::newRow("PLY, too many")
+            << "a.ply" << ply().replace("vertex 8", "vertex 4000000000000") << "cut short";
+        QTest::newRow("PLY, long list") << "a.ply" << ply().replace("\n4 0 2 3 1", "\n400000000 0 2 3 1")
+                                        << "more entries than the file can hold";
+        QTest::newRow("PLY, no corners")
+            << "a.ply" << ply().replace("vertex_indices", "indices") << "no list \"vertex_indices\"";
+        QTest::newRow("PLY, unknown type") << "a.ply" << ply().replace("float x", "real x") << "\"real\"";
+        QTest::newRow("OBJ, no number") << "a.obj" << obj().replace("v 10 0 0", "v 10 O 0") << "line 2";
+        QTest::newRow("OFF, binary") << "a.off" << QByteArray("OFF BINARY\n\0\0\0", 14) << "binary";
+        QTest::newRow("OFF, too many") << "a.off" << off().replace("8 6 12", "80000000 6 12") << "cut short";
+        QTest::newRow("STL, two corners")
+            << "a.stl" << stl().replace(" vertex 0 0 0\n", " \n") << "facet 1 has 2 corners";
+        QTest::newRow("glTF 1") << "a.gltf" << embeddedGltf().replace("2.0", "1.0") << "glTF 1.0";
+        QTest::newRow("glTF, no such vertex")
+            << "a.gltf" << embeddedGltf().replace("\"count\":8", "\"count\":7") << "6 of its 12 triangles";
+        QTest::newRow("glTF, deep") << "a.gltf" << QByteArray(100000, '[') << "deeper than";
+        QTest::newRow("glTF, a loop")
+            << "a.gltf" << embeddedGltf().replace("{\"mesh\":0}", "{\"mesh\":0,\"children\":[0]}")
+            << "below itself";
+        QTest::newRow("glTF, cut short") << "a.gltf" << embeddedGltf().left(200) << "at byte";
+        QTest::newRow("glTF, quantized")
+            << "a.gltf" << embeddedGltf().replace("5126", "5122") << "KHR_mesh_quantization";
+        QTest::newRow("GLB, cut short") << "a.glb" << glb(true).chopped(20) << "cut short";
         QTest::newRow("garbage as glTF") << "a.gltf" << QByteArray("{}") << "a.gltf";
         QTest::newRow("garbage as 3MF") << "a.3mf" << QByteArray("PK no zip") << "a.3mf";
         QTest::newRow("garbage as STEP") << "a.step" << QByteArray("ISO-10303-21;\nnonsense\n") << "a.step";
