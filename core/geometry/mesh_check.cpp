@@ -7,6 +7,7 @@
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/mesh_edges.h"
 #include "core/geometry/self_overlap.h"
+#include "core/geometry/shell_nesting.h"
 
 namespace trapwright::geometry {
 
@@ -91,6 +92,14 @@ std::vector<MeshHole> findHoles(const TriangleMesh& mesh, const EdgeUses& edges)
     return result;
 }
 
+int countInsideOut(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
+    const ShellNesting nesting = findNesting(mesh, shells, calcWeldTolerance(mesh));
+    int count = 0;
+    for (std::size_t i = 0; i < shells.size(); ++i)
+        if (!nesting.isRightWayOut(shells[i], i) && !nesting.hasContact(i)) ++count;
+    return count;
+}
+
 }  // namespace
 
 bool MeshReport::isSolid() const {
@@ -122,8 +131,7 @@ MeshReport checkMesh(const TriangleMesh& mesh, bool findOverlaps) {
     const std::vector<Shell> shells = findShells(welded);
     report.shells = static_cast<int>(shells.size());
     if (report.openEdges == 0 && report.inconsistentEdges == 0)
-        report.insideOutShells = static_cast<int>(std::count_if(
-            shells.begin(), shells.end(), [](const Shell& shell) { return !shell.isRightWayOut(); }));
+        report.insideOutShells = countInsideOut(welded, shells);
     report.volume = calcMassProperties(welded, 1.0).volume;
     if (findOverlaps)
         report.overlappingTriangles = countOverlappingTriangles(welded, welded.triangles.size());

@@ -27,7 +27,7 @@ struct MeshReport {
     int openEdges = 0;                                  // with one triangle
     std::vector<MeshHole> holes;                        // largest perimeter first
     int shells = 0;
-    int insideOutShells = 0;       // counted where there are no open and no inconsistent edges
+    int insideOutShells = 0;       // of those that touch no other; only without open and inconsistent edges
     int overlappingTriangles = 0;  // that cross or touch a triangle that is no neighbour; only on request
     double volume = 0.0;           // [m^3]
 

@@ -4,33 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
-
-#include "core/geometry/mass_properties.h"
-#include "core/geometry/winding.h"
 
 namespace trapwright::geometry {
 
 namespace {
 
 using GridCell = std::array<std::int64_t, 3>;
-
-std::size_t findRoot(std::vector<std::size_t>& parents, std::size_t i) {
-    while (parents[i] != i)
-        i = parents[i] = parents[parents[i]];
-    return i;
-}
-
-TriangleMesh extractShell(const TriangleMesh& mesh, const Shell& shell) {
-    TriangleMesh result;
-    for (const std::size_t i : shell.triangles) {
-        const int first = static_cast<int>(result.vertices.size());
-        for (const int vertex : mesh.triangles[i])
-            result.vertices.push_back(mesh.vertices[vertex]);
-        result.triangles.push_back({first, first + 1, first + 2});
-    }
-    return result;
-}
 
 }  // namespace
 
@@ -95,36 +74,6 @@ TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance) {
         welded.triangles.push_back(t);
     }
     return welded;
-}
-
-std::vector<Shell> findShells(const TriangleMesh& mesh) {
-    std::vector<std::size_t> parents(mesh.triangles.size());
-    std::iota(parents.begin(), parents.end(), std::size_t{0});
-    std::map<std::pair<int, int>, std::size_t> firstAt;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (int k = 0; k < 3; ++k) {
-            const auto edge = std::minmax(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
-            const auto [place, isNew] = firstAt.emplace(std::pair<int, int>(edge), i);
-            if (!isNew) parents[findRoot(parents, i)] = findRoot(parents, place->second);
-        }
-
-    std::vector<Shell> shells;
-    std::map<std::size_t, std::size_t> shellOfRoot;
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-        const auto [place, isNew] = shellOfRoot.emplace(findRoot(parents, i), shells.size());
-        if (isNew) shells.emplace_back();
-        shells[place->second].triangles.push_back(i);
-    }
-    std::vector<TriangleMesh> meshes;
-    for (Shell& shell : shells) {
-        meshes.push_back(extractShell(mesh, shell));
-        shell.volume = calcMassProperties(meshes.back(), 1.0).volume;
-    }
-    for (std::size_t i = 0; i < shells.size(); ++i)
-        for (std::size_t j = 0; j < shells.size(); ++j)
-            if (i != j && std::abs(calcWindingNumber(meshes[j], meshes[i].vertices[0])) > 0.5)
-                ++shells[i].depth;
-    return shells;
 }
 
 }  // namespace trapwright::geometry

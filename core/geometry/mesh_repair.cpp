@@ -9,6 +9,10 @@
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/mesh_check.h"
 #include "core/geometry/mesh_edges.h"
+#include "core/geometry/sheet_separation.h"
+#include "core/geometry/shell_nesting.h"
+#include "core/geometry/shell_roles.h"
+#include "core/geometry/shell_union.h"
 #include "core/geometry/surface_closing.h"
 
 namespace trapwright::geometry {
@@ -67,24 +71,36 @@ int dropDegenerates(TriangleMesh& mesh) {
     return static_cast<int>(before - mesh.triangles.size());
 }
 
-int dropDuplicates(TriangleMesh& mesh) {
-    const std::size_t before = mesh.triangles.size();
-    std::set<Triangle> known;
-    std::erase_if(mesh.triangles, [&](Triangle key) {
-        std::sort(key.begin(), key.end());
-        return !known.insert(key).second;
-    });
-    return static_cast<int>(before - mesh.triangles.size());
+int countOdd(const TriangleMesh& mesh) {
+    const EdgeUses edges = collectEdges(mesh);
+    return static_cast<int>(std::count_if(edges.begin(), edges.end(),
+                                          [](const auto& edge) { return edge.second.count() % 2 != 0; }));
 }
 
-/// Turns shells so that the solid is on the inner side, cavities excepted.
-void orientShells(TriangleMesh& mesh, std::vector<Shell>& shells) {
-    for (Shell& shell : shells) {
-        if (shell.isRightWayOut()) continue;
-        for (const std::size_t i : shell.triangles)
-            std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-        shell.volume = -shell.volume;
+/// Drops triangles with the corners of one before. Where solids touch, their faces lie on each other and face
+/// either way: then one of each kind stays, if that leaves the surface better closed.
+int dropDuplicates(TriangleMesh& mesh) {
+    TriangleMesh once{mesh.vertices, {}};
+    TriangleMesh eitherWay{mesh.vertices, {}};
+    std::set<Triangle> known;
+    std::set<Triangle> knownWay;
+    for (const Triangle& t : mesh.triangles) {
+        Triangle way = t;
+        std::rotate(way.begin(), std::min_element(way.begin(), way.end()), way.end());
+        Triangle corners = t;
+        std::sort(corners.begin(), corners.end());
+        if (known.insert(corners).second) once.triangles.push_back(t);
+        if (knownWay.insert(way).second) eitherWay.triangles.push_back(t);
     }
+    const std::size_t before = mesh.triangles.size();
+    const std::size_t count = once.triangles.size();
+    if (count == before) return 0;
+    // A surface that comes whole from either side is that of a viewer, not of solids that touch.
+    const bool isTouching = eitherWay.triangles.size() > count && eitherWay.triangles.size() < 2 * count;
+    TriangleMesh& best = isTouching && countOdd(eitherWay) <= countOdd(once) ? eitherWay : once;
+    if (countOdd(best) > countOdd(mesh)) return 0;  // parts of shells that overlap
+    mesh = std::move(best);
+    return static_cast<int>(before - mesh.triangles.size());
 }
 
 base::Vec3 calcNormal(const TriangleMesh& mesh, std::size_t i) {
@@ -99,12 +115,92 @@ int countTurned(const TriangleMesh& before, const TriangleMesh& after) {
     return turned;
 }
 
-void noteShells(const std::vector<Shell>& shells, std::vector<std::string>& notes) {
+/// Whether the file has each shell face inward: by area, as single triangles of it may face either way.
+std::vector<char> findFacedInward(const TriangleMesh& file, const TriangleMesh& mesh,
+                                  const std::vector<Shell>& shells) {
+    std::vector<char> facedInward;
+    for (const Shell& shell : shells) {
+        double agreement = 0.0;
+        for (const std::size_t i : shell.triangles)
+            if (i < file.triangles.size()) {
+                const base::Vec3 normal = calcNormal(mesh, i);
+                agreement += std::copysign(normal.norm(), normal.dot(calcNormal(file, i)));
+            }
+        facedInward.push_back((agreement < 0.0) != (shell.volume < 0.0) ? 1 : 0);
+    }
+    return facedInward;
+}
+
+/// Turns shells so that the solid is on their inner side, cavities excepted.
+void orientShells(TriangleMesh& mesh, std::vector<Shell>& shells, const std::vector<ShellRole>& roles) {
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+        if ((shells[i].volume < 0.0) == roles[i].isCavity) continue;
+        for (const std::size_t triangle : shells[i].triangles)
+            std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+        shells[i].volume = -shells[i].volume;
+    }
+}
+
+void noteShells(const std::vector<Shell>& shells, const std::vector<ShellRole>& roles,
+                std::vector<std::string>& notes) {
+    const auto doubtful =
+        std::count_if(roles.begin(), roles.end(), [](const ShellRole& role) { return role.isDoubtful; });
+    if (doubtful > 0)
+        notes.push_back("took " + formatCount(static_cast<int>(doubtful), "shell", "shells") +
+                        " for cavities, being wholly inside another one, although facing outward. If solid, "
+                        "unite the bodies in CAD");
     if (shells.size() < 2) return;
     const auto cavities =
-        std::count_if(shells.begin(), shells.end(), [](const Shell& shell) { return shell.depth % 2 == 1; });
+        std::count_if(shells.begin(), shells.end(), [](const Shell& shell) { return shell.volume < 0.0; });
     notes.push_back("kept " + formatCount(static_cast<int>(shells.size()), "shell", "shells") + ", " +
                     formatCount(static_cast<int>(cavities), "of them a cavity", "of them cavities"));
+}
+
+/// Whether each edge has one triangle on either side, taking vertices at one place for different ones.
+bool isClosed(const TriangleMesh& mesh) {
+    const EdgeUses edges = collectEdges(mesh);
+    return std::all_of(edges.begin(), edges.end(), [](const auto& edge) {
+        return edge.second.forward == 1 && edge.second.backward == 1;
+    });
+}
+
+base::Status refuseOpen(const TriangleMesh& mesh, double largestHole) {
+    const MeshReport report = checkMesh(mesh);
+    if ((report.holes.empty() && report.inconsistentEdges == 0) || isClosed(mesh)) return base::success();
+    if (!report.holes.empty())
+        return base::Error{
+            "the surface is open: " +
+            formatCount(static_cast<int>(report.holes.size()), "hole remains", "holes remain") +
+            ", the largest of " + describe(report.holes.front()) + ". Only holes of up to " +
+            formatMillimetres(largestHole) + " are filled. Close it in CAD and export the part as a solid"};
+    return base::Error{"the surface has no inside: surfaces meet in " +
+                       formatCount(report.inconsistentEdges, "edge", "edges") + " near " +
+                       formatPlace(report.inconsistentPlace) +
+                       " without closing a volume. Remove inner walls in CAD and export the part as a solid"};
+}
+
+/// Orients shells and unites those that overlap. `file` has the first triangles as they came.
+base::Status settleShells(const TriangleMesh& file, RepairedMesh& repaired) {
+    std::vector<Shell> shells = findShells(repaired.mesh);
+    const ShellNesting nesting = findNesting(repaired.mesh, shells, calcWeldTolerance(repaired.mesh));
+    const auto roles =
+        findShellRoles(repaired.mesh, shells, nesting, findFacedInward(file, repaired.mesh, shells));
+    if (!roles) return roles.error();
+    orientShells(repaired.mesh, shells, *roles);
+    if (const int turned = countTurned(file, repaired.mesh); turned > 0)
+        repaired.notes.push_back("turned " + formatCount(turned, "triangle", "triangles") +
+                                 " to face outward");
+    const bool isAnyEmbedded = std::any_of(roles->begin(), roles->end(),
+                                           [](const ShellRole& role) { return role.embeddedIn.has_value(); });
+    if (!nesting.contacts.empty() || isAnyEmbedded) {
+        auto united = uniteShells(repaired.mesh, shells, nesting, *roles);
+        if (!united) return united.error();
+        repaired.mesh = std::move(united->mesh);
+        repaired.notes.insert(repaired.notes.end(), united->notes.begin(), united->notes.end());
+        shells = findShells(repaired.mesh);
+    }
+    noteShells(shells, *roles, repaired.notes);
+    return base::success();
 }
 
 }  // namespace
@@ -123,35 +219,21 @@ base::Result<RepairedMesh> repairMesh(const TriangleMesh& mesh, double largestHo
     if (!computeConvexHull(clean))
         return base::Error{"the mesh has no volume: all of it lies in one plane or line through " +
                            formatPlace(mesh.vertices[mesh.triangles[0][0]]) + ". Export the part as a solid"};
-    if (const MeshReport report = checkMesh(clean); report.nonManifoldEdges > 0)
+    const MeshReport report = checkMesh(clean);
+    if (report.nonManifoldEdges > 0)
         notes.push_back("took surfaces apart at " + formatCount(report.nonManifoldEdges, "edge", "edges") +
                         " where more than two triangles meet");
 
-    base::Result<ClosedSurface> closed = closeSurface(clean, largestHole * size);
+    const bool isTouching = report.nonManifoldEdges + report.duplicateTriangles > 0;
+    base::Result<ClosedSurface> closed =
+        closeSurface(isTouching ? separateSheets(clean) : clean, largestHole * size);
     if (!closed) return closed.error();
     for (const MeshHole& hole : closed->filled)
         notes.push_back("filled a hole: " + describe(hole));
     repaired.mesh = std::move(closed->mesh);
-    const MeshReport after = checkMesh(repaired.mesh);
-    if (!after.holes.empty())
-        return base::Error{"the surface is open: " +
-                           formatCount(static_cast<int>(after.holes.size()), "hole remains", "holes remain") +
-                           ", the largest of " + describe(after.holes.front()) + ". Only holes of up to " +
-                           formatMillimetres(largestHole * size) +
-                           " are filled. Close it in CAD and export the part as a solid"};
-
-    if (after.inconsistentEdges > 0)
-        return base::Error{
-            "the surface has no inside: surfaces meet in " +
-            formatCount(after.inconsistentEdges, "edge", "edges") + " near " +
-            formatPlace(after.inconsistentPlace) +
-            " without closing a volume. Remove inner walls in CAD and export the part as a solid"};
-
-    std::vector<Shell> shells = findShells(repaired.mesh);
-    orientShells(repaired.mesh, shells);
-    if (const int turned = countTurned(clean, repaired.mesh); turned > 0)
-        notes.push_back("turned " + formatCount(turned, "triangle", "triangles") + " to face outward");
-    noteShells(shells, notes);
+    if (const base::Status status = refuseOpen(repaired.mesh, largestHole * size); !status)
+        return status.error();
+    if (const base::Status status = settleShells(clean, repaired); !status) return status.error();
 
     const double volume = calcMassProperties(repaired.mesh, 1.0).volume;
     if (!(volume > kSmallestVolume * size * size * size))

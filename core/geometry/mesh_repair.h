@@ -18,10 +18,11 @@ struct RepairedMesh {
 };
 
 /// Mends a mesh as it comes from a file: welds vertices, drops degenerate and duplicate triangles, turns
-/// triangles that disagree with their neighbours, fills small holes, and orients shells outward, or inward
-/// where a shell is inside another one. Several shells are kept, with a note. Error, naming the place in
-/// millimetres and what to do: no triangles, coordinates that are not finite, a hole with a perimeter above
-/// `largestHole` times the diagonal of the box, no volume.
+/// triangles that disagree with their neighbours, fills small holes, orients shells outward, or inward where
+/// they are cavities (findShellRoles says which are), and unites shells that overlap or share a face, each
+/// with a note. Error, naming the place in millimetres and what to do: no triangles, coordinates that are not
+/// finite, a hole with a perimeter above `largestHole` times the diagonal of the box, shells that overlap and
+/// cannot be united, no volume.
 base::Result<RepairedMesh> repairMesh(const TriangleMesh& mesh, double largestHole = kLargestHole);
 
 }  // namespace trapwright::geometry

@@ -7,6 +7,7 @@
 #include "core/part/import.h"
 #include "core/part/materials.h"
 #include "core/part/shapes.h"
+#include "tests/core/geometry/multi_shell_scenes.h"
 
 using namespace trapwright;
 using base::kMillimetre;
@@ -79,6 +80,28 @@ class PartBuilderTest : public QObject {
         for (const std::string& note : built->notes)
             notes << QString::fromStdString(note);
         QCOMPARE(notes.join("; "), told);
+    }
+
+    void partsOfSeveralShells_data() {
+        QTest::addColumn<geometry::TriangleMesh>("mesh");
+        QTest::addColumn<double>("volume");
+        using namespace geometry::multi_shell;
+        for (const Scene& scene : makeScenes())
+            for (const Disguise& disguise : {kDisguises[1], kDisguises[4]})
+                QTest::addRow("%s, %s", scene.name, disguise.name)
+                    << makeSample(scene, disguise).mesh << scene.solid.volume * 1e-9;
+    }
+
+    void partsOfSeveralShells() {
+        QFETCH(geometry::TriangleMesh, mesh);
+        QFETCH(double, volume);
+        const auto built = part::buildPart(mesh, {.density = 1000.0});
+        QVERIFY2(built.ok(), built ? "" : built.error().message.c_str());
+        QVERIFY(std::abs(built->part.massProperties.volume / volume - 1.0) < 1e-6);
+        double pieces = 0.0;
+        for (const geometry::ConvexPolytope& piece : built->part.pieces)
+            pieces += calcVolume(piece);
+        QVERIFY(std::abs(pieces / volume - 1.0) < 1e-2);
     }
 
     void bundledPartsFromTheirFiles_data() {
