@@ -79,7 +79,7 @@ TriangleMesh computeHullTriangles(const std::vector<base::Vec3>& points) {
 
 }  // namespace
 
-base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> points) {
+base::Result<TriangleMesh> computeHullMesh(std::span<const base::Vec3> points) {
     std::vector<base::Vec3> sorted(points.begin(), points.end());
     for (std::size_t i = 0; i < sorted.size(); ++i)
         if (!sorted[i].allFinite())
@@ -91,20 +91,24 @@ base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> point
         return base::Error{
             "No convex hull: the " + std::to_string(sorted.size()) +
             " different points lie in one plane and enclose no volume. Use a part that is a solid."};
-
     try {
-        const TriangleMesh hull = computeHullTriangles(sorted);
-        const double size = (calcBoundingBox(hull).size()).norm();
-        // The last, negative one leaves every triangle a face of its own.
-        for (const double tolerance : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, -1.0})
-            if (auto polytope = mergeCoplanarTriangles(hull, tolerance * kCoplanarTolerance * size))
-                return std::move(*polytope);
-        return base::Error{"No convex hull: the hull of " + std::to_string(sorted.size()) +
-                           " points has no clean faces. Use a part with fewer tiny triangles."};
+        return computeHullTriangles(sorted);
     } catch (const std::exception& failure) {
         return base::Error{std::string("No convex hull: CGAL gave up: ") + failure.what() +
                            ". Repair the part's mesh."};
     }
+}
+
+base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> points) {
+    const auto hull = computeHullMesh(points);
+    if (!hull) return hull.error();
+    const double size = (calcBoundingBox(*hull).size()).norm();
+    // The last, negative one leaves every triangle a face of its own.
+    for (const double tolerance : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, -1.0})
+        if (auto polytope = mergeCoplanarTriangles(*hull, tolerance * kCoplanarTolerance * size))
+            return std::move(*polytope);
+    return base::Error{"No convex hull: the hull of " + std::to_string(hull->vertices.size()) +
+                       " corners has no clean faces. Use a part with fewer tiny triangles."};
 }
 
 base::Result<ConvexPolytope> computeConvexHull(const TriangleMesh& mesh) {

@@ -14,6 +14,9 @@ namespace trapwright::geometry {
 /// coordinate is not finite, or the points do not span a volume (fewer than 4 that are not in one plane).
 base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> points);
 
+/// The same hull as triangles, without merging any: quicker, for weighing many.
+base::Result<TriangleMesh> computeHullMesh(std::span<const base::Vec3> points);
+
 /// The convex hull of the vertices that triangles of `mesh` use.
 base::Result<ConvexPolytope> computeConvexHull(const TriangleMesh& mesh);
 

@@ -216,7 +216,7 @@ base::Result<RepairedMesh> repairMesh(const TriangleMesh& mesh, double largestHo
         notes.push_back("dropped " + formatCount(count, "triangle", "triangles") + " without area");
     if (const int count = dropDuplicates(clean); count > 0)
         notes.push_back("dropped " + formatCount(count, "repeated triangle", "repeated triangles"));
-    if (!computeConvexHull(clean))
+    if (!computeHullMesh(clean.vertices))
         return base::Error{"the mesh has no volume: all of it lies in one plane or line through " +
                            formatPlace(mesh.vertices[mesh.triangles[0][0]]) + ". Export the part as a solid"};
     const MeshReport report = checkMesh(clean);
