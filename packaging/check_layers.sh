@@ -54,6 +54,7 @@ ODE          tests/peers    ^ode/
 MuJoCo       tests/peers    ^mujoco/
 Random123    core/base      ^Random123/
 HACD         one            (^|/)hacd[A-Z]
+meshoptimizer core/geometry ^meshoptimizer[.]h
 lib3mf       one            (^|/)(lib3mf|NMR_|Model/COM/)
 RULES
 

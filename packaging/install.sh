@@ -8,7 +8,7 @@ packages=(
     # numbers and random streams
     libboost-dev libeigen3-dev librandom123-dev
     # parts and tracks: reading, repairing, taking apart, writing
-    lib3mf-dev libassimp-dev libbullet-dev libbullet-extras-dev libcgal-dev
+    lib3mf-dev libassimp-dev libbullet-dev libbullet-extras-dev libcgal-dev libmeshoptimizer-dev
     libocct-data-exchange-dev libocct-foundation-dev libocct-modeling-algorithms-dev libocct-modeling-data-dev
     # what OpenCASCADE's and lib3mf's packages link to, but leave out of their dependencies
     libtbb-dev libzip-dev

@@ -10,7 +10,9 @@
 #include "core/geometry/convex_cell.h"
 #include "core/geometry/convex_hull.h"
 #include "core/geometry/mass_properties.h"
+#include "core/geometry/mesh_check.h"
 #include "core/geometry/piece_merging.h"
+#include "core/geometry/self_overlap.h"
 #include "core/geometry/winding.h"
 
 namespace trapwright::geometry {
@@ -32,7 +34,7 @@ constexpr double kVolumeTolerance = 1e-2;
 constexpr double kMergeTolerance = 1e-3;
 constexpr double kDustVolume = 1e-7;
 
-constexpr std::size_t kMaxPieces = 768;
+constexpr std::size_t kMaxPieces = 384;
 constexpr std::size_t kMaxTriangles = 20000;
 constexpr std::size_t kMaxCandidates = 200;
 
@@ -241,10 +243,12 @@ base::Result<std::vector<ConvexPolytope>> computeConvexPieces(const TriangleMesh
         return base::Error{
             "No convex pieces: the part would need more than " + std::to_string(kMaxPieces) +
             ". Export it with a coarser tolerance, or leave out details that do not touch the track."};
+    if (const auto place = findOverlap(mesh))
+        return base::Error{"No convex pieces: the surface crosses or touches itself, at " +
+                           formatPlace(*place) + ". Repair it in CAD and export it again."};
     return base::Error{
-        "No convex pieces: they do not add up to the part's volume to within 1 %. Its surface probably "
-        "crosses itself "
-        "or has walls thinner than 0.01 % of its size. Repair it in CAD and export it again."};
+        "No convex pieces: they do not add up to the part's volume to within 1 %. The surface has walls "
+        "thinner than 0.01 % of its size or is too finely curved. Export it with a coarser tolerance."};
 }
 
 }  // namespace trapwright::geometry

@@ -18,8 +18,8 @@ namespace trapwright::geometry {
 /// by notches of Chazelle 1984, but with a tolerance); then neighbours whose hull adds next to nothing are
 /// merged. The tolerance is 0.05 % of the size; finer, down to 0.002 %, where too much volume would be lost;
 /// coarser, up to 0.5 %, where it takes too many pieces. Finely tessellated concave surfaces need a piece for
-/// each facet. Error: the mesh encloses no volume, crosses itself, or is too fine or too involved for 768
-/// pieces.
+/// each facet. Error: the mesh encloses no volume, crosses itself (with the place), or is too fine or too
+/// involved for 384 pieces; computeContactShape then knows what to do.
 base::Result<std::vector<ConvexPolytope>> computeConvexPieces(const TriangleMesh& mesh);
 
 }  // namespace trapwright::geometry

@@ -73,13 +73,12 @@ bool doOverlap(const Box& a, const Box& b) {
     return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-}  // namespace
-
-int countOverlappingTriangles(const TriangleMesh& mesh, std::size_t firstTriangles) {
-    assert(firstTriangles <= mesh.triangles.size());
+/// The triangles with area, in the order in which a sweep along x, the direction in which tracks are long,
+/// meets them.
+std::vector<Candidate> collectCandidates(const TriangleMesh& mesh, std::size_t triangles) {
     std::vector<Candidate> candidates;
-    candidates.reserve(firstTriangles);
-    for (std::size_t i = 0; i < firstTriangles; ++i) {
+    candidates.reserve(triangles);
+    for (std::size_t i = 0; i < triangles; ++i) {
         Candidate candidate;
         for (int k = 0; k < 3; ++k) {
             const base::Vec3& v = mesh.vertices[mesh.triangles[i][k]];
@@ -89,10 +88,16 @@ int countOverlappingTriangles(const TriangleMesh& mesh, std::size_t firstTriangl
         if (!CGAL::collinear(candidate.corners[0], candidate.corners[1], candidate.corners[2]))
             candidates.push_back(candidate);
     }
-
-    // Sweep along x, the direction in which tracks are long.
     std::sort(candidates.begin(), candidates.end(),
               [](const Candidate& a, const Candidate& b) { return a.box.low.x() < b.box.low.x(); });
+    return candidates;
+}
+
+}  // namespace
+
+int countOverlappingTriangles(const TriangleMesh& mesh, std::size_t firstTriangles) {
+    assert(firstTriangles <= mesh.triangles.size());
+    const std::vector<Candidate> candidates = collectCandidates(mesh, firstTriangles);
     std::vector<char> overlapping(candidates.size(), 0);
     for (std::size_t i = 0; i < candidates.size(); ++i)
         for (std::size_t j = i + 1; j < candidates.size(); ++j) {
@@ -104,6 +109,20 @@ int countOverlappingTriangles(const TriangleMesh& mesh, std::size_t firstTriangl
             overlapping[j] = 1;
         }
     return std::accumulate(overlapping.begin(), overlapping.end(), 0);
+}
+
+std::optional<base::Vec3> findOverlap(const TriangleMesh& mesh) {
+    const std::vector<Candidate> candidates = collectCandidates(mesh, mesh.triangles.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        for (std::size_t j = i + 1; j < candidates.size(); ++j) {
+            if (candidates[j].box.low.x() > candidates[i].box.high.x()) break;
+            if (!doOverlap(candidates[i].box, candidates[j].box) || !doOverlap(candidates[i], candidates[j]))
+                continue;
+            const Kernel::Point_3 middle =
+                CGAL::centroid(candidates[i].corners[0], candidates[i].corners[1], candidates[i].corners[2]);
+            return base::Vec3(middle.x(), middle.y(), middle.z());
+        }
+    return std::nullopt;
 }
 
 }  // namespace trapwright::geometry

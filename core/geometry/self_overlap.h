@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "core/geometry/triangle_mesh.h"
 
@@ -15,5 +16,8 @@ namespace trapwright::geometry {
 /// are folded flat onto each other; with three common corners always. Triangles without area overlap nothing.
 /// Coordinates must be finite.
 int countOverlappingTriangles(const TriangleMesh& mesh, std::size_t firstTriangles);
+
+/// The middle of a triangle that overlaps another one in the sense above; none if the surface is clean. [m]
+std::optional<base::Vec3> findOverlap(const TriangleMesh& mesh);
 
 }  // namespace trapwright::geometry

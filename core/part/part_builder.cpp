@@ -6,8 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry/convex_hull.h"
-#include "core/geometry/convex_pieces.h"
+#include "core/geometry/contact_shape.h"
 #include "core/geometry/mesh_repair.h"
 #include "core/part/stable_poses.h"
 
@@ -35,10 +34,35 @@ base::Status checkOptions(const PartOptions& options) {
     return base::success();
 }
 
+/// Tells of what the part touches with, where that is not just its surface.
+void noteShape(const Part& part, const geometry::ContactShape& shape, std::vector<std::string>& notes) {
+    if (shape.hull.vertices.size() < shape.exactCorners) {
+        notes.push_back(fmt::format(
+            "simplified the hull from {} to {} corners: nowhere more than {:.3f} mm inside the surface",
+            shape.exactCorners, shape.hull.vertices.size(), shape.hullDeviation / base::kMillimetre));
+    }
+    if (shape.pieces.size() < 2) return;
+    std::string note = fmt::format("not convex: made of {} convex pieces", shape.pieces.size());
+    if (shape.triangles > 0) {
+        note += fmt::format("; for contact the surface is simplified from {} to {} triangles",
+                            part.mesh.triangles.size(), shape.triangles);
+    }
+    if (shape.deviation > 0.0) {
+        note += fmt::format("; they were found nowhere more than {:.3f} mm off the surface",
+                            shape.deviation / base::kMillimetre);
+    }
+    notes.push_back(std::move(note));
+}
+
 }  // namespace
 
-base::Result<PreparedPart> buildPart(const geometry::TriangleMesh& mesh, const PartOptions& options) {
+base::Result<PreparedPart> buildPart(const geometry::TriangleMesh& mesh, const PartOptions& options,
+                                     const BuildProgress& begin) {
     if (const base::Status status = checkOptions(options); !status) return status.error();
+    const auto tell = [&](std::string_view stage) {
+        if (begin) begin(stage);
+    };
+    tell("mending the mesh");
     base::Result<geometry::RepairedMesh> repaired = geometry::repairMesh(mesh);
     if (!repaired) return repaired.error();
 
@@ -72,20 +96,19 @@ base::Result<PreparedPart> buildPart(const geometry::TriangleMesh& mesh, const P
                                            told(centre.x()), told(centre.y()), told(centre.z())));
     }
 
-    base::Result<geometry::ConvexPolytope> hull = geometry::computeConvexHull(part.mesh);
-    if (!hull) return hull.error();
-    part.hull = std::move(*hull);
-    base::Result<std::vector<geometry::ConvexPolytope>> pieces = geometry::computeConvexPieces(part.mesh);
-    if (!pieces) return pieces.error();
-    part.pieces = std::move(*pieces);
-    if (part.pieces.size() > 1) {
-        result.notes.push_back(fmt::format("not convex: made of {} convex pieces", part.pieces.size()));
-    }
+    tell("convex pieces");
+    base::Result<geometry::ContactShape> shape = geometry::computeContactShape(part.mesh);
+    if (!shape) return shape.error();
+    noteShape(part, *shape, result.notes);
+    part.hull = std::move(shape->hull);
+    part.pieces = std::move(shape->pieces);
 
+    tell("symmetry");
     if (options.symmetry == SymmetryUse::found) {
         part.symmetry = findSymmetry(part.mesh, part.hull, part.massProperties.inertia,
                                      SymmetryOptions{.tolerance = options.symmetryTolerance});
     }
+    tell("stable poses");
     part.stablePoses = computeStablePoses(part.hull, part.symmetry, false);
     return result;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -23,9 +25,15 @@ struct PreparedPart {
     std::vector<std::string> notes;
 };
 
+/// Called with what begins: "mending the mesh", "convex pieces", "symmetry", "stable poses".
+using BuildProgress = std::function<void(std::string_view stage)>;
+
 /// Makes a part of a mesh in metres: repairs it, computes mass properties, moves the origin to the centre of
-/// mass (the file's axes are kept) and finds hull, convex pieces, symmetry and stable poses. Errors: a
-/// density or tolerance out of range, a mesh that cannot be mended, no volume.
-base::Result<PreparedPart> buildPart(const geometry::TriangleMesh& mesh, const PartOptions& options);
+/// mass (the file's axes are kept) and finds hull, convex pieces, symmetry and stable poses. Of fine or
+/// finely curved surfaces hull and pieces are simplified, with a note that tells by how much; mesh and mass
+/// properties never are. Errors: a density or tolerance out of range, a mesh that cannot be mended, no
+/// volume.
+base::Result<PreparedPart> buildPart(const geometry::TriangleMesh& mesh, const PartOptions& options,
+                                     const BuildProgress& begin = {});
 
 }  // namespace trapwright::part

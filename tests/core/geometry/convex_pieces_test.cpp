@@ -160,7 +160,7 @@ class ConvexPiecesTest : public QObject {
         shapes::append(crossing, shapes::makeBox({1, -1, 0.25}, {2, 2, 0.75}));
         const auto pieces = computeConvexPieces(crossing);
         QVERIFY(!pieces.ok());
-        QVERIFY(pieces.error().message.find("crosses itself") != std::string::npos);
+        QVERIFY(pieces.error().message.find("crosses or touches itself, at (") != std::string::npos);
     }
 };
 

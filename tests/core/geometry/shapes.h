@@ -81,6 +81,27 @@ inline TriangleMesh makeCup(int sides, double radius, double height, double wall
                       sides);
 }
 
+/// A ring about z: circles of `sides` corners and this radius around `around` places on a circle. [m]
+inline TriangleMesh makeTorus(int around, int sides, double ring, double radius) {
+    TriangleMesh mesh;
+    for (int i = 0; i < around; ++i)
+        for (const base::Vec2& p : makeCircle(sides, radius)) {
+            const double angle = 2.0 * base::kPi * i / around;
+            mesh.vertices.emplace_back((ring + p.x()) * std::cos(angle), (ring + p.x()) * std::sin(angle),
+                                       p.y());
+        }
+    for (int i = 0; i < around; ++i)
+        for (int k = 0; k < sides; ++k) {
+            const int a = i * sides + k;
+            const int b = (i + 1) % around * sides + k;
+            const int aNext = i * sides + (k + 1) % sides;
+            const int bNext = (i + 1) % around * sides + (k + 1) % sides;
+            mesh.triangles.push_back({a, b, bNext});
+            mesh.triangles.push_back({a, bNext, aNext});
+        }
+    return mesh;
+}
+
 inline double calcCircleArea(int sides, double radius) {
     return 0.5 * sides * radius * radius * std::sin(2.0 * base::kPi / sides);
 }

@@ -104,6 +104,16 @@ class PartBuilderTest : public QObject {
         QVERIFY(std::abs(pieces / volume - 1.0) < 1e-2);
     }
 
+    void stagesAreToldInOrder() {
+        QStringList stages;
+        const auto built =
+            part::buildPart(part::makeBox(Vec3(4, 8, 12) * kMillimetre), {}, [&](std::string_view stage) {
+                stages << QString::fromUtf8(stage.data(), static_cast<qsizetype>(stage.size()));
+            });
+        QVERIFY(built.ok());
+        QCOMPARE(stages.join("; "), QString("mending the mesh; convex pieces; symmetry; stable poses"));
+    }
+
     void bundledPartsFromTheirFiles_data() {
         QTest::addColumn<QString>("name");
         QTest::addColumn<QString>("symmetry");
