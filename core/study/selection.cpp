@@ -110,6 +110,7 @@ std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selecti
             return TrackSuccess{Source::validation, *rate, count, std::move(strata)};
         if (count.trials > 0) return allAlike(Source::validation, count);
     }
+    // The newest that has simulated it.
     const SelectionEntry* newest = nullptr;
     for (const SelectionRecord& selection : selections) {
         const auto entry = std::find_if(selection.entries.begin(), selection.entries.end(), isMeant);

@@ -36,7 +36,8 @@ base::Status StudyLedger::finish() {
 }
 
 void StudyLedger::moveTo(std::optional<store::StudyFile> file) {
-    // Here, not on the thread: whoever has moved the study knows that the old file is closed afterwards.
+    // Waits for the thread: whoever has moved the study may rely on it that the old file is closed
+    // afterwards.
     std::promise<void> moved;
     thread_->post([&] {
         file_ = std::move(file);
