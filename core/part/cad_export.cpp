@@ -31,12 +31,16 @@
 #include <gp_Vec.hxx>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/base/file.h"
 #include "core/geometry/polygon_faces.h"
 
 namespace trapwright::part {
@@ -55,6 +59,22 @@ gp_Pnt toPoint(const base::Vec3& v) {
     return {v.x() / base::kMillimetre, v.y() / base::kMillimetre, v.z() / base::kMillimetre};
 }
 
+/// A file that is only in memory.
+class MemoryFile {
+ public:
+    MemoryFile() : descriptor_(::memfd_create("step", MFD_CLOEXEC)) {}
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    /// Of this process, while this lives.
+    [[nodiscard]] std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+
+ private:
+    int descriptor_;
+};
+
 base::Status writeShape(const std::filesystem::path& path, const TopoDS_Shape& shape) {
     STEPControl_Writer writer;
     Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // planes need no plane curves in the file
@@ -63,16 +83,13 @@ base::Status writeShape(const std::filesystem::path& path, const TopoDS_Shape& s
     APIHeaderSection_MakeHeader header(writer.Model());
     header.SetTimeStamp(new TCollection_HAsciiString("2000-01-01T00:00:00"));
     header.SetName(new TCollection_HAsciiString(path.filename().c_str()));
-    // Beside it first, so that a file that was there is replaced by a whole one or not at all.
-    std::filesystem::path beside = path;
-    beside += ".new";
-    std::error_code failure;
-    if (writer.Write(beside.c_str()) == IFSelect_RetDone) {
-        std::filesystem::rename(beside, path, failure);
-        if (!failure) return base::success();
-    }
-    std::filesystem::remove(beside, failure);
-    return makeError(path, "check that the folder exists and is writable, and that the disk is not full");
+    // Into memory, so that our own writer is the only one that meets full disks.
+    const MemoryFile memory;
+    if (writer.Write(memory.path().c_str()) != IFSelect_RetDone)
+        return makeError(path, "there is not enough memory for it");
+    const auto content = base::readFile(memory.path());
+    if (!content) return makeError(path, content.error().message);
+    return base::writeFile(path, *content);
 }
 
 /// Corners and edges that faces have in common.

@@ -1,11 +1,14 @@
 #include "core/work/track_export.h"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "core/geometry/mesh_check.h"
@@ -26,7 +29,7 @@ constexpr double kStepTolerance = 1e-6;  // STEP has all digits
 
 Failure describeNoSolid(const std::filesystem::path& path, const std::string& what) {
     return Failure{FailureKind::notSolid,
-                   fmt::format("{} is not one closed solid when read back ({}), so it was removed.",
+                   fmt::format("{} is not one closed solid when read back ({}), so it was not kept.",
                                path.string(), what)};
 }
 
@@ -116,6 +119,53 @@ Result<ExportedFile> writeOne(const std::filesystem::path& path, const std::stri
     return isStl ? readStl(path, solid) : readStep(path, solid);
 }
 
+/// A folder beside the files that are to be written, where they are until all of them are whole. It ends with
+/// this object.
+class Workplace {
+ public:
+    explicit Workplace(const std::filesystem::path& target)
+        : target_(target), folder_(target.string() + ".new-XXXXXX") {
+        if (::mkdtemp(folder_.data()) == nullptr) reason_ = errno;
+    }
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+    ~Workplace() {
+        std::error_code ignored;
+        if (reason_ == 0) std::filesystem::remove_all(folder_, ignored);
+    }
+
+    [[nodiscard]] base::Status check() const {
+        return reason_ == 0 ? base::success() : describe(target_, reason_);
+    }
+    /// Where a file is while it is made.
+    [[nodiscard]] std::filesystem::path placeFor(const std::filesystem::path& file) const {
+        return folder_ / file.filename();
+    }
+    /// The failure as that of the file that was to be.
+    [[nodiscard]] Failure translate(Failure failure) const {
+        const std::string here = folder_ + "/";
+        const std::string there = (target_.parent_path() / "").string();
+        for (auto at = failure.message.find(here); at != std::string::npos; at = failure.message.find(here))
+            failure.message.replace(at, here.size(), there);
+        return failure;
+    }
+    /// Puts a file that is whole where it is to be.
+    [[nodiscard]] base::Status handOver(const std::filesystem::path& file) const {
+        std::error_code failure;
+        std::filesystem::rename(placeFor(file), file, failure);
+        return failure ? describe(file, failure.value()) : base::success();
+    }
+
+ private:
+    static base::Error describe(const std::filesystem::path& file, int reason) {
+        return {fmt::format("Cannot write {}: {}.", file.string(), std::generic_category().message(reason))};
+    }
+
+    std::filesystem::path target_;
+    std::string folder_;
+    int reason_ = 0;  // why there is none
+};
+
 }  // namespace
 
 std::filesystem::path pieceFile(const std::filesystem::path& path, std::size_t piece, std::size_t pieces) {
@@ -138,22 +188,22 @@ Result<std::vector<ExportedFile>> exportTrack(const track::TrackFile& design, So
                                    "one of them.",
                                    path.string())};
     }
+    const Workplace workplace(path);
+    if (const auto made = workplace.check(); !made) return Failure{FailureKind::saving, made.error().message};
     const std::size_t count = isSingle ? 1 : solids.size();
     std::vector<ExportedFile> files;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::filesystem::path file = pieceFile(path, i, count);
-        const auto exported = extension == ".3mf"    ? writePackage(file, solids, design.about)
-                              : extension == ".json" ? writeDesign(file, design)
-                                                     : writeOne(file, extension, solids[i]);
-        if (exported) {
-            files.push_back(*exported);
-            continue;
-        }
-        std::error_code failure;
-        if (exported.error().kind != FailureKind::saving) std::filesystem::remove(file, failure);
-        for (const ExportedFile& before : files)
-            std::filesystem::remove(before.path, failure);
-        return exported.error();
+        const std::filesystem::path file = workplace.placeFor(pieceFile(path, i, count));
+        auto exported = extension == ".3mf"    ? writePackage(file, solids, design.about)
+                        : extension == ".json" ? writeDesign(file, design)
+                                               : writeOne(file, extension, solids[i]);
+        if (!exported) return workplace.translate(exported.error());
+        exported->path = pieceFile(path, i, count);
+        files.push_back(std::move(*exported));
+    }
+    for (const ExportedFile& file : files) {
+        if (const auto put = workplace.handOver(file.path); !put)
+            return Failure{FailureKind::saving, put.error().message};
     }
     return files;
 }

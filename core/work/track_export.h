@@ -27,7 +27,7 @@ std::filesystem::path pieceFile(const std::filesystem::path& path, std::size_t p
 /// by the extension: binary STL and STEP (part::writeStepSolid), of several pieces a file each (pieceFile);
 /// 3MF, with an object for each piece; or the track as JSON (core/track/track_file.h). Reads back what was
 /// written and checks that it is closed, manifold and of the same volume: of a STEP file within 1e-6 of it.
-/// If something fails, all of it is removed again.
+/// Only then they take the places of files that were there; if something fails, those stay as they are.
 Result<std::vector<ExportedFile>> exportTrack(const track::TrackFile& design,
                                               std::span<const geometry::TriangleMesh> solids,
                                               const std::filesystem::path& path);

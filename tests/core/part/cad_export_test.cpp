@@ -4,6 +4,7 @@
 #include <QTest>
 #include <cmath>
 
+#include "core/base/file.h"
 #include "core/geometry/mesh_check.h"
 #include "core/geometry/solid_cut.h"
 #include "tests/core/geometry/shapes.h"
@@ -78,6 +79,15 @@ class CadExportTest : public QObject {
         const std::filesystem::path path = folder.filePath("open.step").toStdString();
         QVERIFY(!part::writeStepSolid(path, mesh).ok());
         QVERIFY(std::filesystem::is_empty(folder.path().toStdString()));
+    }
+
+    void nobodysFileBesideIsTouched() {
+        const QTemporaryDir folder;
+        const std::filesystem::path path = folder.filePath("solid.step").toStdString();
+        const std::filesystem::path beside = path.string() + ".new";
+        QVERIFY(base::writeFile(beside, "mine").ok());
+        QVERIFY(part::writeStepSolid(path, makeBlock()).ok());
+        QCOMPARE(base::readFile(beside).value(), std::string("mine"));
     }
 
     void folderThatIsMissingIsToldOf() {

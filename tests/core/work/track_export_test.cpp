@@ -4,6 +4,7 @@
 #include <QTest>
 #include <cmath>
 
+#include "core/base/file.h"
 #include "core/geometry/mesh_check.h"
 #include "core/part/cad_export.h"
 #include "core/track/print_pieces.h"
@@ -127,6 +128,19 @@ class TrackExportTest : public QObject {
             QVERIFY(!files.ok());
             QVERIFY(std::filesystem::is_empty(folder.path().toStdString()));
         }
+        // Nor do those go that were there.
+        const std::vector<std::string> old = {"track.3mf", "track-1-of-2.stl", "track-1-of-2.step"};
+        for (const std::string& name : old)
+            QVERIFY(base::writeFile(std::filesystem::path(folder.path().toStdString()) / name, name).ok());
+        for (const char* name : {"track.stl", "track.step", "track.3mf"}) {
+            const auto files = work::exportTrack(design, solids, folder.filePath(name).toStdString());
+            QVERIFY(!files.ok());
+            QVERIFY2(QString::fromStdString(files.error().message).contains(folder.path() + "/track"),
+                     files.error().message.c_str());
+        }
+        for (const std::string& name : old)
+            QCOMPARE(base::readFile(std::filesystem::path(folder.path().toStdString()) / name).value(), name);
+        QCOMPARE(QDir(folder.path()).entryList(QDir::AllEntries | QDir::NoDotAndDotDot).size(), 3);
         const auto unknown = work::exportTrack(design, solids, folder.filePath("track.obj").toStdString());
         QVERIFY(!unknown.ok() && unknown.error().message.find(".step") != std::string::npos);
     }
