@@ -7,47 +7,36 @@
 #include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
 #include "core/base/parallel.h"
-#include "core/store/file_lock.h"
 #include "core/study/selection.h"
 #include "core/work/study_design.h"
 
 namespace trapwright::app {
 
-namespace {
-
-enum class WriteAccess { free, locked, impossible };
-
-/// Whether the study could be locked for writing at this moment, to tell a busy study from a read-only
-/// folder.
-WriteAccess findWriteAccess(const std::string& path) {
-    if (store::FileLock::acquire(path).ok()) return WriteAccess::free;
-    std::error_code failure;
-    return std::filesystem::exists(path + ".lock", failure) ? WriteAccess::locked : WriteAccess::impossible;
-}
-
-}  // namespace
-
-Failure describeOpenFailure(const std::string& path, const base::Error& error) {
-    std::error_code failure;
-    if (!std::filesystem::is_regular_file(path, failure)) return {ExitCode::badInput, error.message};
-    if (findWriteAccess(path) == WriteAccess::locked) return {ExitCode::locked, error.message};
-    // What can be read is a good study; so it is the writing that failed.
-    return {store::StudyFile::openReadOnly(path).ok() ? ExitCode::cannotWrite : ExitCode::badInput,
-            error.message};
+Failure describeStudyFailure(const base::Error& error, ExitCode otherwise) {
+    switch (error.kind) {
+        case base::ErrorKind::damaged:
+            return {ExitCode::badInput, error.message};
+        case base::ErrorKind::cannotWrite:
+            return {ExitCode::cannotWrite, error.message};
+        case base::ErrorKind::busy:
+            return {ExitCode::locked, error.message};
+        case base::ErrorKind::other:
+            break;
+    }
+    return {otherwise, error.message};
 }
 
 Failure describeCreateFailure(const std::string& path, const base::Error& error) {
     std::error_code failure;
-    if (std::filesystem::exists(path, failure)) return {ExitCode::usage, error.message};
-    const bool locked = findWriteAccess(path) == WriteAccess::locked;
-    return {locked ? ExitCode::locked : ExitCode::cannotWrite, error.message};
+    return describeStudyFailure(
+        error, std::filesystem::exists(path, failure) ? ExitCode::usage : ExitCode::cannotWrite);
 }
 
 Attempt<OpenStudy> openStudy(const std::string& path, Access access) {
     auto file = access == Access::write ? store::StudyFile::open(path, kProgram)
                                         : store::StudyFile::openReadOnly(path);
     if (!file) {
-        if (access == Access::write) return describeOpenFailure(path, file.error());
+        if (access == Access::write) return describeStudyFailure(file.error(), ExitCode::badInput);
         return Failure{ExitCode::badInput, file.error().message};
     }
     return loadStudy(std::move(*file));

@@ -26,8 +26,10 @@ Attempt<OpenStudy> openStudy(const std::string& path, Access access);
 /// The same of a file that is open already.
 Attempt<OpenStudy> loadStudy(store::StudyFile file);
 
-/// What cannot be opened or made, with the status that tells why.
-Failure describeOpenFailure(const std::string& path, const base::Error& error);
+/// An error of a study's file with the status that tells its kind; of one of no special kind with
+/// `otherwise`.
+Failure describeStudyFailure(const base::Error& error, ExitCode otherwise);
+/// The same of a study that could not be made.
 Failure describeCreateFailure(const std::string& path, const base::Error& error);
 
 /// How a command names one individual of a study.

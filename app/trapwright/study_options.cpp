@@ -146,7 +146,7 @@ Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options) {
     if (const auto checked = study::checkInputs({*settings, study.part, nullptr}); !checked)
         return Failure{ExitCode::usage, checked.error().message};
     if (const auto changed = study.file.changeSettings(*settings); !changed)
-        return Failure{ExitCode::usage, changed.error().message};
+        return describeStudyFailure(changed.error(), ExitCode::usage);
     study.settings = std::move(*settings);
     return true;
 }

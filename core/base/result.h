@@ -7,9 +7,18 @@
 
 namespace trapwright::base {
 
+/// What a failure is about, where somebody answers differently to it.
+enum class ErrorKind {
+    other,
+    damaged,      // a file does not hold what its program wrote
+    cannotWrite,  // full, read-only, gone
+    busy          // another has it
+};
+
 /// An expected failure. The message says what was wrong, where, and what to do about it.
 struct Error {
     std::string message;
+    ErrorKind kind = ErrorKind::other;
 };
 
 /// A value, or the reason why there is none: an Error, or what a folder needs to tell instead of one.

@@ -26,7 +26,8 @@ constexpr std::string_view kMagic("SQLite format 3\0", 16);
 using DatabasePtr = std::unique_ptr<SQLite::Database>;
 
 base::Error damaged(const std::filesystem::path& path, const std::string& how) {
-    return base::Error{"The study " + path.string() + " is damaged: " + how + ". Restore it from a copy."};
+    return base::Error{"The study " + path.string() + " is damaged: " + how + ". Restore it from a copy.",
+                       base::ErrorKind::damaged};
 }
 
 std::filesystem::path sidePath(const std::filesystem::path& path, const char* suffix) {
@@ -112,31 +113,37 @@ base::Result<DatabasePtr> openReader(const std::filesystem::path& path, bool imm
 
 base::Error describeFailure(const std::exception& failure, const std::filesystem::path& path,
                             const std::string& doing) {
+    using Kind = base::ErrorKind;
     const std::string study = path.string();
     const auto* sqlite = dynamic_cast<const SQLite::Exception*>(&failure);
     switch (sqlite != nullptr ? sqlite->getErrorCode() : SQLITE_ERROR) {
         case SQLITE_FULL:
             return {doing + ": the disk that holds " + study +
-                    " is full. Free some space and start again; what was saved before is safe."};
+                        " is full. Free some space and start again; what was saved before is safe.",
+                    Kind::cannotWrite};
         case SQLITE_IOERR:
             return {doing + ": the disk that holds " + study + " could not be read or written (" +
-                    failure.what() +
-                    "). Check that it has space and is still connected; what was saved before is safe."};
+                        failure.what() +
+                        "). Check that it has space and is still connected; what was saved before is safe.",
+                    Kind::cannotWrite};
         case SQLITE_CORRUPT:
         case SQLITE_NOTADB:
-            return {doing + ": " + damaged(path, failure.what()).message};
+            return {doing + ": " + damaged(path, failure.what()).message, Kind::damaged};
         case SQLITE_READONLY:
         case SQLITE_CANTOPEN:
         case SQLITE_PERM:
         case SQLITE_AUTH:
             return {doing + ": " + study + " or its folder cannot be written or read (" + failure.what() +
-                    "). Check the permissions, or copy the study into a folder of your own."};
+                        "). Check the permissions, or copy the study into a folder of your own.",
+                    Kind::cannotWrite};
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
             return {doing + ": " + study + " is in use by another program (" + failure.what() +
-                    "). Close that and try again."};
+                        "). Close that and try again.",
+                    Kind::busy};
         default:
-            return {doing + ": " + study + ": " + failure.what() + "."};
+            return {doing + ": " + study + ": " + failure.what() +
+                    ". If that happens again, restore it from a copy."};
     }
 }
 
@@ -190,8 +197,9 @@ base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
     if (const auto file = checkStudyFile(path); !file) return file.error();
     if (::access(path.c_str(), W_OK) != 0) {
         return base::Error{"The study " + path.string() + " cannot be written (" +
-                           std::generic_category().message(errno) +
-                           "). Change its permissions, or copy it into a folder that you can write."};
+                               std::generic_category().message(errno) +
+                               "). Change its permissions, or copy it into a folder that you can write.",
+                           base::ErrorKind::cannotWrite};
     }
     return guarded(path, "The study could not be opened", [&]() -> base::Result<DatabasePtr> {
         auto database =
@@ -199,12 +207,14 @@ base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
         distrust(*database);
         if (const auto known = checkIdentity(*database, path); !known) return known.error();
         const std::string check = database->execAndGet("PRAGMA quick_check(1)").getString();
-        if (check != "ok") return damaged(path, check);
+        if (check != "ok") return damaged(path, check.substr(check.rfind('\n') + 1));
         migrate(*database, schemaMigrations());
         if (const auto content = checkContent(*database, path); !content) return content.error();
         // Not every file system can do this; then readers wait while a generation is written.
         database->execAndGet("PRAGMA journal_mode = WAL");
         database->exec("PRAGMA synchronous = FULL");
+        // Whoever reads first makes the log; what keeps it from that is to be told here.
+        database->execAndGet("SELECT count(*) FROM study");
         return database;
     });
 }

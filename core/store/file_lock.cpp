@@ -56,8 +56,9 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path) {
         if (descriptor < 0) {
             const int code = errno;
             return base::Error{"The study " + path.string() + " cannot be written: " + lockPath.string() +
-                               " cannot be made beside it (" + systemReason(code) +
-                               "). Use a folder that you can write."};
+                                   " cannot be made beside it (" + systemReason(code) +
+                                   "). Use a folder that you can write.",
+                               base::ErrorKind::cannotWrite};
         }
         FileLock lock({}, descriptor);  // closes the descriptor on every way out
         if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
@@ -65,12 +66,15 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path) {
             if (code == EINTR) continue;
             if (code != EWOULDBLOCK) {
                 return base::Error{"The study " + path.string() + " cannot be locked for writing (" +
-                                   systemReason(code) + "). Move it to a local disk."};
+                                       systemReason(code) + "). Move it to a local disk.",
+                                   base::ErrorKind::cannotWrite};
             }
             const std::string holder = readHolder(descriptor);
-            return base::Error{"The study " + path.string() + " is open for writing in another Trapwright" +
-                               (holder.empty() ? "" : " (process " + holder + ")") +
-                               ". Wait until that has finished or stop it; reading is possible meanwhile."};
+            return base::Error{
+                "The study " + path.string() + " is open for writing in another Trapwright" +
+                    (holder.empty() ? "" : " (process " + holder + ")") +
+                    ". Wait until that has finished or stop it; reading is possible meanwhile.",
+                base::ErrorKind::busy};
         }
         if (!isStillThere(lockPath, descriptor)) continue;
         writeHolder(descriptor);

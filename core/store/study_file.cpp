@@ -140,8 +140,9 @@ base::Result<FileLock> placeNew(const std::filesystem::path& path, const Write& 
 }  // namespace
 
 base::Error damagedValue(const std::filesystem::path& path, const std::string& what) {
-    return {"The study " + path.string() + " is damaged: " + what +
-            " cannot be read. Restore it from a copy."};
+    return {
+        "The study " + path.string() + " is damaged: " + what + " cannot be read. Restore it from a copy.",
+        base::ErrorKind::damaged};
 }
 
 trial::Fitness readFitness(const SQLite::Statement& statement, int first) {
@@ -185,9 +186,10 @@ base::Status StudyFile::State::checkInPlace() const {
     const bool replaced = std::filesystem::exists(path, missing);
     return base::Error{
         "The study " + path.string() + " was " +
-        (replaced ? "replaced by another file" : "deleted or moved") +
-        " while it was open, so that nothing more can be saved in it. What was saved until then "
-        "can still be copied."};
+            (replaced ? "replaced by another file" : "deleted or moved") +
+            " while it was open, so that nothing more can be saved in it. What was saved until then "
+            "can still be copied.",
+        base::ErrorKind::cannotWrite};
 }
 
 int StudyFile::State::countRows(const std::string& table) const {

@@ -21,6 +21,12 @@ struct Failure {
     std::string message;  // as in base::Error
 };
 
+/// What is wrong where a study could not be saved in: it, if it was found damaged.
+inline Failure describeSaving(const base::Error& error) {
+    return {error.kind == base::ErrorKind::damaged ? FailureKind::reading : FailureKind::saving,
+            error.message};
+}
+
 template <class T>
 using Result = base::Result<T, Failure>;
 

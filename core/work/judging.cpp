@@ -33,8 +33,7 @@ Result<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study
                                              const base::RunControl& control) {
     auto record = study::selectWinners(inputs, std::move(candidates), control);
     if (!record) return describeFailure(control, record.error());
-    if (const auto saved = file.saveSelection(*record); !saved)
-        return Failure{FailureKind::saving, saved.error().message};
+    if (const auto saved = file.saveSelection(*record); !saved) return describeSaving(saved.error());
     return std::move(*record);
 }
 
@@ -51,8 +50,7 @@ Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const st
         return Failure{FailureKind::settings, checked.error().message};
     auto record = study::validate(inputs, individual, expected, control);
     if (!record) return describeFailure(control, record.error());
-    if (const auto saved = file.saveValidation(*record); !saved)
-        return Failure{FailureKind::saving, saved.error().message};
+    if (const auto saved = file.saveValidation(*record); !saved) return describeSaving(saved.error());
     return std::move(*record);
 }
 

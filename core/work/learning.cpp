@@ -44,13 +44,16 @@ Result<LearnReport> learn(store::StudyFile& file, const study::StudyInputs& inpu
         return base::success();
     };
     const auto end = study::evolve(inputs, std::move(*last), watch, control);
-    if (!end) return Failure{kind, end.error().message};
+    if (!end) {
+        if (kind == FailureKind::saving) return describeSaving(end.error());
+        return Failure{kind, end.error().message};
+    }
 
     LearnReport report;
     report.end = *end;
     if (checks != nullptr) {
         auto left = checks->stop(events.checked);
-        if (!left) return Failure{FailureKind::saving, left.error().message};
+        if (!left) return describeSaving(left.error());
         report.unchecked = std::move(*left);
     }
     report.trials = control.run.done() - doneBefore;

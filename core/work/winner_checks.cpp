@@ -68,8 +68,7 @@ Result<std::monostate> checkWinners(store::StudyFile& file, const study::StudyIn
         if (control.cancelled())
             return Failure{FailureKind::cancelled, "The checks of winners were cancelled."};
         if (!record) return Failure{FailureKind::simulation, record.error().message};
-        if (const auto status = file.saveCheck(*record); !status)
-            return Failure{FailureKind::saving, status.error().message};
+        if (const auto status = file.saveCheck(*record); !status) return describeSaving(status.error());
         if (saved) saved(*record);
     }
     return std::monostate{};

@@ -212,6 +212,19 @@ class StudyTroubleTest : public QObject {
         QVERIFY(sample::equal(study->loadGeneration(3).value(), sample::generation(3, 400)));
     }
 
+    /// The log and its index are made by whoever reads first, which must be the opening.
+    void diskWithoutRoomForTheLogIsToldOnOpening() {
+        sample::write(path_, 1);
+        {
+            const FullDisk full(20000);  // less than the index takes
+            const auto study = StudyFile::open(path_, sample::kProgram);
+            QVERIFY2(sample::messageOf(study).contains("could not be opened"),
+                     qPrintable(sample::messageOf(study)));
+            QVERIFY(study.error().kind == base::ErrorKind::cannotWrite);
+        }
+        QCOMPARE(StudyFile::open(path_, sample::kProgram).value().generationCount().value(), 1);
+    }
+
     void fullDatabaseIsCalledAFullDisk() {
         // SQLite's own "database or disk is full", which a write that finds no space ends in.
         const QString message =
@@ -219,6 +232,27 @@ class StudyTroubleTest : public QObject {
                                                           "The selection could not be saved")
                                        .message);
         QVERIFY2(message.contains("is full. Free some space"), qPrintable(message));
+    }
+
+    /// Damage that is met while a study is open: another connection has written, so pages are read again.
+    void damageThatIsMetOnSavingIsCalledSo() {
+        sample::write(path_, 3);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        {
+            auto beside = study->openBeside();
+            VERIFY_OK(beside);
+            VERIFY_OK(beside->chooseWinner({}));
+        }
+        std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
+        for (std::uintmax_t page = 1; page < std::filesystem::file_size(path_) / 4096; ++page) {
+            file.seekp(static_cast<std::streamoff>(page * 4096));
+            file << std::string(16, '\xff');
+        }
+        file.close();
+        const auto saved = study->saveGeneration(sample::generation(3));
+        QVERIFY2(sample::messageOf(saved).contains("is damaged"), qPrintable(sample::messageOf(saved)));
+        QVERIFY(saved.error().kind == base::ErrorKind::damaged);
     }
 
     void fullDiskLeavesNoHalfStudy() {
