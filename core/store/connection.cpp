@@ -7,10 +7,8 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include <array>
 #include <cctype>
 #include <cerrno>
-#include <fstream>
 #include <system_error>
 
 #include "core/store/schema.h"
@@ -30,13 +28,16 @@ base::Error damaged(const std::filesystem::path& path, const std::string& how) {
                        base::ErrorKind::damaged};
 }
 
+/// Where SQLite keeps what belongs to the study: beside the file itself, not beside a link to it.
 std::filesystem::path sidePath(const std::filesystem::path& path, const char* suffix) {
-    std::filesystem::path side = path;
+    std::error_code unknown;
+    std::filesystem::path side = std::filesystem::weakly_canonical(path, unknown);
+    if (unknown) side = path;
     side += suffix;
     return side;
 }
 
-std::uint64_t bigEndian(const std::array<char, kHeaderSize>& header, std::size_t offset, std::size_t bytes) {
+std::uint64_t bigEndian(const std::string& header, std::size_t offset, std::size_t bytes) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < bytes; ++i)
         value = (value << 8U) | static_cast<unsigned char>(header[offset + i]);
@@ -153,48 +154,43 @@ bool hasPendingLog(const std::filesystem::path& path) {
     return !missing && size > 0;
 }
 
-base::Status checkStudyFile(const std::filesystem::path& path) {
-    std::error_code problem;
-    const auto status = std::filesystem::status(path, problem);
-    if (!std::filesystem::exists(status)) {
-        return base::Error{"There is no study at " + path.string() +
-                           ". Check the path, or make a new study."};
-    }
-    if (std::filesystem::is_directory(status)) {
-        return base::Error{path.string() + " is a folder, not a study. Choose a .trap file."};
-    }
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        return base::Error{"The study " + path.string() + " cannot be read (" +
-                           std::generic_category().message(errno) + "). Check its permissions."};
-    }
-    std::array<char, kHeaderSize> header{};
-    file.read(header.data(), header.size());
-    const auto count = static_cast<std::size_t>(file.gcount());
-    if (count == 0)
+base::Status checkStudyFile(const std::filesystem::path& path, const OpenFile& file) {
+    const std::string header = file.readBeginning(kHeaderSize);
+    if (header.empty())
         return base::Error{path.string() + " is empty, so it is not a study. Choose another file."};
-    if (std::string_view(header.data(), std::min(count, kMagic.size())) != kMagic.substr(0, count)) {
+    if (header.substr(0, kMagic.size()) != kMagic.substr(0, header.size()))
         return base::Error{path.string() + " is not a study of Trapwright. Choose a .trap file."};
-    }
-    if (count < header.size())
-        return damaged(path, "it is cut off after " + std::to_string(count) + " bytes");
+    if (header.size() < kHeaderSize)
+        return damaged(path, "it is cut off after " + std::to_string(header.size()) + " bytes");
 
     // While a log is pending the file may rightly be shorter than it will be.
     if (hasPendingLog(path)) return base::success();
     const std::uint64_t storedPageSize = bigEndian(header, 16, 2);
     const std::uint64_t pageSize = storedPageSize == 1 ? 65536 : storedPageSize;
     const std::uint64_t expected = pageSize * bigEndian(header, 28, 4);
-    const auto size = std::filesystem::file_size(path, problem);
+    const auto size = file.size();
     // The log may have been taken in since: what counts is a file too short both before and after that.
-    if (!problem && size < expected && !hasPendingLog(path)) {
+    if (size < expected && !hasPendingLog(path)) {
         return damaged(path, "it is cut off after " + std::to_string(size) + " of " +
                                  std::to_string(expected) + " bytes");
     }
     return base::success();
 }
 
+base::Status checkOneLog(const std::filesystem::path& path, const OpenFile& file) {
+    constexpr std::size_t kReadVersion = 19;
+    constexpr char kWithLog = 2;
+    std::error_code missing;
+    const std::string header = file.readBeginning(kHeaderSize);
+    if (file.countNames() < 2 || header.size() < kHeaderSize || header[kReadVersion] != kWithLog ||
+        std::filesystem::exists(sidePath(path, "-wal"), missing))
+        return base::success();
+    return base::Error{"The study " + path.string() +
+                       " has another name (a hard link), beside which the log with its last generations may "
+                       "lie. Open it by that name, or copy it and open the copy."};
+}
+
 base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
-    if (const auto file = checkStudyFile(path); !file) return file.error();
     if (::access(path.c_str(), W_OK) != 0) {
         return base::Error{"The study " + path.string() + " cannot be written (" +
                                std::generic_category().message(errno) +
@@ -236,7 +232,6 @@ bool isInPlace(SQLite::Database& database) {
 }
 
 base::Result<DatabasePtr> openForReading(const std::filesystem::path& path) {
-    if (const auto file = checkStudyFile(path); !file) return file.error();
     const std::string doing = "The study could not be opened";
     return guarded(path, doing, [&]() -> base::Result<DatabasePtr> {
         try {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/store/open_file.h"
 #include "core/store/sqlite_forward.h"
 
 namespace trapwright::store {
@@ -20,11 +21,15 @@ base::Error describeFailure(const std::exception& failure, const std::filesystem
 /// Whether transactions are still waiting in the write-ahead log beside the study.
 bool hasPendingLog(const std::filesystem::path& path);
 
-/// An error if there is no file, or it is plainly no study: empty, cut off, not SQLite.
-base::Status checkStudyFile(const std::filesystem::path& path);
+/// An error if the file at `path` is plainly no study: empty, cut off, not SQLite.
+base::Status checkStudyFile(const std::filesystem::path& path, const OpenFile& file);
+
+/// An error if the study's log may lie beside another name of it, where SQLite does not look: it would make a
+/// second one, and mix up the file.
+base::Status checkOneLog(const std::filesystem::path& path, const OpenFile& file);
 
 /// Opens an existing study for writing, in write-ahead mode so that readers are not disturbed, and brings its
-/// schema up to date. The caller holds the study's FileLock.
+/// schema up to date. The caller holds the study's FileLock, and its OpenFile locked.
 base::Result<std::unique_ptr<SQLite::Database>> openForWriting(const std::filesystem::path& path);
 
 /// The same once more for a study that openForWriting has open, which needs no checks.
@@ -33,7 +38,8 @@ base::Result<std::unique_ptr<SQLite::Database>> openBeside(const std::filesystem
 /// Whether the path that was opened still leads to this file: nobody has deleted, moved or replaced it.
 bool isInPlace(SQLite::Database& database);
 
-/// Opens an existing study for reading, while it is being written, and in folders that cannot be written.
+/// Opens an existing study for reading, while it is being written, and in folders that cannot be written. The
+/// caller has its OpenFile.
 base::Result<std::unique_ptr<SQLite::Database>> openForReading(const std::filesystem::path& path);
 
 /// Moves everything into the one file, so that it can be copied and read from anywhere. Not possible while

@@ -9,8 +9,7 @@ namespace trapwright::store {
 /// The right to write one study, held for as long as this object lives. It is a lock of the system (flock) on
 /// a file beside the study, `study.trap.lock`: it is gone when the process is, however that ends, and it
 /// refuses a second holder in the same process too. The file itself means nothing and is removed on release.
-/// The study's own file is not locked, because SQLite's locks on it would be lost with any descriptor of ours
-/// that is closed.
+/// The study's own file is locked as well, by OpenFile, for those who come by another name.
 class FileLock {
  public:
     /// Takes the lock for the study at `path`, which need not exist. An error if another holds it (with its

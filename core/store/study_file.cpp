@@ -208,35 +208,49 @@ base::Result<StudyFile> StudyFile::create(const std::filesystem::path& path, con
         writeNewStudy(database, settings, part, program);
     });
     if (!lock) return lock.error();
-    auto database = openForWriting(path);
-    if (!database) return database.error();
-    auto state = std::make_unique<State>();
-    state->path = path;
-    state->program = program;
-    state->lock = std::make_shared<FileLock>(std::move(lock).value());
-    state->database = std::move(database).value();
-    return StudyFile(std::move(state));
+    return openLocked(path, program, std::move(lock).value());
 }
 
 base::Result<StudyFile> StudyFile::open(const std::filesystem::path& path, const std::string& program) {
-    if (const auto file = checkStudyFile(path); !file) return file.error();
+    // What is plainly no study gets no lock beside it.
+    {
+        const auto file = OpenFile::open(path);
+        if (!file) return file.error();
+        if (const auto checked = checkStudyFile(path, *file); !checked) return checked.error();
+    }
     auto lock = FileLock::acquire(path);
     if (!lock) return lock.error();
-    auto database = openForWriting(path);
-    if (!database) return database.error();
+    return openLocked(path, program, std::move(lock).value());
+}
+
+base::Result<StudyFile> StudyFile::openLocked(const std::filesystem::path& path, const std::string& program,
+                                              FileLock lock) {
+    auto file = OpenFile::open(path);
+    if (!file) return file.error();
+    if (const auto checked = checkStudyFile(path, *file); !checked) return checked.error();
+    if (const auto locked = file->lockForWriting(); !locked) return locked.error();
+    if (const auto log = checkOneLog(path, *file); !log) return log.error();
     auto state = std::make_unique<State>();
     state->path = path;
     state->program = program;
-    state->lock = std::make_shared<FileLock>(std::move(lock).value());
+    state->lock = std::make_shared<FileLock>(std::move(lock));
+    state->file = std::make_shared<OpenFile>(std::move(file).value());
+    auto database = openForWriting(path);
+    if (!database) return database.error();
     state->database = std::move(database).value();
     return StudyFile(std::move(state));
 }
 
 base::Result<StudyFile> StudyFile::openReadOnly(const std::filesystem::path& path) {
-    auto database = openForReading(path);
-    if (!database) return database.error();
+    auto file = OpenFile::open(path);
+    if (!file) return file.error();
+    if (const auto checked = checkStudyFile(path, *file); !checked) return checked.error();
+    if (const auto log = checkOneLog(path, *file); !log) return log.error();
     auto state = std::make_unique<State>();
     state->path = path;
+    state->file = std::make_shared<OpenFile>(std::move(file).value());
+    auto database = openForReading(path);
+    if (!database) return database.error();
     state->database = std::move(database).value();
     return StudyFile(std::move(state));
 }
@@ -249,6 +263,7 @@ base::Result<StudyFile> StudyFile::openBeside() const {
     state->path = state_->path;
     state->program = state_->program;
     state->lock = state_->lock;
+    state->file = state_->file;
     state->database = std::move(database).value();
     return StudyFile(std::move(state));
 }

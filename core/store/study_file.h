@@ -19,6 +19,8 @@
 
 namespace trapwright::store {
 
+class FileLock;
+
 /// The part of a study as it was imported. part::buildPart(mesh, options) gives the same part bit for bit
 /// each time; who learns or replays must take the part from there.
 struct StoredPart {
@@ -145,6 +147,9 @@ class StudyFile {
  private:
     struct State;
     explicit StudyFile(std::unique_ptr<State> state);
+    /// For writing, with the lock beside it.
+    static base::Result<StudyFile> openLocked(const std::filesystem::path& path, const std::string& program,
+                                              FileLock lock);
 
     std::unique_ptr<State> state_;
 };

@@ -5,6 +5,7 @@
 
 #include "core/store/connection.h"
 #include "core/store/file_lock.h"
+#include "core/store/open_file.h"
 #include "core/store/sqlite_forward.h"
 #include "core/store/study_file.h"
 
@@ -12,11 +13,12 @@ namespace trapwright::store {
 
 // Inside core/store only: SQLite's types end here.
 
-/// What an open study holds. Closing gives the lock back after the database, never before.
+/// What an open study holds. Closing gives the locks back after the database, never before.
 struct StudyFile::State {
     std::filesystem::path path;
     std::string program;             // empty if read only
     std::shared_ptr<FileLock> lock;  // if open for writing; shared with those opened beside
+    std::shared_ptr<OpenFile> file;  // likewise shared
     std::unique_ptr<SQLite::Database> database;
 
     State() = default;

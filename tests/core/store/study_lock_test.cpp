@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <QTemporaryDir>
@@ -52,6 +53,23 @@ class OtherWriter {
     bool opened_ = false;
 };
 
+/// Whether another process finds the lock by which SQLite tells that it reads.
+bool isLockedFor(const std::filesystem::path& path) {
+    constexpr off_t kSharedLocks = 0x40000002;  // SQLite's file format, "File Locking"
+    const pid_t other = ::fork();
+    if (other == 0) {
+        struct flock lock {};
+        lock.l_type = F_WRLCK;
+        lock.l_start = kSharedLocks;
+        lock.l_len = 510;
+        const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+        ::_exit(::fcntl(file, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK ? 0 : 1);
+    }
+    int status = 1;
+    ::waitpid(other, &status, 0);
+    return status == 0;
+}
+
 }  // namespace
 
 class StudyLockTest : public QObject {
@@ -86,6 +104,53 @@ class StudyLockTest : public QObject {
         VERIFY_OK(first);
         QVERIFY(!StudyFile::open(path_, sample::kProgram).ok());
         QVERIFY(!StudyFile::open(path_.parent_path() / "." / path_.filename(), sample::kProgram).ok());
+    }
+
+    void anotherNameOfTheSameFileIsRefused_data() {
+        QTest::addColumn<bool>("inAnotherProcess");
+        QTest::newRow("this process") << false;
+        QTest::newRow("another process") << true;
+    }
+    void anotherNameOfTheSameFileIsRefused() {
+        QFETCH(bool, inAnotherProcess);
+        sample::write(path_, 1);
+        const std::filesystem::path link = path_.parent_path() / "link.trap";
+        std::filesystem::create_hard_link(path_, link);
+        {
+            std::optional<OtherWriter> other;
+            std::optional<StudyFile> own;
+            if (inAnotherProcess) {
+                other.emplace(path_, 1);
+                QVERIFY(other->opened());
+            } else {
+                auto study = StudyFile::open(path_, sample::kProgram);
+                VERIFY_OK(study);
+                own = std::move(study).value();
+            }
+            const auto refused = StudyFile::open(link, sample::kProgram);
+            QVERIFY2(sample::messageOf(refused).contains("under another name"),
+                     qPrintable(sample::messageOf(refused)));
+            QVERIFY(refused.error().kind == base::ErrorKind::busy);
+            // The log lies beside the first name, so that SQLite would not find it from here.
+            QVERIFY(sample::messageOf(StudyFile::openReadOnly(link)).contains("has another name"));
+            QVERIFY(!std::filesystem::exists(link.string() + "-wal"));
+        }
+        // A killed writer's log still lies there.
+        QCOMPARE(StudyFile::open(link, sample::kProgram).ok(), !inAnotherProcess);
+        const auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QCOMPARE(study->generationCount().value(), inAnotherProcess ? 2 : 1);
+    }
+
+    /// The system drops a process's locks on a file with any descriptor of it that the process closes.
+    void readersAndRefusedWritersLeaveSqliteItsLocks() {
+        sample::write(path_, 1);
+        const auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QVERIFY(isLockedFor(path_));
+        VERIFY_OK(StudyFile::openReadOnly(path_));
+        QVERIFY(!StudyFile::open(path_, sample::kProgram).ok());
+        QVERIFY(isLockedFor(path_));
     }
 
     void secondWriterInAnotherProcessIsRefused() {

@@ -116,6 +116,8 @@ class StudyTroubleTest : public QObject {
                                  << "There is no study at";
         QTest::newRow("folder") << "folder"
                                 << "is a folder";
+        QTest::newRow("pipe") << "pipe"
+                              << "is no ordinary file";
         QTest::newRow("empty") << "empty"
                                << "is empty";
         QTest::newRow("text") << "text"
@@ -145,7 +147,8 @@ class StudyTroubleTest : public QObject {
         QFETCH(QString, kind);
         QFETCH(QString, message);
         makeUnusable(kind.toStdString());
-        const std::string before = kind == "folder" ? "" : readAll(path_);
+        const bool isFile = kind != "folder" && kind != "pipe";
+        const std::string before = isFile ? readAll(path_) : "";
 
         const QString read = sample::messageOf(StudyFile::openReadOnly(path_));
         QVERIFY2(read.contains(QString::fromStdString(path_.string())), qPrintable(read));
@@ -156,7 +159,7 @@ class StudyTroubleTest : public QObject {
         QVERIFY2(write.contains(QString::fromStdString(path_.string())), qPrintable(write));
         QVERIFY2(write.contains(kind == "version 0" ? "it holds no settings" : message), qPrintable(write));
         // Opening for writing brings a version up to date; nothing else may touch a file that is refused.
-        if (kind != "folder" && kind != "version 0") QVERIFY(readAll(path_) == before);
+        if (isFile && kind != "version 0") QVERIFY(readAll(path_) == before);
         QVERIFY(!std::filesystem::exists(path_.string() + ".lock"));
     }
 
@@ -335,6 +338,8 @@ class StudyTroubleTest : public QObject {
         if (kind == "missing") return;
         if (kind == "folder") {
             std::filesystem::create_directory(path_);
+        } else if (kind == "pipe") {
+            QCOMPARE(::mkfifo(path_.c_str(), 0600), 0);
         } else if (kind == "empty") {
             writeAll(path_, "");
         } else if (kind == "one byte") {
