@@ -130,8 +130,7 @@ base::Result<LoadedPart, PartFailure> importPart(const PartRequest& request,
         imported->mesh = std::move(closed->mesh);
         loaded.notes.insert(loaded.notes.end(), closed->notes.begin(), closed->notes.end());
     }
-    begin("building the part");
-    auto prepared = part::buildPart(imported->mesh, source->options);
+    auto prepared = part::buildPart(imported->mesh, source->options, tellStage);
     if (!prepared) return describeBuild(*source, imported->mesh, prepared.error());
     loaded.notes.insert(loaded.notes.end(), prepared->notes.begin(), prepared->notes.end());
     loaded.part = std::make_shared<const part::Part>(std::move(prepared->part));
