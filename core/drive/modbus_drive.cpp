@@ -95,25 +95,37 @@ class ModbusDrive final : public Drive {
         if (!raw) return raw.error();
         value = fromRaw(*quantity, *raw);
         if (std::isfinite(*value)) return std::nullopt;
-        return base::Error{fmt::format("the drive tells no number in {} {}", nameOf(quantity->place.table),
-                                       quantity->place.address)};
+        return describeNoNumber(quantity->place);
+    }
+
+    static base::Error describeNoNumber(const Place& place) {
+        return base::Error{
+            fmt::format("the drive tells no number in {} {}", nameOf(place.table), place.address)};
     }
 
     std::optional<base::Error> readEnabled(Reading& reading, const Deadline& deadline) {
         const auto& enable = map_.enableReadBack ? map_.enableReadBack : map_.enable;
         if (!enable) return std::nullopt;
-        const auto raw = readRaw(enable->place, deadline);
-        if (!raw) return raw.error();
-        reading.enabled = (static_cast<unsigned>(*raw) & enable->mask) == (enable->on & enable->mask);
+        const auto bits = readBits(enable->place, deadline);
+        if (!bits) return bits.error();
+        reading.enabled = (*bits & enable->mask) == (enable->on & enable->mask);
         return std::nullopt;
     }
 
     std::optional<base::Error> readFault(Reading& reading, const Deadline& deadline) {
         if (!map_.fault) return std::nullopt;
-        const auto raw = readRaw(map_.fault->place, deadline);
-        if (!raw) return raw.error();
-        reading.fault = map_.fault->code.findFault(static_cast<unsigned>(*raw));
+        const auto bits = readBits(map_.fault->place, deadline);
+        if (!bits) return bits.error();
+        reading.fault = map_.fault->code.findFault(*bits);
         return std::nullopt;
+    }
+
+    base::Result<unsigned> readBits(const Place& place, const Deadline& deadline) {
+        const auto raw = readRaw(place, deadline);
+        if (!raw) return raw.error();
+        const auto bits = toBits(*raw);
+        if (!bits) return describeNoNumber(place);
+        return *bits;
     }
 
     base::Result<double> readRaw(const Place& place, const Deadline& deadline) {

@@ -59,6 +59,13 @@ double decodeRaw(const Place& place, std::span<const std::uint16_t> registers) {
     return bits;
 }
 
+std::optional<unsigned> toBits(double raw) {
+    const double low = std::numeric_limits<std::int32_t>::lowest();
+    const double high = std::numeric_limits<std::uint32_t>::max();
+    if (!(raw >= low && raw <= high)) return std::nullopt;
+    return static_cast<unsigned>(static_cast<std::int64_t>(raw));
+}
+
 double toRaw(const Quantity& quantity, double value) {
     return quantity.zero + value * (quantity.one - quantity.zero);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace trapwright::drive {
 std::vector<std::uint16_t> encodeRaw(const Place& place, double raw);
 /// The raw number of as many registers as the place takes.
 double decodeRaw(const Place& place, std::span<const std::uint16_t> registers);
+
+/// The bits of a raw number that stands for a switch or a code; of a negative one those of its complement on
+/// two. None where it has none: no number, or one past 32 bits.
+std::optional<unsigned> toBits(double raw);
 
 /// From a quantity to its raw number and back.
 double toRaw(const Quantity& quantity, double value);

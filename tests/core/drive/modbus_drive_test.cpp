@@ -1,6 +1,7 @@
 #include "core/drive/modbus_drive.h"
 
 #include <QtTest>
+#include <bit>
 #include <map>
 
 using namespace trapwright;
@@ -143,6 +144,32 @@ class ModbusDriveTest : public QObject {
         QCOMPARE(drive->exchange(drive::Command{})->fault.value(), std::string("too hot"));
         device.values[{Table::inputRegister, 5}] = 0x1238;
         QVERIFY(drive->exchange(drive::Command{})->fault.value().find("8") != std::string::npos);
+    }
+
+    // A NaN has no bits: whoever took it for 0 would take the fault for none.
+    void aFaultThatIsNoNumberIsNotTakenForNone_data() {
+        QTest::addColumn<quint32>("bits");
+        QTest::addColumn<bool>("known");
+        QTest::newRow("good") << std::bit_cast<quint32>(0.0F) << true;
+        QTest::newRow("not a number") << quint32(0x7FC00000) << false;
+        QTest::newRow("infinite") << quint32(0x7F800000) << false;
+        QTest::newRow("past 32 bits") << std::bit_cast<quint32>(1e20F) << false;
+    }
+    void aFaultThatIsNoNumberIsNotTakenForNone() {
+        QFETCH(quint32, bits);
+        QFETCH(bool, known);
+        drive::Profile profile = adam();
+        profile.modbus.fault = drive::FaultPlace{{Table::inputRegister, 5, drive::DataType::float32},
+                                                 {.mask = 1, .good = 0, .meanings = {}}};
+        Device device;
+        device.values[{Table::inputRegister, 5}] = static_cast<std::uint16_t>(bits >> 16U);
+        device.values[{Table::inputRegister, 6}] = static_cast<std::uint16_t>(bits & 0xFFFFU);
+        auto drive = drive::makeModbusDrive(profile, std::make_unique<InMemory>(device));
+        QVERIFY(drive->connect().ok());
+        const auto reading = drive->exchange(drive::Command{});
+        QCOMPARE(reading.ok(), known);
+        if (!known)
+            QCOMPARE(reading.error().message, std::string("the drive tells no number in input register 5"));
     }
 };
 

@@ -51,6 +51,15 @@ class RegisterValueTest : public QObject {
         QCOMPARE(drive::encodeRaw(place, std::nan("")), Registers{0});
     }
 
+    void bitsAreThoseOfTheComplementOnTwo() {
+        QCOMPARE(drive::toBits(4294967295.0), std::optional(0xFFFFFFFFU));
+        QCOMPARE(drive::toBits(-1.0), std::optional(0xFFFFFFFFU));
+        QCOMPARE(drive::toBits(-2147483648.0), std::optional(0x80000000U));
+        QCOMPARE(drive::toBits(4294967296.0), std::optional<unsigned>());
+        QCOMPARE(drive::toBits(-2147483649.0), std::optional<unsigned>());
+        QCOMPARE(drive::toBits(std::nan("")), std::optional<unsigned>());
+    }
+
     void quantitiesHaveAZeroAndAOne() {
         // 4 to 20 mA on 16 bits: 0 is 13107, 100 % is 65535.
         const drive::Quantity quantity{{}, 13107.0, 65535.0};
