@@ -31,7 +31,7 @@ while (($# > 0)); do
             exit 0
             ;;
         -p)
-            (($# > 1)) || fail "-p needs a build folder, as in -p build/dev"
+            (($# > 1)) || fail "-p needs a build folder, as in -p build/peers"
             build=$(realpath -- "$2")
             shift
             ;;
@@ -120,8 +120,8 @@ unbuilt=()
 : > "$work/jobs"
 while read -r file item; do
     if [[ $item == - ]]; then
-        # The peers are built on request only; `-p build/peers` looks at them.
-        [[ $file == tests/peers/* ]] || unbuilt+=("$file")
+        # The peers and the fuzz targets are built on request only; `-p build/peers` and `-p build/fuzz` look at them.
+        [[ $file == tests/peers/* || $file == tests/fuzz/* ]] || unbuilt+=("$file")
         continue
     fi
     # A folder's own rules add to those of the whole tree.

@@ -5,6 +5,8 @@ set -euo pipefail
 packages=(
     # tools
     build-essential ccache clang-format-14 clang-tidy-14 cmake git ninja-build pkg-config
+    # sanitizers and fuzzing: the compiler, their runtime, names of functions in reports
+    clang-14 libclang-rt-14-dev llvm-14
     # numbers and random streams
     libboost-dev libeigen3-dev librandom123-dev
     # parts and tracks: reading, repairing, taking apart, writing

@@ -11,8 +11,15 @@ if(TRAPWRIGHT_WERROR)
     target_compile_options(trapwright_options INTERFACE -Werror)
 endif()
 if(TRAPWRIGHT_SANITIZE)
-    target_compile_options(trapwright_options INTERFACE -fsanitize=${TRAPWRIGHT_SANITIZE} -fno-omit-frame-pointer)
+    # Every finding ends the program. Our own and the standard library's assertions are on; CGAL's are expensive and off,
+    # as in what people use.
+    target_compile_options(trapwright_options INTERFACE
+        -fsanitize=${TRAPWRIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_compile_definitions(trapwright_options INTERFACE _GLIBCXX_ASSERTIONS CGAL_NDEBUG)
     target_link_options(trapwright_options INTERFACE -fsanitize=${TRAPWRIGHT_SANITIZE})
+endif()
+if(TRAPWRIGHT_FUZZ)
+    target_compile_options(trapwright_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # Foreign headers that nearly every file reads are compiled once for all targets of a layer, which halves the time of a
@@ -32,6 +39,8 @@ endfunction()
 function(trapwright_precompiled_options name)
     if(CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options(${name} PRIVATE -fpch-preprocess)
+    elseif(CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+        target_compile_options(${name} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
     endif()
 endfunction()
 
