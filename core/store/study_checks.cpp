@@ -54,20 +54,27 @@ base::Status StudyFile::saveCheck(const study::CheckRecord& record) {
 }
 
 base::Result<std::vector<study::CheckRecord>> StudyFile::loadChecks() const {
-    return guarded(path(), "The checks could not be read",
-                   [&]() -> base::Result<std::vector<study::CheckRecord>> {
-                       SQLite::Statement query(
-                           *state_->database,
-                           "SELECT generation, individual, trials, learning_engine, learning_collision, "
-                           "learning_distance, learning_orientation, learning_finished, learning_oriented, "
-                           "reference_engine, reference_collision, reference_distance, "
-                           "reference_orientation, reference_finished, reference_oriented "
-                           "FROM winner_check ORDER BY generation");
-                       std::vector<study::CheckRecord> records;
-                       while (query.executeStep())
-                           records.push_back(readCheck(query));
-                       return records;
-                   });
+    return guarded(
+        path(), "The checks could not be read", [&]() -> base::Result<std::vector<study::CheckRecord>> {
+            SQLite::Statement query(
+                *state_->database,
+                "SELECT generation, individual, trials, learning_engine, learning_collision, "
+                "learning_distance, learning_orientation, learning_finished, learning_oriented, "
+                "reference_engine, reference_collision, reference_distance, "
+                "reference_orientation, reference_finished, reference_oriented "
+                "FROM winner_check ORDER BY generation");
+            std::vector<study::CheckRecord> records;
+            while (query.executeStep()) {
+                auto record = readCheck(query);
+                const study::EngineScore& own = record.learning;
+                const study::EngineScore& other = record.reference;
+                if (!areCounts(record.trials, {own.finished, own.oriented, other.finished, other.oriented}))
+                    return damagedValue(path(),
+                                        "the check of generation " + std::to_string(record.generation));
+                records.push_back(std::move(record));
+            }
+            return records;
+        });
 }
 
 }  // namespace trapwright::store

@@ -5,6 +5,8 @@
 #include <SQLiteCpp/VariadicBind.h>
 
 #include <charconv>
+#include <cstdint>
+#include <limits>
 
 #include "core/store/study_state.h"
 
@@ -28,6 +30,16 @@ base::Result<study::DropRecord> readHead(const std::filesystem::path& path, cons
     record.result.unsettled = query.getColumn(9).getInt();
     record.time = query.getColumn(10).getString();
     return record;
+}
+
+/// Whether each count can be one, and their sum a number of drops.
+bool areDrops(const study::DropResult& result) {
+    std::int64_t sum = result.unsettled;
+    for (const int count : result.counts) {
+        if (count < 0) return false;
+        sum += count;
+    }
+    return result.unsettled >= 0 && sum <= std::numeric_limits<int>::max();
 }
 
 }  // namespace
@@ -76,6 +88,7 @@ base::Result<std::vector<study::DropRecord>> StudyFile::loadDropTests() const {
                     record->result.counts.push_back(rows.getColumn(0).getInt());
                     record->poses.push_back(readRotation(rows, 1));
                 }
+                if (!areDrops(record->result)) return damagedValue(path(), "the counts of a drop test");
                 records.push_back(std::move(*record));
             }
             return records;

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <ctime>
@@ -143,6 +144,10 @@ base::Error damagedValue(const std::filesystem::path& path, const std::string& w
     return {
         "The study " + path.string() + " is damaged: " + what + " cannot be read. Restore it from a copy.",
         base::ErrorKind::damaged};
+}
+
+bool areCounts(int whole, std::initializer_list<int> parts) {
+    return whole >= 0 && std::ranges::all_of(parts, [&](int part) { return part >= 0 && part <= whole; });
 }
 
 trial::Fitness readFitness(const SQLite::Statement& statement, int first) {

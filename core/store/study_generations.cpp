@@ -48,7 +48,7 @@ void insertIndividual(SQLite::Statement& statement, int generation, int number,
     statement.exec();
 }
 
-/// The columns of kIndividualColumns from `first` on; none if a gene is no gene.
+/// The columns of kIndividualColumns from `first` on; none if a gene is no gene, or a count none.
 std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& query, int first) {
     auto points = unpackBits(readBlob(query, first));
     auto lengths = unpackBits(readBlob(query, first + 1));
@@ -64,6 +64,9 @@ std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& q
     record.stuck = query.getColumn(first + 10).getInt();
     const auto oriented = query.getColumn(first + 11);
     if (!oriented.isNull()) record.oriented = oriented.getInt();
+    const bool counted = areCounts(record.trials, {record.finished, record.fellOff, record.stuck});
+    if (!counted || record.overlaps < 0 || !areCounts(record.trials, {record.oriented.value_or(0)}))
+        return std::nullopt;
     return record;
 }
 
@@ -76,7 +79,8 @@ constexpr const char* kSummaryQuery =
     "best.trials, top_success FROM generation LEFT JOIN individual AS best "
     "ON best.generation = generation.number AND best.number = generation.winner ";
 
-study::GenerationSummary readSummary(const SQLite::Statement& query) {
+base::Result<study::GenerationSummary> readSummary(const std::filesystem::path& path,
+                                                   const SQLite::Statement& query) {
     study::GenerationSummary summary;
     summary.index = query.getColumn(0).getInt();
     summary.winner = query.getColumn(1).getInt();
@@ -88,7 +92,11 @@ study::GenerationSummary readSummary(const SQLite::Statement& query) {
     summary.trials = query.getColumn(12).getInt64();
     const auto oriented = query.getColumn(13);
     const int trials = query.getColumn(14).getInt();
-    if (!oriented.isNull() && trials > 0) summary.statistics.success = {oriented.getInt(), trials};
+    if (!oriented.isNull() && trials > 0) {
+        if (!areCounts(trials, {oriented.getInt()}))
+            return damagedValue(path, "the winner of generation " + std::to_string(summary.index));
+        summary.statistics.success = {oriented.getInt(), trials};
+    }
     const auto topSuccess = query.getColumn(15);
     if (!topSuccess.isNull()) summary.statistics.topSuccess = topSuccess.getDouble();
     return summary;
@@ -163,12 +171,13 @@ base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const
                                std::to_string(state_->countRows("generation")) +
                                " generations, counted from 0."};
         }
-        const study::GenerationSummary summary = readSummary(head);
+        const auto summary = readSummary(path(), head);
+        if (!summary) return summary.error();
         study::GenerationRecord record;
-        record.index = summary.index;
-        record.winner = summary.winner;
-        record.statistics = summary.statistics;
-        record.seconds = summary.seconds;
+        record.index = summary->index;
+        record.winner = summary->winner;
+        record.statistics = summary->statistics;
+        record.seconds = summary->seconds;
 
         SQLite::Statement query(*state_->database,
                                 std::string("SELECT ") + kIndividualColumns +
@@ -214,8 +223,11 @@ base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int
                                                    "WHERE generation.number >= ? ORDER BY generation.number");
                        query.bind(1, first);
                        std::vector<study::GenerationSummary> summaries;
-                       while (query.executeStep())
-                           summaries.push_back(readSummary(query));
+                       while (query.executeStep()) {
+                           auto summary = readSummary(path(), query);
+                           if (!summary) return summary.error();
+                           summaries.push_back(std::move(*summary));
+                       }
                        return summaries;
                    });
 }

@@ -12,6 +12,8 @@ namespace trapwright::store {
 
 namespace {
 
+constexpr int kMostPoses = 10'000;  // more than any part has
+
 const std::string kNotSaved = "The trial on the feeder could not be saved";
 
 int countTrials(SQLite::Database& database, int validation) {
@@ -44,6 +46,10 @@ base::Result<study::PhysicalValidation> readHead(const std::filesystem::path& pa
     validation.individual = query.getColumn(3).getInt();
     validation.plan.repetitions = query.getColumn(4).getInt();
     validation.plan.shuffled = query.getColumn(5).getInt() != 0;
+    // Past what any window offers, and few enough for the order of all trials to be drawn up.
+    constexpr int kMostRepetitions = 100'000;
+    if (!areCounts(kMostRepetitions, {validation.plan.repetitions}))
+        return damagedValue(path, "the number of repetitions of a physical validation");
     const std::string seed = query.getColumn(6).getString();
     const auto [end, problem] = std::from_chars(seed.data(), seed.data() + seed.size(), validation.plan.seed);
     if (problem != std::errc() || end != seed.data() + seed.size())
@@ -60,6 +66,7 @@ base::Result<study::PhysicalTrial> readTrial(const std::filesystem::path& path,
     study::PhysicalTrial trial;
     trial.number = query.getColumn(0).getInt();
     trial.pose = query.getColumn(1).getInt();
+    if (!areCounts(kMostPoses, {trial.pose})) return damagedValue(path, "the pose of a trial on the feeder");
     const auto outcome = study::physicalOutcomeOf(query.getColumn(2).getString());
     if (!outcome) return damagedValue(path, "the outcome of a trial on the feeder");
     trial.outcome = *outcome;
@@ -183,8 +190,13 @@ base::Result<std::vector<study::PhysicalValidation>> StudyFile::loadPhysicalVali
                 if (!validation) return validation.error();
                 poses.reset();
                 poses.bind(1, validation->number);
-                while (poses.executeStep())
+                while (poses.executeStep()) {
                     validation->plan.poses.push_back(poses.getColumn(0).getInt());
+                    if (!areCounts(kMostPoses, {validation->plan.poses.back()}))
+                        return damagedValue(path(), "a pose of a physical validation");
+                }
+                if (validation->plan.poses.size() > static_cast<std::size_t>(kMostPoses))
+                    return damagedValue(path(), "the poses of a physical validation");
                 trials.reset();
                 trials.bind(1, validation->number);
                 while (trials.executeStep()) {

@@ -4,6 +4,8 @@
 #include <SQLiteCpp/Transaction.h>
 #include <SQLiteCpp/VariadicBind.h>
 
+#include <limits>
+
 #include "core/store/study_state.h"
 
 namespace trapwright::store {
@@ -75,8 +77,12 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
                            record.engine = heads.getColumn(1).getString();
                            rows.reset();
                            rows.bind(1, heads.getColumn(0).getInt());
-                           while (rows.executeStep())
-                               record.entries.push_back(readEntry(rows));
+                           while (rows.executeStep()) {
+                               const study::SelectionEntry entry = readEntry(rows);
+                               if (!areCounts(entry.trials, {entry.finished, entry.oriented}))
+                                   return damagedValue(path(), "the counts of a selection");
+                               record.entries.push_back(entry);
+                           }
                            records.push_back(std::move(record));
                        }
                        return records;
@@ -124,8 +130,15 @@ base::Result<std::vector<study::ValidationRecord>> StudyFile::loadValidations() 
                 record.tolerance = heads.getColumn(8).getDouble();
                 rows.reset();
                 rows.bind(1, heads.getColumn(0).getInt());
-                while (rows.executeStep())
-                    record.rows.push_back(readRow(rows));
+                while (rows.executeStep()) {
+                    const study::ValidationRow row = readRow(rows);
+                    const int most = std::numeric_limits<int>::max();
+                    if (!areCounts(row.trials,
+                                   {row.failures, row.wrongOrientation, row.stuck, row.fellOff}) ||
+                        !areCounts(most, {row.pose}))
+                        return damagedValue(path(), "the counts of a validation");
+                    record.rows.push_back(row);
+                }
                 records.push_back(std::move(record));
             }
             return records;

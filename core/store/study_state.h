@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 
@@ -47,6 +48,9 @@ std::string currentUtc();
 
 /// A value from the file that cannot be; `what` names it.
 base::Error damagedValue(const std::filesystem::path& path, const std::string& what);
+
+/// Whether all of these can be counts out of `whole`: none negative, none more than there were.
+bool areCounts(int whole, std::initializer_list<int> parts);
 
 /// Three scores from column `first` on.
 trial::Fitness readFitness(const SQLite::Statement& statement, int first);

@@ -38,7 +38,7 @@ class CompareTest : public QObject {
             "a count", [](study::GenerationRecord& g) { ++g.individuals[5].stuck; },
             "generation 1, individual 5: the scores differ");
         row(
-            "success", [](study::GenerationRecord& g) { g.individuals[3].oriented = 99; },
+            "success", [](study::GenerationRecord& g) { g.individuals[3].oriented = 9; },
             "generation 1, individual 3: the scores differ");
         row(
             "the winner", [](study::GenerationRecord& g) { g.winner = (g.winner + 1) % 6; },

@@ -79,7 +79,7 @@ inline study::GenerationRecord generation(int index, int individuals = 6) {
         record.individuals.push_back({{bits(800), bits(50), bits(60)},
                                       fitness(),
                                       count(9),
-                                      count(9),
+                                      9 + count(9),
                                       count(9),
                                       count(9),
                                       count(9),
