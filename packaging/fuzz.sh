@@ -85,6 +85,17 @@ trap 'rm -rf "$work"' EXIT
 source "$root/packaging/sanitizers/environment.sh"
 export TRAPWRIGHT_RESOURCES=$root/resources
 
+# What is to be seen where the build folder is gone, as on a server: what happened, where, and a short input whole.
+reportCrash() {
+    local input
+    input=$(sed -n 's/.*Test unit written to //p' "$2" | tail -n 1)
+    echo "$1: $(grep -m 1 -E 'runtime error|SUMMARY|does not hold' "$2" || tail -n 1 "$2")"
+    grep -m 8 -E '^ +#[0-9]+ .*/(core|tests)/' "$2" || true
+    if [[ -f $input ]] && (($(stat -c %s "$input") <= 4096)); then
+        echo "base64 of $(basename "$input"): $(base64 -w 0 "$input")"
+    fi
+}
+
 # libFuzzer ends at a crash: it is started again for what is left of the time.
 runTarget() {
     local target=$1 time=$2
@@ -111,6 +122,7 @@ runTarget() {
         fi
         crashed=$((crashed + 1))
         cp "$log" "$crashes/log-$crashed.txt"
+        reportCrash "$target" "$log" >> "$work/$target.report"
         # One that crashes at once would fill the disk.
         ((time > 0 && SECONDS - start + 1 < time && crashed < 20)) || break
     done
@@ -140,6 +152,7 @@ for target in "${targets[@]}"; do
     crashes=$((crashes + crashed))
 done
 if ((crashes > 0)); then
+    cat "$work"/*.report >&2
     echo "fuzz.sh: $crashes crashes. Inputs and reports are in $build/crashes." >&2
     exit 1
 fi

@@ -9,7 +9,8 @@ usage() {
 Usage: packaging/test.sh [CTEST-OPTION...]
 
 Installs what is missing, builds the release preset, checks format, layers and clang-tidy, and runs every test. With
-CI=true it also installs and configures in a bare Debian 12 (packaging/try_bare.sh).
+CI=true it also installs and configures in a bare Debian 12 (packaging/try_bare.sh), fuzzes for a minute, and runs as many
+tests with sanitizers as fit in ten minutes (packaging/fuzz.sh, packaging/sanitize.sh).
 Options go to ctest, for instance: packaging/test.sh -R core_track
 USAGE
 }
@@ -37,6 +38,12 @@ if [[ ${CI:-} == true ]]; then
     "$root/packaging/try_bare.sh" || bare=$?
     # 77: no bare system can be made here, which it has said.
     ((bare == 0 || bare == 77)) || failed+=(try_bare)
+
+    # One sanitized tree for both, in ten minutes, building included.
+    began=$SECONDS
+    "$root/packaging/fuzz.sh" --seconds 60 || failed+=(fuzz)
+    minutes=$((10 - (SECONDS - began + 30) / 60))
+    "$root/packaging/sanitize.sh" address --minutes "$((minutes > 1 ? minutes : 1))" || failed+=(sanitize)
 fi
 # The tests are run last so that their summary ends the output.
 cd "$root"

@@ -62,6 +62,12 @@ function(trapwright_library name)
     endif()
 endfunction()
 
+# [s] for a whole test; with sanitizers several times as long.
+set(TRAPWRIGHT_TEST_TIMEOUT 600)
+if(TRAPWRIGHT_SANITIZE)
+    set(TRAPWRIGHT_TEST_TIMEOUT 3600)
+endif()
+
 # trapwright_test(core_base_random_test LIBS core_base): built from random_test.cpp beside the calling list file.
 function(trapwright_test name)
     cmake_parse_arguments(ARG "" "SOURCE" "LIBS" ${ARGN})
@@ -71,7 +77,7 @@ function(trapwright_test name)
     trapwright_use_precompiled(${name})
     target_compile_definitions(${name} PRIVATE TRAPWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 600)
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${TRAPWRIGHT_TEST_TIMEOUT})
 endfunction()
 
 # The same for a test that shows windows: it gets an X server of its own, with OpenGL in software.
@@ -83,5 +89,5 @@ function(trapwright_gui_test name)
     trapwright_use_precompiled(${name})
     target_compile_definitions(${name} PRIVATE TRAPWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     add_test(NAME ${name} COMMAND xvfb-run -a -s "-screen 0 2560x1600x24 +extension GLX" $<TARGET_FILE:${name}>)
-    set_tests_properties(${name} PROPERTIES TIMEOUT 600 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LIBGL_ALWAYS_SOFTWARE=1")
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${TRAPWRIGHT_TEST_TIMEOUT} ENVIRONMENT "QT_QPA_PLATFORM=xcb;LIBGL_ALWAYS_SOFTWARE=1")
 endfunction()

@@ -9,3 +9,4 @@ export UBSAN_OPTIONS="print_stacktrace=1:${UBSAN_OPTIONS:-}"
 for variable in ASAN LSAN TSAN UBSAN; do
     export "${variable}_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-14"
 done
+export QTEST_FUNCTION_TIMEOUT=3600000  # [ms] of one test function, which is 5 minutes in Qt Test

@@ -20,7 +20,6 @@ class FuzzedDevice final : public drive::RegisterTransport {
     [[nodiscard]] bool isOpen() const override { return isOpen_; }
     base::Result<std::vector<std::uint16_t>> read(drive::Table /*table*/, int address, int count,
                                                   double /*timeOut*/) override {
-        fuzz::require(isOpen_, "only an open transport is read");
         fuzz::require(address >= 0 && count >= 1 && address + count <= 0x10000, "the place is in its table");
         if (isSilent()) return base::Error{"no answer"};
         std::vector<std::uint16_t> registers(static_cast<std::size_t>(count));
@@ -30,7 +29,7 @@ class FuzzedDevice final : public drive::RegisterTransport {
     }
     base::Status write(drive::Table /*table*/, int address, std::span<const std::uint16_t> values,
                        double /*timeOut*/) override {
-        fuzz::require(isOpen_ && !values.empty(), "only an open transport is written to");
+        fuzz::require(!values.empty(), "something is written");
         fuzz::require(address >= 0 && address + static_cast<int>(values.size()) <= 0x10000,
                       "the place is in its table");
         if (isSilent()) return base::Error{"no answer"};
@@ -39,7 +38,9 @@ class FuzzedDevice final : public drive::RegisterTransport {
     void close() override { isOpen_ = false; }
 
  private:
+    // A connection that is lost in the middle of an exchange is closed, and answers nothing any more.
     bool isSilent() {
+        if (!isOpen_) return true;
         constexpr int kOften = 20;
         const bool silent = input_.ConsumeIntegralInRange(0, kOften) == kOften;
         if (silent && input_.ConsumeBool()) isOpen_ = false;
