@@ -89,8 +89,8 @@ export TRAPWRIGHT_RESOURCES=$root/resources
 reportCrash() {
     local input
     input=$(sed -n 's/.*Test unit written to //p' "$2" | tail -n 1)
-    echo "$1: $(grep -m 1 -E 'runtime error|SUMMARY|does not hold' "$2" || tail -n 1 "$2")"
-    grep -m 8 -E '^ +#[0-9]+ .*/(core|tests)/' "$2" || true
+    echo "$1: $(grep -a -m 1 -E 'runtime error|SUMMARY|does not hold' "$2" || tail -n 1 "$2")"
+    grep -a -m 8 -E '^ +#[0-9]+ .*/(core|tests)/' "$2" || true
     if [[ -f $input ]] && (($(stat -c %s "$input") <= 4096)); then
         echo "base64 of $(basename "$input"): $(base64 -w 0 "$input")"
     fi
