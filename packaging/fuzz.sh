@@ -91,7 +91,7 @@ reportCrash() {
     input=$(sed -n 's/.*Test unit written to //p' "$2" | tail -n 1)
     echo "$1: $(grep -a -m 1 -E 'runtime error|SUMMARY|does not hold' "$2" || tail -n 1 "$2")"
     grep -a -m 8 -E '^ +#[0-9]+ .*/(core|tests)/' "$2" || true
-    if [[ -f $input ]] && (($(stat -c %s "$input") <= 4096)); then
+    if [[ -f $input ]] && (($(stat -c %s "$input") <= 2048)); then
         echo "base64 of $(basename "$input"): $(base64 -w 0 "$input")"
     fi
 }
@@ -122,7 +122,8 @@ runTarget() {
         fi
         crashed=$((crashed + 1))
         cp "$log" "$crashes/log-$crashed.txt"
-        reportCrash "$target" "$log" >> "$work/$target.report"
+        # The others are often the same.
+        ((crashed > 1)) || reportCrash "$target" "$log" > "$work/$target.report"
         # One that crashes at once would fill the disk.
         ((time > 0 && SECONDS - start + 1 < time && crashed < 20)) || break
     done
