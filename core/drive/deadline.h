@@ -2,24 +2,31 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <utility>
 
 namespace trapwright::drive {
+
+/// Tells the time in seconds and only goes forward.
+using Clock = std::function<double()>;
+
+/// The computer's own such clock. [s]
+inline double steadyTime() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// A moment until which several steps together must be done.
 class Deadline {
  public:
-    explicit Deadline(double seconds)
-        : end_(Clock::now() +
-               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
+    explicit Deadline(double seconds, Clock clock = steadyTime)
+        : clock_(std::move(clock)), end_(clock_() + seconds) {}
 
     /// What is left of it, never less than 0. [s]
-    [[nodiscard]] double left() const {
-        return std::max(std::chrono::duration<double>(end_ - Clock::now()).count(), 0.0);
-    }
+    [[nodiscard]] double left() const { return std::max(end_ - clock_(), 0.0); }
 
  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point end_;
+    Clock clock_;
+    double end_;
 };
 
 }  // namespace trapwright::drive

@@ -38,7 +38,8 @@ class Drive {
     virtual ~Drive() = default;
 
     /// Reaches the drive and writes what it needs at the start, its watchdog included. Moves nothing: the
-    /// first thing that it is told is rest. Error: what could not be reached, and what to check.
+    /// first thing that it is told is rest. Error: what could not be reached, and what to check; connected()
+    /// then says whether it was heard, and disconnect() tells it to rest as well as it can.
     virtual base::Status connect() = 0;
     [[nodiscard]] virtual bool connected() const = 0;
 

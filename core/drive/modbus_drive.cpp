@@ -15,25 +15,27 @@ namespace {
 
 class ModbusDrive final : public Drive {
  public:
-    ModbusDrive(const Profile& profile, std::unique_ptr<RegisterTransport> transport)
-        : profile_(profile), map_(profile_.modbus), transport_(std::move(transport)) {}
+    ModbusDrive(const Profile& profile, std::unique_ptr<RegisterTransport> transport, Clock clock)
+        : profile_(profile),
+          map_(profile_.modbus),
+          transport_(std::move(transport)),
+          clock_(std::move(clock)) {}
     ModbusDrive(const ModbusDrive&) = delete;
     ModbusDrive& operator=(const ModbusDrive&) = delete;
     ~ModbusDrive() override { rest(); }
 
     base::Status connect() override {
         if (auto status = transport_->open(profile_.timeOut); !status) return status;
-        const Deadline deadline(2.0 * profile_.timeOut);
+        const Deadline deadline(2.0 * profile_.timeOut, clock_);
         auto status = writeAll(map_.atConnect, deadline);
         if (status) status = tell(Command{}, deadline);
-        if (!status) transport_->close();
         return status;
     }
 
     [[nodiscard]] bool connected() const override { return transport_->isOpen(); }
 
     base::Result<Reading> exchange(const Command& command) override {
-        const Deadline deadline(profile_.timeOut);
+        const Deadline deadline(profile_.timeOut, clock_);
         if (auto status = tell(command, deadline); !status) return status.error();
         return readBack(deadline);
     }
@@ -44,7 +46,7 @@ class ModbusDrive final : public Drive {
     // Each write is tried, whatever became of the one before.
     void rest() {
         if (!transport_->isOpen()) return;
-        const Deadline deadline(profile_.timeOut);
+        const Deadline deadline(profile_.timeOut, clock_);
         static_cast<void>(switchEnable(false, deadline.left() / 2.0));
         static_cast<void>(writeSetPoint(0.0, deadline.left()));
         static_cast<void>(writeAll(map_.atDisconnect, deadline));
@@ -163,12 +165,14 @@ class ModbusDrive final : public Drive {
     const Profile profile_;
     const ModbusMap& map_;
     std::unique_ptr<RegisterTransport> transport_;
+    const Clock clock_;
 };
 
 }  // namespace
 
-std::unique_ptr<Drive> makeModbusDrive(const Profile& profile, std::unique_ptr<RegisterTransport> transport) {
-    return std::make_unique<ModbusDrive>(profile, std::move(transport));
+std::unique_ptr<Drive> makeModbusDrive(const Profile& profile, std::unique_ptr<RegisterTransport> transport,
+                                       Clock clock) {
+    return std::make_unique<ModbusDrive>(profile, std::move(transport), std::move(clock));
 }
 
 }  // namespace trapwright::drive

@@ -30,11 +30,8 @@ class ReoDrive final : public Drive {
 
     base::Status connect() override {
         if (auto status = transport_->open(profile_.timeOut); !status) return status;
-        if (const auto answer = exchange(Command{}); !answer) {
-            transport_->close();
-            return answer.error();
-        }
-        return base::success();
+        const auto answer = exchange(Command{});
+        return answer ? base::success() : base::Status(answer.error());
     }
 
     [[nodiscard]] bool connected() const override { return transport_->isOpen(); }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace trapwright::drive {
@@ -26,6 +27,13 @@ Limits keepSafe(Limits limits) {
     limits.highest = limits.highest > 0.0 ? std::min(limits.highest, 1.0) : 0.0;
     limits.rampPerSecond = limits.rampPerSecond > 0.0 ? limits.rampPerSecond : 0.0;
     return limits;
+}
+
+/// Whether all that it measures are numbers.
+bool isSound(const Reading& reading) {
+    const auto sound = [](const std::optional<double>& value) { return !value || std::isfinite(*value); };
+    return sound(reading.setPoint) && sound(reading.frequency) && sound(reading.acceleration) &&
+           sound(reading.current);
 }
 
 bool isRest(const Command& command) {
@@ -127,6 +135,10 @@ void Supervisor::failed(const std::string& message) {
 
 void Supervisor::observe(const Reading& reading, double now) {
     reading_ = reading;
+    if (restTold_) {
+        mayMove_ = !saysOff(reading) || (vibrates(reading) && now - *restTold_ > kCoastTime);
+    }
+    if (!isSound(reading)) return fault("the drive tells something that is no number");
     if (reading.fault) return fault("the drive tells a fault: " + *reading.fault);
     if (const auto disagreement = findDisagreement(reading, now)) return fault(*disagreement);
     if (state_ == State::stopping && isAtRest(reading)) state_ = State::idle;
@@ -152,7 +164,13 @@ Command Supervisor::command(double now) {
             command.enable = true;
         }
     }
-    if (!isRest(command)) restSince_ = now;
+    if (isRest(command)) {
+        if (!restTold_) restTold_ = now;
+    } else {
+        restSince_ = now;
+        restTold_.reset();
+        mayMove_ = true;
+    }
     told_.push_back({now, command});
     // The command that was in force when the time to settle began stays.
     while (told_.size() > 1 && told_[1].time <= now - agreement_.settlingTime)
@@ -185,8 +203,7 @@ std::optional<std::string> Supervisor::findDisagreement(const Reading& reading, 
                            *reading.enabled ? "on" : "off");
     }
     const bool coasted = now - restSince_ > kCoastTime;
-    if (coasted && reading.acceleration && agreement_.restAcceleration &&
-        *reading.acceleration > *agreement_.restAcceleration) {
+    if (coasted && vibrates(reading)) {
         return fmt::format(
             "the feeder was told to rest and still vibrates with {:.1f} m/s^2. Switch it off by hand",
             *reading.acceleration);
@@ -209,10 +226,26 @@ bool Supervisor::isExplained(const Reading& reading) const {
 }
 
 bool Supervisor::isAtRest(const Reading& reading) const {
+    return saysOff(reading) && !vibrates(reading);
+}
+
+// A number that is none says nothing that could be relied on: it compares as false.
+bool Supervisor::saysOff(const Reading& reading) const {
     if (reading.enabled.value_or(false)) return false;
-    if (reading.setPoint.value_or(0.0) > agreement_.tolerance) return false;
-    return !reading.acceleration || !agreement_.restAcceleration ||
-           *reading.acceleration <= *agreement_.restAcceleration;
+    return std::abs(reading.setPoint.value_or(0.0)) <= agreement_.tolerance;
+}
+
+bool Supervisor::vibrates(const Reading& reading) const {
+    if (!reading.acceleration || !agreement_.restAcceleration) return false;
+    return !(std::abs(*reading.acceleration) <= *agreement_.restAcceleration);
+}
+
+bool Supervisor::defiesRest(double now) const {
+    if (!linked_ || !reading_ || !restTold_) return false;
+    const double told = now - *restTold_;
+    if (!saysOff(*reading_))
+        return told > agreement_.settlingTime && now - connectedAt_ > agreement_.settlingTime;
+    return told > kCoastTime && vibrates(*reading_);
 }
 
 }  // namespace trapwright::drive

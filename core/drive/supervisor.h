@@ -69,6 +69,15 @@ class Supervisor {
     /// What to tell the drive now; moves on along the ramp. To be called once for each heartbeat.
     Command command(double now);
 
+    /// The drive was not told to move since it last said that it does what it is told, and rests.
+    [[nodiscard]] bool restConfirmed() const { return !mayMove_; }
+    /// It should rest, and nobody knows that it does: it does not answer, or says otherwise.
+    [[nodiscard]] bool mayMove() const {
+        return mayMove_ && (state_ == State::faulted || state_ == State::disconnected);
+    }
+    /// It answers, had its time to come to rest, and says that it does not rest.
+    [[nodiscard]] bool defiesRest(double now) const;
+
     [[nodiscard]] State state() const { return state_; }
     [[nodiscard]] double target() const { return target_; }
     [[nodiscard]] const Limits& limits() const { return limits_; }
@@ -84,6 +93,8 @@ class Supervisor {
     [[nodiscard]] std::optional<std::string> findDisagreement(const Reading& reading, double now) const;
     [[nodiscard]] bool isExplained(const Reading& reading) const;
     [[nodiscard]] bool isAtRest(const Reading& reading) const;
+    [[nodiscard]] bool saysOff(const Reading& reading) const;
+    [[nodiscard]] bool vibrates(const Reading& reading) const;
 
     Limits limits_;
     Agreement agreement_;
@@ -95,6 +106,8 @@ class Supervisor {
     double connectedAt_ = 0.0;           // [s]
     std::optional<double> lastCommand_;  // [s]
     double restSince_ = 0.0;             // [s], when it was told to rest
+    std::optional<double> restTold_;     // [s], likewise, over all connections; none while it is to move
+    bool mayMove_ = false;
     std::optional<Reading> reading_;
     std::deque<Told> told_;  // the commands that may explain a reading, oldest first
     std::string fault_;

@@ -205,6 +205,25 @@ class DriveLoopTest : public QObject {
         QVERIFY(rests(plant.last()));
     }
 
+    // Nobody can be told any more: the last snapshot says so.
+    void whoeverLeavesASilentDriveIsWarned() {
+        Plant plant;
+        auto loop = runAt(plant, 0.5);
+        QVERIFY(loop);
+        QVERIFY(loop->snapshot().warning.empty());
+        plant.answers = false;
+        loop->finish();
+        QVERIFY(loop->ended());
+        QVERIFY(!loop->snapshot().warning.empty());
+
+        Plant good;
+        loop = runAt(good, 0.5);
+        QVERIFY(loop);
+        loop->finish();
+        QVERIFY(loop->snapshot().warning.empty());
+        QVERIFY(rests(good.last()));
+    }
+
     void aStalledHeartbeatIsAFault() {
         Plant plant;
         auto loop = runAt(plant, 0.5);

@@ -124,7 +124,13 @@ class ModbusDriveTest : public QObject {
         const auto time = device.values[{Table::holdingRegister, 0x1000}];
         QCOMPARE(time, std::uint16_t(10));
         device.refused = {0x1000};
+        device.values[{Table::coil, 16}] = 1;
         QVERIFY(!drive->connect());
+        // It was heard: whatever it refuses, it is told to rest.
+        QVERIFY(drive->connected());
+        drive->disconnect();
+        const auto enable = device.values[{Table::coil, 16}];
+        QCOMPARE(enable, std::uint16_t(0));
         QVERIFY(!drive->connected());
     }
 

@@ -332,6 +332,48 @@ class SupervisorTest : public QObject {
         QCOMPARE(bench.supervisor.state(), State::faulted);
     }
 
+    void whatIsNoNumberIsNoRest_data() {
+        QTest::addColumn<double>("acceleration");
+        QTest::newRow("not a number") << std::nan("");
+        QTest::newRow("infinite") << std::numeric_limits<double>::infinity();
+        QTest::newRow("below zero") << -30.0;
+    }
+    void whatIsNoNumberIsNoRest() {
+        QFETCH(double, acceleration);
+        Bench bench;
+        bench.run(0.5);
+        bench.acceleration = acceleration;
+        bench.supervisor.stop();
+        bench.beat();
+        QVERIFY(bench.supervisor.state() != State::idle);
+        bench.beatFor(2.0);
+        QCOMPARE(bench.supervisor.state(), State::faulted);
+        QVERIFY(bench.supervisor.mayMove());
+        QVERIFY(!bench.supervisor.acknowledge());
+    }
+
+    void aLostDriveMayMoveUntilItSaysOtherwise() {
+        Bench bench;
+        bench.supervisor.connected(bench.now);
+        bench.beat();
+        // One that was never started is lost without a warning.
+        bench.supervisor.failed("no answer");
+        QVERIFY(!bench.supervisor.mayMove());
+        bench.supervisor.connected(bench.now);
+        bench.beat();
+        QVERIFY(bench.supervisor.acknowledge());
+        bench.supervisor.setTarget(0.5);
+        QVERIFY(bench.supervisor.start());
+        bench.beat();
+        bench.supervisor.failed("no answer");
+        QVERIFY(bench.supervisor.mayMove());
+        bench.supervisor.connected(bench.now);
+        QVERIFY(bench.supervisor.mayMove());
+        bench.beat();
+        QVERIFY(!bench.supervisor.mayMove());
+        QVERIFY(bench.supervisor.restConfirmed());
+    }
+
     void aHeartbeatThatIsMissedIsAFault() {
         Bench bench;
         bench.run(0.5);
