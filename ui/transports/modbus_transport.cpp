@@ -150,7 +150,7 @@ class ModbusTransport final : public drive::RegisterTransport {
             return base::Error{fmt::format("{} wrote to {} {} instead of {}", name_, nameOf(table),
                                            answer->startAddress(), address)};
         }
-        return base::success();
+        return checkedEcho(*answer, table, values);
     }
 
     void close() override {
@@ -178,7 +178,7 @@ class ModbusTransport final : public drive::RegisterTransport {
                                            const std::string& what, double timeOut) {
         if (!isOpen()) return base::Error{fmt::format("the connection to {} is lost. {}", name_, advice_)};
         client_->setTimeout(std::max(toMilliseconds(timeOut), kShortestOfQt));
-        const std::unique_ptr<QModbusReply> reply(ask());
+        std::unique_ptr<QModbusReply> reply(ask());
         if (!reply) {
             return base::Error{
                 fmt::format("{} could not be asked to {}: {}", name_, what, reasonOf(*client_))};
@@ -186,9 +186,13 @@ class ModbusTransport final : public drive::RegisterTransport {
         if (!reply->isFinished()) {
             QEventLoop loop;
             QObject::connect(reply.get(), &QModbusReply::finished, &loop, [&loop] { loop.exit(0); });
-            if (!runFor(loop, timeOut))
+            if (!runFor(loop, timeOut)) {
+                // Bytes that come before Qt's own time-out make it use this still; the client owns it.
+                QObject::connect(reply.get(), &QModbusReply::finished, reply.get(), &QObject::deleteLater);
+                static_cast<void>(reply.release());
                 return base::Error{
                     fmt::format("{} did not answer in time when asked to {}. {}", name_, what, advice_)};
+            }
         }
         return checkedAnswer(*reply, code, what);
     }
@@ -217,6 +221,22 @@ class ModbusTransport final : public drive::RegisterTransport {
                             name_, what)};
         }
         return reply.result();
+    }
+
+    /// One value comes back as it was written, of several only their number (Modbus Application Protocol
+    /// 1.1b3, sections 6.5, 6.6, 6.11 and 6.12).
+    base::Status checkedEcho(const QModbusDataUnit& answer, Table table,
+                             std::span<const std::uint16_t> values) const {
+        const bool isBit = table == Table::coil;
+        bool same = answer.valueCount() == static_cast<qsizetype>(values.size());
+        if (same && values.size() == 1) {
+            same = isBit ? (answer.value(0) != 0) == (values[0] != 0) : answer.value(0) == values[0];
+        }
+        if (same) return base::success();
+        return base::Error{
+            fmt::format("{} says that it wrote something else to {} {} than it was told. Check in its "
+                        "manual which values it takes there, and the scale in the profile",
+                        name_, nameOf(table), answer.startAddress())};
     }
 
     const std::string name_;
