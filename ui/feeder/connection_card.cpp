@@ -145,13 +145,14 @@ void ConnectionCard::showLink() {
     const bool linked = link_.linked();
     list_->setEnabled(!linked);
     place_->setEnabled(!linked);
-    button_->setText(linked ? tr("Disconnect") : tr("Connect"));
+    button_->setEnabled(!link_.leaving());
+    button_->setText(link_.leaving() ? tr("Disconnecting...") : linked ? tr("Disconnect") : tr("Connect"));
     button_->setToolTip(linked ? tr("Lets the drive rest, switches it off and ends the connection")
                                : tr("Reaches the drive; nothing moves"));
 }
 
 void ConnectionCard::toggle() {
-    if (link_.linked()) return link_.disconnectDrive();
+    if (link_.linked()) return link_.leaveDrive();
     const drive::Profile* profile = chosen();
     if (profile == nullptr) return;
     remember();

@@ -27,6 +27,8 @@ DriveLink::DriveLink(session::DriveAccess access, QObject* parent)
 }
 
 DriveLink::~DriveLink() {
+    // Whoever would show it is being destroyed as well.
+    disconnect(this, &DriveLink::failed, nullptr, nullptr);
     disconnectDrive();
 }
 
@@ -69,7 +71,21 @@ void DriveLink::connectDrive(const drive::Profile& profile, const drive::Address
 
 void DriveLink::disconnectDrive() {
     if (!loop_) return;
+    loop_->finish();
+    forgetDrive();
+}
+
+void DriveLink::leaveDrive() {
+    if (!loop_ || leaving_) return;
+    loop_->end();
+    leaving_ = true;
+    emit linkChanged();
+}
+
+void DriveLink::forgetDrive() {
     tick_.stop();
+    leaving_ = false;
+    const std::string warning = loop_->snapshot().warning;
     loop_.reset();
     takeLog();
     saveLog();
@@ -77,6 +93,8 @@ void DriveLink::disconnectDrive() {
     snapshot_ = {};
     emit stateChanged();
     emit linkChanged();
+    // Nobody tells it to rest any more.
+    if (!warning.empty()) emit failed(tr("The drive may still be moving"), QString::fromStdString(warning));
 }
 
 bool DriveLink::moves() const {
@@ -164,6 +182,7 @@ void DriveLink::poll() {
     if (++ticks_ % kTicksPerSave == 0) saveLog();
     emit polled();
     if (snapshot_.state != before || snapshot_.fault != fault) emit stateChanged();
+    if (leaving_ && loop_ && loop_->ended()) forgetDrive();
 }
 
 void DriveLink::takeLog() {

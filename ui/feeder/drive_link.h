@@ -31,11 +31,16 @@ class DriveLink : public QObject {
     /// Connects in the background; snapshot() tells what comes of it. A virtual feeder is served first, and
     /// has an address of its own then.
     void connectDrive(const drive::Profile& profile, const drive::Address& address);
-    /// Set-point zero, enable off, end of the connection. Waits for it.
+    /// Set-point zero, enable off, end of the connection. Waits for it: up to 1 s and eleven time-outs of the
+    /// profile where the drive moves and does not answer.
     void disconnectDrive();
+    /// The same in the background, for a window that goes on.
+    void leaveDrive();
 
     /// Whether there is a connection, or one is tried.
     [[nodiscard]] bool linked() const { return loop_ != nullptr; }
+    /// leaveDrive() is not done yet.
+    [[nodiscard]] bool leaving() const { return leaving_; }
     /// Of the last drive.
     [[nodiscard]] const drive::Profile& profile() const { return profile_; }
     [[nodiscard]] const drive::Snapshot& snapshot() const { return snapshot_; }
@@ -78,6 +83,7 @@ class DriveLink : public QObject {
     [[nodiscard]] drive::Limits limits() const;
     void followSettings();
     void poll();
+    void forgetDrive();
     void takeLog();
     void saveLog();
 
@@ -88,6 +94,7 @@ class DriveLink : public QObject {
     double target_ = 0.0;
     QTimer tick_;
     int ticks_ = 0;
+    bool leaving_ = false;
     std::vector<drive::LogEntry> unsaved_;
     std::shared_ptr<Inbox> inbox_;
     session::ServedFeeder served_;  // outlives the loop

@@ -242,7 +242,9 @@ void DrivePanel::showTarget() {
 void DrivePanel::showSnapshot() {
     const drive::Snapshot& now = link_.snapshot();
     const bool waiting = link_.linked() && now.state == State::disconnected;
-    state_->setText(waiting ? tr("Connecting...") : stateText(now.state));
+    state_->setText(!now.warning.empty() ? tr("May still be moving")
+                    : waiting            ? tr("Connecting...")
+                                         : stateText(now.state));
     motion_->setVisible(link_.linked());
     start_->setEnabled(now.state == State::idle && link_.target() > 0.0);
     start_->setToolTip(now.state != State::idle ? tr("The drive must be connected and at rest")
@@ -259,7 +261,7 @@ void DrivePanel::showSnapshot() {
     readings_[Frequency]->setText(readingText(reading.frequency, 1.0, tr("Hz")));
     readings_[Current]->setText(shareText(reading.current));
 
-    const bool faulted = !now.fault.empty();
+    const bool faulted = !now.fault.empty() || !now.warning.empty();
     fault_->setVisible(faulted);
     if (!faulted) return;
     acknowledge_->setVisible(now.state == State::faulted);
@@ -267,7 +269,12 @@ void DrivePanel::showSnapshot() {
     const QString style =
         QString("#feeder\\.fault { border: 2px solid %1; border-radius: 6px; }").arg(colour.name());
     if (style != fault_->styleSheet()) fault_->setStyleSheet(style);
-    faultText_->setText(asSentence(QString::fromStdString(now.fault)));
+    // What to do comes before how it came about.
+    QStringList sentences;
+    for (const std::string& text : {now.warning, now.fault}) {
+        if (!text.empty()) sentences << asSentence(QString::fromStdString(text));
+    }
+    faultText_->setText(sentences.join(' '));
 }
 
 }  // namespace trapwright::feeder

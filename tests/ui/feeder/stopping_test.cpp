@@ -1,4 +1,5 @@
 #include <QDialog>
+#include <QLabel>
 #include <QMessageBox>
 #include <QTreeWidget>
 
@@ -96,7 +97,37 @@ class StoppingTest : public QObject {
         QVERIFY(run(user));
         user.click("feeder.connect");
         QVERIFY(bench.rests());
-        QVERIFY(!user.page().link().linked());
+        QTRY_VERIFY(!user.page().link().linked());
+    }
+
+    // A drive that moves and does not answer takes its time to be left; the window does not wait for it.
+    void disconnectingDoesNotHoldTheWindow() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        QVERIFY(run(user));
+        QSignalSpy told(&user.page().link(), &DriveLink::failed);
+        bench.feeder->setTrouble(Trouble::silent);
+        user.page().link().leaveDrive();
+        QVERIFY(user.page().link().linked());
+        QTRY_VERIFY_WITH_TIMEOUT(!user.page().link().linked(), kPatience);
+        // Nobody has heard that it rests.
+        QCOMPARE(told.size(), 1);
+        QVERIFY(told[0][1].toString().contains("switch it off by hand"));
+        QVERIFY(bench.rests());
+    }
+
+    void aDriveThatFallsSilentMayStillMove() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        QVERIFY(run(user));
+        bench.feeder->setTrouble(Trouble::silent);
+        auto* state = user.find<QLabel>("feeder.state");
+        QTRY_COMPARE_WITH_TIMEOUT(state->text(), QString("May still be moving"), kPatience);
+        QVERIFY(user.find<QLabel>("feeder.fault.text")->text().contains("switch it off by hand"));
+        // It is told to rest as soon as it hears again, and then nothing is to be warned of.
+        bench.feeder->setTrouble(Trouble::none);
+        QTRY_COMPARE_WITH_TIMEOUT(state->text(), QString("Stopped by a fault"), kPatience);
+        QVERIFY(bench.rests());
     }
 
     void closingTheStudyStops() {
