@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string>
 
 #include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
@@ -70,6 +71,13 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
     if (request.kind == TrialKind::validation) {
         // Which stream a trial has depends on how many there were of each pose.
         assert(!request.poses.empty());
+        for (const int pose : request.poses) {
+            if (pose >= 0 && static_cast<std::size_t>(pose) < scene.part->stablePoses.size()) continue;
+            return base::Error{"The study has trials of stable pose " + std::to_string(pose + 1) +
+                               ", but its part has " + std::to_string(scene.part->stablePoses.size()) +
+                               ". It was changed outside of Trapwright, or made by another version. "
+                               "Validate the track again."};
+        }
         const int poses = static_cast<int>(request.poses.size());
         const int ofEachPose = stored.count > 0 ? stored.count / poses : count;
         trial::TrialBatch batch = study::makeValidationBatch(

@@ -83,7 +83,10 @@ void PlacingScene::draw() {
     scene::TrackMarks marks = scene::TrackMarks::none();
     marks.conveyingArrow = true;
     const std::shared_ptr<const part::Part> part = session_->part();
-    if (!track_ || !placing_ || !placing_->pose) {
+    // A study that was changed elsewhere may name a pose that the part does not have.
+    const bool known = placing_ && placing_->pose && *placing_->pose >= 0 &&
+                       static_cast<std::size_t>(*placing_->pose) < part->stablePoses.size();
+    if (!track_ || !known) {
         scene_->setCloseUp(std::nullopt);
         scene_->showTrack(track_, scene::TrackMarks());
         scene_->showPart(nullptr);

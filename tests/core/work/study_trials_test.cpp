@@ -59,6 +59,18 @@ class StudyTrialsTest : public QObject {
         QCOMPARE(make({TrialKind::selection, winner_}).trials.size(), std::size_t{9});
     }
 
+    void aPoseThatThePartDoesNotHave() {
+        for (const int pose : {-1, 3, 999}) {
+            const auto made = work::makeTrials(study_->inputs.settings, study_->inputs.part,
+                                               {TrialKind::validation, winner_, {pose}}, {});
+            QVERIFY(!made.ok());
+            QVERIFY(
+                QString::fromStdString(made.error().message)
+                    .startsWith(
+                        QString("The study has trials of stable pose %1, but its part has 3").arg(pose + 1)));
+        }
+    }
+
     void trialsAreCountedByTheirEnd() {
         const auto outcome = [](trial::Ending ending, double degrees) {
             trial::Outcome one;
