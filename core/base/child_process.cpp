@@ -33,19 +33,6 @@ constexpr char kStage = 's';      // first byte of a message
 constexpr char kResult = 'r';
 constexpr std::size_t kHead = 9;  // that byte and the length of the rest, 64 bits
 
-// The memory of a sanitized program is mapped far beyond what it uses.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitsMemory = false;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kLimitsMemory = false;
-#else
-constexpr bool kLimitsMemory = true;
-#endif
-#else
-constexpr bool kLimitsMemory = true;
-#endif
-
 class Descriptor {
  public:
     explicit Descriptor(int number) : number_(number) {}
@@ -285,7 +272,7 @@ Result<ChildDuty> ChildDuty::begin(int count, char** arguments) {
     ::fcntl(kMessages, F_SETFD, FD_CLOEXEC);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (static_cast<std::size_t>(::getppid()) != parent) return Error{"Who asked is gone."};
-    if (kLimitsMemory) limit(RLIMIT_AS, memory);
+    if (!kSanitized) limit(RLIMIT_AS, memory);
     limit(RLIMIT_STACK, stack);
     limit(RLIMIT_CORE, 0);
     std::set_new_handler([] { ::_exit(kOutOfMemory); });

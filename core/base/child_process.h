@@ -15,6 +15,20 @@
 /// files.
 namespace trapwright::base {
 
+/// Whether this is built with a sanitizer: its memory is mapped far beyond what is used, so that it has no
+/// limit, and signals end it through the sanitizer.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 struct ChildLimits {
     std::chrono::milliseconds time{300'000};
     std::size_t memory = 4ULL << 30U;    // of its address space [bytes]

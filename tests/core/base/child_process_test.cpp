@@ -63,13 +63,9 @@ class ChildProcessTest : public QObject {
     }
 
     void whatEndsOrHangsIt() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-        if (QByteArray(QTest::currentDataTag()) == "memory")
-            QSKIP("A sanitized program's memory has no limit.");
-        if (QByteArray(QTest::currentDataTag()) == "segfault" ||
-            QByteArray(QTest::currentDataTag()) == "stack")
-            QSKIP("A sanitizer catches the signal.");
-#endif
+        const QByteArray row = QTest::currentDataTag();
+        if (base::kSanitized && (row == "memory" || row == "segfault" || row == "stack"))
+            QSKIP("A sanitizer limits no memory and takes the signals.");
         QFETCH(QByteArray, request);
         QFETCH(int, end);
         QFETCH(int, signal);
