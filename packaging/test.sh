@@ -28,7 +28,7 @@ esac
 # A failed check does not keep the tests from being run: one round shows everything there is to mend.
 failed=()
 # clang-tidy takes an hour for everything; where nothing is remembered from before, what was changed last has to do.
-for check in check_format check_layers "check_tidy --minutes 20"; do
+for check in check_format check_layers "check_tidy --minutes 12"; do
     read -ra words <<< "$check"
     "$root/packaging/${words[0]}.sh" "${words[@]:1}" || failed+=("${words[0]}")
 done
