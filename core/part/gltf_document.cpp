@@ -271,7 +271,7 @@ json keepShape(const json& document) {
 
 }  // namespace
 
-base::Result<GltfDocument> checkGltf(std::string bytes) {
+base::Result<GltfDocument> checkGltf(std::string_view bytes) {
     GltfDocument result;
     result.isBinary = bytes.starts_with(kMagic);
     Chunks chunks{bytes, std::nullopt};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "core/base/result.h"
 
@@ -18,6 +19,6 @@ struct GltfDocument {
 /// JSON of sane depth, version, extensions, a tree of nodes, types and lengths of accessors. Chunks that are
 /// not aligned are moved, a file without scenes gets one of all its nodes, and all but the shape is left out.
 /// Errors are the reason only.
-base::Result<GltfDocument> checkGltf(std::string bytes);
+base::Result<GltfDocument> checkGltf(std::string_view bytes);
 
 }  // namespace trapwright::part

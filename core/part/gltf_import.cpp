@@ -155,11 +155,11 @@ Error makeError(const fs::path& path, std::string_view what) {
 }  // namespace
 
 base::Result<FileMesh> readGltfFile(const fs::path& path) {
-    base::Result<std::string> bytes = base::readFile(path);
+    const base::Result<std::string> bytes = base::readFile(path);
     if (!bytes) return bytes.error();
     FileMesh result;
     try {
-        base::Result<GltfDocument> document = checkGltf(std::move(*bytes));
+        base::Result<GltfDocument> document = checkGltf(*bytes);
         if (!document) return makeError(path, document.error().message);
         const fs::path folder = fs::absolute(path).parent_path();
         // Assimp tells the two kinds by the extension alone.
