@@ -82,7 +82,7 @@ base::Status checkPackageSize(std::string_view package) {
     for (zip_uint64_t i = 0; i < count; ++i) {
         zip_stat_t entry;
         zip_stat_index(archive.get(), i, 0, &entry);
-        if (const base::Status status = checkFile(archive.get(), entry); !status) return status;
+        if (base::Status status = checkFile(archive.get(), entry); !status) return status;
     }
     return base::success();
 }

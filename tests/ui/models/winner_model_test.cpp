@@ -88,6 +88,7 @@ class WinnerModelTest : public QObject {
     void onlyPicturesThatWereSeenLastAreKept() {
         constexpr int kMost = WinnerModel::kMostPictures;
         std::vector<study::Winner> winners;
+        winners.reserve(kMost + 10);
         for (int i = 0; i < kMost + 10; ++i)
             winners.push_back(winnerOf(i));
         WinnerModel model;
