@@ -15,6 +15,7 @@
 #include "ui/scene/scene_view.h"
 #include "ui/transports/make_drive.h"
 #include "ui/transports/virtual_feeder.h"
+#include "ui/window/end_signals.h"
 #include "ui/window/main_window.h"
 #include "ui/window/shortcut_list.h"
 
@@ -94,6 +95,8 @@ int main(int argc, char** argv) {
         std::fputs(window::shortcutTable(window::findShortcuts(window)).toUtf8().constData(), stdout);
         return 0;
     }
+    const window::EndSignals ends;
+    QObject::connect(&ends, &window::EndSignals::asked, &window, &window::MainWindow::closeUnasked);
     window.show();
     if (!parser.positionalArguments().isEmpty())
         window.openFile(toPath(parser.positionalArguments().front()));

@@ -10,7 +10,9 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr double kLongestFarewell = 1.0;  // [s] until a drive that is left must say that it rests
+constexpr double kLongestQuestion = 1.0;  // [s] until a drive that is left must say that it rests
+// Two beats of five time-outs, one that has begun and the last one of the farewell, and the end.
+constexpr double kTimeOutsOfEnd = 11.0;
 
 steady_clock::duration toDuration(double seconds) {
     return std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(seconds));
@@ -20,12 +22,16 @@ steady_clock::duration toDuration(double seconds) {
 
 DriveLoop::DriveLoop(const Profile& profile, const Limits& limits, DriveMaker makeDrive, Log log)
     : period_(1.0 / profile.heartbeat),
-      farewellTime_(std::min(profile.settlingTime, kLongestFarewell)),
+      farewellTime_(std::min(profile.settlingTime, kLongestQuestion)),
       heartbeat_(profile, limits, std::move(makeDrive), std::move(log)),
       thread_([this] { run(); }) {}
 
 DriveLoop::~DriveLoop() {
     finish();
+}
+
+double DriveLoop::longestFarewell(const Profile& profile) {
+    return kLongestQuestion + kTimeOutsOfEnd * profile.timeOut;
 }
 
 void DriveLoop::finish() {

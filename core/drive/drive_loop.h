@@ -26,9 +26,12 @@ class DriveLoop {
     DriveLoop(const DriveLoop&) = delete;
     DriveLoop& operator=(const DriveLoop&) = delete;
     /// Set-point zero, enable off, end of the connection and of the thread. Takes some milliseconds where the
-    /// drive answers, and at most 1 s and eleven time-outs of the profile where it moves and does not: a
-    /// window calls end() and waits for ended() before it.
+    /// drive answers, and at most longestFarewell() where it moves and does not: a window calls end() and
+    /// waits for ended() before it.
     ~DriveLoop();
+
+    /// The most that the end takes: 1 s and eleven time-outs of the profile. [s]
+    [[nodiscard]] static double longestFarewell(const Profile& profile);
 
     void start();
     void stop();

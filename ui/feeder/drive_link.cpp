@@ -42,8 +42,7 @@ void DriveLink::setSession(StudySession* session) {
 }
 
 void DriveLink::connectDrive(const drive::Profile& profile, const drive::Address& address) {
-    disconnectDrive();
-    if (!session_ || !access_.makeDrive) return;
+    if (loop_ || !session_ || !access_.makeDrive) return;
     drive::Address reached = address;
     if (profile.isVirtual) {
         auto served = access_.serveFeeder(profile);
@@ -95,6 +94,7 @@ void DriveLink::forgetDrive() {
     emit linkChanged();
     // Nobody tells it to rest any more.
     if (!warning.empty()) emit failed(tr("The drive may still be moving"), QString::fromStdString(warning));
+    emit left(QString::fromStdString(warning));
 }
 
 bool DriveLink::moves() const {

@@ -18,24 +18,28 @@ class StudySession;
 namespace trapwright::feeder {
 
 /// The drive that the operator connected, as the window sees it: wishes go to its loop, what the loop tells
-/// goes to the study's log and to the views. Ends, with set-point zero and enable off, with the study.
+/// goes to the study's log and to the views. Ends, with set-point zero and enable off, with the study:
+/// whoever closes it calls leaveDrive() first, and waits until nothing is linked(), while the window goes on.
 class DriveLink : public QObject {
     Q_OBJECT
  public:
     DriveLink(session::DriveAccess access, QObject* parent);
     ~DriveLink() override;
 
+    /// Ends a connection that is still there, as disconnectDrive().
     void setSession(session::StudySession* session);
     [[nodiscard]] const session::DriveAccess& access() const { return access_; }
 
     /// Connects in the background; snapshot() tells what comes of it. A virtual feeder is served first, and
-    /// has an address of its own then.
+    /// has an address of its own then. Nothing while there is a connection: that one is left first.
     void connectDrive(const drive::Profile& profile, const drive::Address& address);
-    /// Set-point zero, enable off, end of the connection. Waits for it: up to 1 s and eleven time-outs of the
-    /// profile where the drive moves and does not answer.
-    void disconnectDrive();
-    /// The same in the background, for a window that goes on.
+    /// Set-point zero, enable off, end of the connection, in the background: linkChanged() tells when it is
+    /// done, within longestFarewell().
     void leaveDrive();
+    /// The same for whoever is about to be destroyed: the calling thread waits until it is done.
+    void disconnectDrive();
+    /// The most that leaving the drive takes. [s]
+    [[nodiscard]] double longestFarewell() const { return drive::DriveLoop::longestFarewell(profile_); }
 
     /// Whether there is a connection, or one is tried.
     [[nodiscard]] bool linked() const { return loop_ != nullptr; }
@@ -65,6 +69,8 @@ class DriveLink : public QObject {
  signals:
     /// Another drive, or none.
     void linkChanged();
+    /// The connection is over; `warning`: that the drive may still move, and what to do. Empty: it rests.
+    void left(const QString& warning);
     /// About ten times a second while linked.
     void polled();
     void stateChanged();

@@ -11,6 +11,7 @@
 #include "ui/feeder/drive_chart.h"
 #include "ui/feeder/drive_log.h"
 #include "ui/feeder/drive_panel.h"
+#include "ui/feeder/drive_texts.h"
 #include "ui/feeder/expected_pose.h"
 #include "ui/feeder/guide_bar.h"
 #include "ui/feeder/plan_panel.h"
@@ -49,6 +50,11 @@ ValidatePage::ValidatePage(const session::Environment& environment, QWidget* par
     bar_->addActions(actions_.all());
     connect(&guide_, &TrialGuide::changed, this, &ValidatePage::showTrial);
     connect(&guide_, &TrialGuide::chosen, this, &ValidatePage::showTrial);
+    connect(&link_, &DriveLink::polled, this, &ValidatePage::tellFarewell);
+    connect(&link_, &DriveLink::left, this, [this](const QString& warning) {
+        emit released(warning.isEmpty() ? QString() : tr("The drive may still be moving"),
+                      asSentence(warning));
+    });
     connect(&placing_, &PlacingScene::failed, this, &Page::failed);
     connect(&placing_, &PlacingScene::built, this, &ValidatePage::showExpected);
     ValidatePage::setSession(nullptr);
@@ -141,6 +147,21 @@ void ValidatePage::activate(scene::SceneView& scene) {
 void ValidatePage::deactivate() {
     placing_.setScene(nullptr);
     giveSceneKeysBack();
+}
+
+bool ValidatePage::release() {
+    link_.leaveDrive();
+    tellFarewell();
+    return !link_.linked();
+}
+
+void ValidatePage::tellFarewell() {
+    if (!link_.leaving()) return;
+    const drive::Snapshot& now = link_.snapshot();
+    const QString state = now.warning.empty() ? stateText(now.state) : QString::fromStdString(now.warning);
+    emit releasing(
+        tr("The drive is being stopped..."),
+        tr("%1 This takes at most %2 s.").arg(asSentence(state)).arg(link_.longestFarewell(), 0, 'f', 1));
 }
 
 void ValidatePage::takeSceneKeys(const QList<QAction*>& actions) {

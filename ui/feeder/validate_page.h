@@ -38,6 +38,7 @@ class ValidatePage : public pages::Page {
     void setSession(session::StudySession* session) override;
     void activate(scene::SceneView& scene) override;
     void deactivate() override;
+    bool release() override;
     std::vector<pages::Panel> panels() override;
     QWidget* sceneBar() override;
 
@@ -47,6 +48,7 @@ class ValidatePage : public pages::Page {
  private:
     void addInspector(const session::Environment& environment);
     void addPanels();
+    void tellFarewell();
     void takeSceneKeys(const QList<QAction*>& actions);
     void giveSceneKeysBack();
     void showTrial();

@@ -55,6 +55,10 @@ class Page : public QWidget {
     /// Another page is shown from now on: ends what only makes sense in sight (a replay that plays).
     virtual void deactivate() {}
 
+    /// The study or the window is about to go. True: at once. False: something ends first that must not be
+    /// cut short (a drive comes to rest); releasing() tells how far it is, and released() when it is over.
+    virtual bool release() { return true; }
+
     /// Charts and tables, asked for once. The docks own the widgets from then on.
     virtual std::vector<Panel> panels() { return {}; }
     /// What belongs under the scene while the page is shown (film strip, transport bar), asked for once; the
@@ -67,6 +71,11 @@ class Page : public QWidget {
     /// To tell in the window's message bar: what was tried (a few words), and what was wrong, where, and what
     /// to do about it.
     void failed(const QString& what, const QString& message);
+    /// See release(): what goes on, and its state with what there is to do about it.
+    void releasing(const QString& what, const QString& state);
+    /// What did not end well, if anything, and what to do: the page and its study may be gone when it is
+    /// read.
+    void released(const QString& what, const QString& message);
     /// A page shall be shown; its name. Empty, while no study is open: none needs to be.
     void pageWanted(const QString& name);
     /// One of the page's own panels has what the user waited for; its name. Comes to the front if it is open.

@@ -17,6 +17,7 @@
 #include "ui/look/text.h"
 #include "ui/pages/page.h"
 #include "ui/session/part_import.h"
+#include "ui/window/farewell.h"
 #include "ui/window/help_place.h"
 #include "ui/window/page_docks.h"
 #include "ui/window/page_list.h"
@@ -50,7 +51,8 @@ MainWindow::MainWindow(session::Environment environment)
       frame_(new SceneFrame(this)),
       rail_(new Rail(pages_, this)),
       docks_(new PageDocks(*this, pages_)),
-      status_(new StatusLine(this)) {
+      status_(new StatusLine(this)),
+      farewell_(new Farewell(pages_, this)) {
     setObjectName("mainWindow");
     setWindowIcon(look::programIcon());
     setAcceptDrops(true);
@@ -83,6 +85,9 @@ MainWindow::MainWindow(session::Environment environment)
         const QString page = pages_[page_]->face().name;
         if (page == "part" || page == "track") showPage("evolve");
     });
+
+    // Another drive may have been connected while the study was opened.
+    desk_.setGate([this](const std::function<void()>& pass) { farewell_->whenReleased(pass); });
 
     addFileMenu();
     addEditMenu();
@@ -127,18 +132,24 @@ void MainWindow::showPage(const QString& name) {
 void MainWindow::closeEvent(QCloseEvent* event) {
     if (!mayClose_ && desk_.session() != nullptr) {
         event->ignore();
-        whenClosable([this] {
-            mayClose_ = true;
-            // Not within the event: a widget that is closing takes no second call.
-            QMetaObject::invokeMethod(
-                this, [this] { close(); }, Qt::QueuedConnection);
-        });
+        whenClosable([this] { closeForGood(); });
         return;
     }
     docks_->remember();
     QSettings().setValue("window/geometry", saveGeometry());
     if (desk_.isDiscarded()) desk_.close(false);
     event->accept();
+}
+
+void MainWindow::closeUnasked() {
+    farewell_->whenReleased([this] { closeForGood(); });
+}
+
+void MainWindow::closeForGood() {
+    mayClose_ = true;
+    // Not within the event: a widget that is closing takes no second call.
+    QMetaObject::invokeMethod(
+        this, [this] { close(); }, Qt::QueuedConnection);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

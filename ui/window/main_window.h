@@ -25,6 +25,7 @@ class Page;
 
 namespace trapwright::window {
 
+class Farewell;
 class PageDocks;
 class Tour;
 class Rail;
@@ -43,6 +44,10 @@ class MainWindow : public QMainWindow {
     void openFile(const std::filesystem::path& file);
     /// Shows a page by its name, as "track". Without a study only the Part page is shown, where one begins.
     void showPage(const QString& name);
+
+    /// Closes it without a question, for a system that ends the program: a drive is told to rest and left
+    /// first, a run is cancelled, and a draft is kept to be offered again.
+    void closeUnasked();
 
     [[nodiscard]] StudyDesk& desk() { return desk_; }
 
@@ -70,6 +75,7 @@ class MainWindow : public QMainWindow {
     [[nodiscard]] std::optional<std::size_t> findPlace(
         const QString& name) const;  // in the order of the rail
 
+    void closeForGood();
     void askForPart();
     void askForDraft();
     void askForStudy();
@@ -85,7 +91,8 @@ class MainWindow : public QMainWindow {
     void startTour();
     /// The help at what has the focus.
     void showHelp();
-    /// Calls `afterwards` once nothing would be lost any more: asks about a run and about a draft.
+    /// Calls `afterwards` once nothing would be lost any more, and a drive rests: asks about a run and about
+    /// a draft.
     void whenClosable(const std::function<void()>& afterwards);
     void whenIdle(const std::function<void()>& afterwards);
     void whenSaved(const std::function<void()>& afterwards);
@@ -107,6 +114,7 @@ class MainWindow : public QMainWindow {
     Rail* rail_;
     PageDocks* docks_;
     StatusLine* status_;
+    Farewell* farewell_;
     QMenu* recentMenu_ = nullptr;
     QMenu* docksMenu_ = nullptr;
     QList<QAction*> studyActions_;  // that need an open study

@@ -9,6 +9,7 @@
 #include "ui/pages/part_files.h"
 #include "ui/session/part_import.h"
 #include "ui/session/recovery_note.h"
+#include "ui/window/farewell.h"
 #include "ui/window/main_window.h"
 #include "ui/window/scene_frame.h"
 
@@ -160,7 +161,9 @@ void MainWindow::offerRecovery() {
 void MainWindow::whenClosable(const std::function<void()>& afterwards) {
     const session::StudySession* session = desk_.session();
     const RunState state = session == nullptr ? RunState::idle : session->state();
-    if (state == RunState::idle || state == RunState::simulating) return whenSaved(afterwards);
+    if (state == RunState::idle || state == RunState::simulating) {
+        return whenSaved([this, afterwards] { farewell_->whenReleased(afterwards); });
+    }
 
     const bool learns = state != RunState::selecting && state != RunState::validating;
     QMessageBox* box = question(this, "dialog.running",

@@ -95,16 +95,20 @@ base::Status StudyDesk::forkToDraft() {
 void StudyDesk::open(const std::filesystem::path& file,
                      const std::function<void(const base::Status&)>& opened) {
     const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-    opening_.start(path, environment_,
-                   [this, path, opened](base::Result<std::unique_ptr<session::StudySession>> study) {
-                       if (!study) {
-                           discarded_ = false;
-                           return opened(study.error());
-                       }
-                       adopt(std::move(*study));
-                       if (!isDraft()) recent_.add(path);
-                       opened(base::success());
-                   });
+    opening_.start(
+        path, environment_, [this, path, opened](base::Result<std::unique_ptr<session::StudySession>> study) {
+            if (!study) {
+                discarded_ = false;
+                return opened(study.error());
+            }
+            // Shared: a function that can be copied holds nothing else.
+            const auto held = std::make_shared<std::unique_ptr<session::StudySession>>(std::move(*study));
+            gate_([this, held, path, opened] {
+                adopt(std::move(*held));
+                if (!isDraft()) recent_.add(path);
+                opened(base::success());
+            });
+        });
 }
 
 void StudyDesk::close(bool keepDraft) {

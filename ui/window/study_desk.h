@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "ui/session/study_opening.h"
 #include "ui/session/study_session.h"
@@ -33,6 +34,11 @@ class StudyDesk : public QObject {
     /// Drafts that were left behind when the program ended badly.
     [[nodiscard]] QStringList forgottenDrafts() const;
 
+    /// A study that was opened in the background takes the place of the one before when `gate` calls back.
+    /// Without one it does so at once.
+    using Gate = std::function<void(const std::function<void()>& pass)>;
+    void setGate(Gate gate) { gate_ = std::move(gate); }
+
     // Each of these closes what is open without a question: ask before.
 
     /// Opens it in the background, then tells whether that went well.
@@ -58,6 +64,7 @@ class StudyDesk : public QObject {
     base::Result<std::filesystem::path> newDraftPath(const std::string& part) const;
 
     session::Environment environment_;
+    Gate gate_ = [](const std::function<void()>& pass) { pass(); };
     session::StudyOpening opening_;
     RecentFiles recent_;
     std::unique_ptr<session::StudySession> session_;

@@ -3,7 +3,12 @@
 #include <QMessageBox>
 #include <QTreeWidget>
 
+#include <algorithm>
+#include <csignal>
+
 #include "tests/ui/feeder/operator.h"
+#include "tests/ui/session/event_loop_probe.h"
+#include "ui/window/end_signals.h"
 
 using namespace trapwright;
 using namespace trapwright::feeder;
@@ -152,6 +157,108 @@ class StoppingTest : public QObject {
         QVERIFY(!user.page().link().linked());
     }
 
+    // However silent the drive, and however often it is asked: the window lives on, says what it waits for,
+    // and what is logged of the end is in the study that it belongs to.
+    void leavingAStudyDoesNotHoldTheWindow_data() {
+        QTest::addColumn<bool>("exchanged");
+        QTest::newRow("closed") << false;
+        QTest::newRow("exchanged for another") << true;
+    }
+    void leavingAStudyDoesNotHoldTheWindow() {
+        QFETCH(bool, exchanged);
+        Bench bench;
+        const QString study = study_.copy();
+        const QString next = study_.copy();
+        Operator user(bench, study);
+        QVERIFY(run(user));
+        bench.feeder->setTrouble(Trouble::silent);
+        const session::StudySession* before = user.session();
+        session::LateEvents late;
+        late.start();
+        if (exchanged) {
+            user.window.openFile(next.toStdString());
+        } else {
+            user.find<QAction>("file.close")->trigger();
+        }
+        QVERIFY(saysFarewell(user));
+        QCOMPARE(user.session(), before);
+        QTRY_VERIFY_WITH_TIMEOUT(user.session() != before, kPatience);
+        QVERIFY(user.find<QDialog>("dialog.farewell") == nullptr);
+        QVERIFY(!user.page().link().linked());
+        const double worst = late.stop();
+        QVERIFY2(worst < kLatest, qPrintable(QString::number(worst)));
+        QVERIFY(bench.rests());
+        // Nobody has heard that it rests, and that is told beside whatever is open now.
+        QPointer<QMessageBox> warning;
+        QTRY_VERIFY((warning = user.find<QMessageBox>("dialog.farewell.warning")) != nullptr);
+        QVERIFY(warning->isVisible() && warning->informativeText().contains("switch it off by hand"));
+        warning->close();
+
+        QVERIFY(user.open(study.toStdString(), "validate"));
+        QTRY_COMPARE(QString::fromStdString(user.session()->path().string()), study);
+        const auto log = user.session()->loadDriveLog(0.0, 1e12);
+        QVERIFY(log.ok());
+        const auto tells = [&](const std::string& text) {
+            return std::ranges::any_of(*log, [&](const drive::LogEntry& entry) {
+                return entry.text.find(text) != std::string::npos;
+            });
+        };
+        QVERIFY(tells("switch it off by hand"));
+        QVERIFY(tells(std::string(drive::nameOf(drive::State::disconnected))));
+    }
+
+    void closingDoesNotHoldTheWindow() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        QVERIFY(run(user));
+        bench.feeder->setTrouble(Trouble::silent);
+        session::LateEvents late;
+        late.start();
+        QElapsedTimer clock;
+        clock.start();
+        user.window.close();
+        QVERIFY(saysFarewell(user));
+        // Who is impatient neither cuts it short nor makes it longer.
+        user.window.close();
+        user.find<QDialog>("dialog.farewell")->close();
+        QVERIFY(saysFarewell(user));
+        QVERIFY(user.window.isVisible());
+        QTRY_VERIFY_WITH_TIMEOUT(!user.window.isVisible(), kPatience);
+        QVERIFY(!user.page().link().linked());
+        QVERIFY(clock.elapsed() < 1e3 * user.page().link().longestFarewell() + kLatest);
+        const double worst = late.stop();
+        QVERIFY2(worst < kLatest, qPrintable(QString::number(worst)));
+        QVERIFY(bench.rests());
+    }
+
+    void aSignalStops() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        const window::EndSignals ends;
+        connect(&ends, &window::EndSignals::asked, &user.window, &window::MainWindow::closeUnasked);
+        for (const int signal : {SIGTERM, SIGHUP}) {
+            user.window.show();
+            QVERIFY(run(user));
+            QCOMPARE(::raise(signal), 0);
+            QTRY_VERIFY(!user.window.isVisible());
+            QVERIFY(bench.rests());
+            QVERIFY(!bench.feeder->watchdogActed());
+            QVERIFY(!user.page().link().linked());
+        }
+    }
+
+    // A drive that was connected while the next study was read belongs to the one before.
+    void aDriveThatIsConnectedMeanwhileIsLeft() {
+        Bench bench;
+        Operator user(bench, study_.copy());
+        const QString next = study_.copy();
+        user.window.openFile(next.toStdString());
+        user.click("feeder.connect");
+        QVERIFY(user.page().link().linked());
+        QTRY_COMPARE_WITH_TIMEOUT(QString::fromStdString(user.session()->path().string()), next, kPatience);
+        QVERIFY(!user.page().link().linked());
+    }
+
     void aFaultInMidTrial() {
         Bench bench;
         Operator user(bench, study_.copy());
@@ -189,6 +296,19 @@ class StoppingTest : public QObject {
     }
 
  private:
+    static constexpr double kLatest = 500.0;  // [ms] of an event on a busy machine; it was 4.3 s
+
+    static bool saysFarewell(Operator& user) {
+        return QTest::qWaitFor(
+            [&] {
+                const auto* dialog = user.find<QDialog>("dialog.farewell");
+                return dialog != nullptr && dialog->isVisible() &&
+                       user.text("farewell.what") == "The drive is being stopped..." &&
+                       !user.text("farewell.state").isEmpty();
+            },
+            2000);
+    }
+
     static bool run(Operator& user) {
         if (!user.reach()) return false;
         user.setSetPoint(60);

@@ -41,4 +41,37 @@ inline EventDelays watchEvents(int duration) {
     return {late.back(), late[rank], static_cast<int>(late.size())};
 }
 
+/// Notes how late the events of its thread are while something is done, whichever loop handles them.
+class LateEvents {
+ public:
+    LateEvents() {
+        timer_.setTimerType(Qt::PreciseTimer);
+        timer_.setInterval(kInterval);
+        QObject::connect(&timer_, &QTimer::timeout, [this] { note(); });
+    }
+    void start() {
+        worst_ = 0.0;
+        clock_.start();
+        timer_.start();
+    }
+    /// Since start(), and nothing is noted any more. [ms]
+    double stop() {
+        note();
+        timer_.stop();
+        return worst_;
+    }
+
+ private:
+    static constexpr int kInterval = 10;  // [ms]
+
+    void note() {
+        worst_ = std::max(worst_, 1e-6 * static_cast<double>(clock_.nsecsElapsed()) - kInterval);
+        clock_.restart();
+    }
+
+    QTimer timer_;
+    QElapsedTimer clock_;
+    double worst_ = 0.0;
+};
+
 }  // namespace trapwright::session
