@@ -59,6 +59,7 @@ class HostileSequence {
             profile_, drive::Limits{0.9, 4.0},
             [this] { return transports::makeDrive(profile_, peer_.address()); }, drive::DriveLoop::Log());
         moodAt_ = draw(0.2, 1.0);
+        hangsAt_ = moodAt_;
         stopAt_ = moodAt_ + draw(-0.1, 0.6);
         reason_ = static_cast<int>(random_() % kReasons.size());
         mood_ = static_cast<Mood>(1 + random_() % static_cast<unsigned>(Mood::last));
@@ -92,6 +93,8 @@ class HostileSequence {
 
  private:
     enum class Phase { connecting, running, stopping, healing, ending };
+    static constexpr int kAttempts = 5;          // to set it in motion
+    static constexpr double kLongestEnd = 60.0;  // [s], many times what is stated
     static constexpr std::array<const char*, 4> kReasons = {"stop", "window hangs", "window closes", "fault"};
 
     double draw(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
@@ -103,30 +106,45 @@ class HostileSequence {
 
     void connect() {
         const drive::Snapshot now = loop_->snapshot();
-        if (time() > 15.0) return enter(Phase::ending);
+        if (time() > 15.0 || attempts_ >= kAttempts) return enter(Phase::ending);
         // A busy computer may have been late: that is a fault as well.
         if (now.state == drive::State::faulted) loop_->acknowledge();
         if (now.state != drive::State::idle) return;
         loop_->attend();
         loop_->setTarget(draw(0.3, 0.9));
         loop_->start();
+        ++attempts_;
         enter(Phase::running);
     }
 
     void run() {
         const drive::State state = loop_->snapshot().state;
         if (state == drive::State::ramping || state == drive::State::running) outcome_.started = true;
-        if (reason_ != 1 || time() < moodAt_) loop_->attend();
+        // On a busy computer an exchange may be late between its rest and its start.
+        if (!outcome_.started && state == drive::State::faulted) return tryAgain();
+        if (reason_ != 1 || time() < hangsAt_) loop_->attend();
         if (time() > moodAt_) peer_.setMood(nextMood());
         const bool faulted = outcome_.started && state == drive::State::faulted;
-        if (!faulted && (time() < stopAt_ || (reason_ == 1 && time() < moodAt_ + 2.0))) return;
-        // A mood in which nothing is wrong ends in no fault.
-        if (!faulted && reason_ == 3 && time() < 4.0) return;
+        if (!faulted && time() < runsUntil()) return;
         outcome_.reason = faulted ? "fault" : kReasons[static_cast<std::size_t>(reason_)];
         if (!faulted && (reason_ == 0 || reason_ == 3)) loop_->stop();
         if (!faulted && reason_ == 2) loop_->end();
         startings_ = -1;
         enter(Phase::stopping);
+    }
+
+    // [s]. A mood in which nothing is wrong ends in no fault, but a window that hangs does, after 2 s and
+    // what the loop has begun by then.
+    [[nodiscard]] double runsUntil() const {
+        if (reason_ == 1) return hangsAt_ + 2.5 + 5.0 * profile_.timeOut;
+        return reason_ == 3 ? std::max(stopAt_, 4.0) : stopAt_;
+    }
+
+    void tryAgain() {
+        peer_.setMood(Mood::honest);
+        outcome_.mood.clear();
+        moodAt_ = hangsAt_;
+        enter(Phase::connecting);
     }
 
     // Holds one for a while, as a real trouble does, so that what it does to a whole exchange is seen.
@@ -167,6 +185,8 @@ class HostileSequence {
     bool end() {
         noteStartings();
         loop_->end();
+        // Its thread cannot be ended from outside, and nothing would tell who waits for what.
+        if (time() > kLongestEnd) qFatal("the drive loop of seed %llu does not end", outcome_.seed + 0ULL);
         if (!loop_->ended()) return false;
         outcome_.end = time();
         loop_.reset();
@@ -186,8 +206,10 @@ class HostileSequence {
     Phase phase_ = Phase::connecting;
     QElapsedTimer clock_;  // since the phase began
     Outcome outcome_;
-    double moodAt_ = 0.0;  // [s]
-    double stopAt_ = 0.0;  // [s]
+    double moodAt_ = 0.0;   // [s]
+    double hangsAt_ = 0.0;  // [s]
+    double stopAt_ = 0.0;   // [s]
+    int attempts_ = 0;
     int reason_ = 0;
     Mood mood_ = Mood::honest;
     int startings_ = -1;
