@@ -5,33 +5,116 @@ set -euo pipefail
 
 usage() {
     cat << 'USAGE'
-Usage: tests/studies/hostile_device.sh [SEQUENCES]
+Usage: tests/studies/hostile_device.sh [window | reconnect] [TIMES]
 
-Runs so many sequences (default: 1000) for each of Modbus TCP, Modbus RTU and REO, the last two on pseudo-terminals. From
-the environment:
-    AT_ONCE   how many run beside each other (40)
+For each of Modbus TCP, Modbus RTU and REO, the last two on pseudo-terminals:
+
+  (nothing)   so many sequences (default: 1000) of the drive's loop
+  window      so many sequences of an operator in the studio's window, the three links beside each other, each on a screen of
+              its own; how late the window's events are
+  reconnect   connects and disconnects so often in one process; files, threads and memory after 50 times and after all
+
+From the environment:
+    AT_ONCE   how many sequences run beside each other (40; in the window always one)
+    MINUTES   after them no sequence in the window is begun any more (60)
     LOG       keeps every sequence's line in this file
 USAGE
 }
 
+what=loop
 case "${1:-}" in
     -h | --help)
         usage
         exit 0
         ;;
+    window | reconnect)
+        what=$1
+        shift
+        ;;
 esac
 sequences=${1:-1000}
 at_once=${AT_ONCE:-40}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-program=$root/build/release/tests/ui/transports/hostile_device
-if [[ ! -x $program ]]; then
-    echo "hostile_device.sh: $program is not there. Build it with packaging/build.sh release." >&2
+build=$root/build/release/tests/ui
+program=$build/transports/hostile_device
+window=$build/feeder/hostile_window
+for needed in "$program" "$window"; do
+    [[ -x $needed ]] && continue
+    echo "hostile_device.sh: $needed is not there. Build it with packaging/build.sh release." >&2
     exit 2
-fi
+done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 log=${LOG:-$work/log}
 : > "$log"
+
+# One link in the window, in processes of 50 sequences, one after the other. A sequence takes some seconds.
+in_window() {
+    local link=$1 file=$2 first last left status
+    local end=$((SECONDS + 60 * ${MINUTES:-60}))
+    for ((first = 1; first <= sequences; first += 50)); do
+        last=$((first + 49 < sequences ? first + 49 : sequences))
+        left=$((end - SECONDS))
+        ((left > 0)) || break
+        status=0
+        XDG_RUNTIME_DIR=$work nice timeout 1500 xvfb-run -a -s "-screen 0 1920x1080x24 +extension GLX" \
+            "$window" "$link" "$first" "$last" "$left" >> "$file" 2> "$work/errors-$link" || status=$?
+        if ((status != 0)); then
+            echo "crash $link $first-$last status=$status" >> "$file"
+            tail -n 3 "$work/errors-$link" >&2
+        fi
+    done
+}
+
+if [[ $what == window ]]; then
+    export LIBGL_ALWAYS_SOFTWARE=1 QT_QPA_PLATFORM=xcb
+    echo "Hostile device in the window, $(date -u +%Y-%m-%d), $(nproc) processors, up to $sequences sequences for each link"
+    for link in tcp rtu reo; do
+        in_window "$link" "$work/$link" &
+    done
+    wait
+    cat "$work/tcp" "$work/rtu" "$work/reo" > "$log"
+    awk '
+    function value(name,   i, pair) {
+        for (i = 3; i <= NF; ++i) {
+            split($i, pair, "=")
+            if (pair[1] == name) return pair[2]
+        }
+    }
+    $1 == "crash" { ++crashes[$2] }
+    $1 == "window" {
+        ++all[$2]
+        if (value("late_ms") > late[$2]) late[$2] = value("late_ms")
+        if (value("started") != 1) next
+        ++started[$2]
+        rested[$2] += value("intime")
+        left[$2] += value("left")
+        if (value("rest") > rest[$2]) rest[$2] = value("rest")
+        if (value("end") > ending[$2]) ending[$2] = value("end")
+    }
+    END {
+        print "| link | sequences | in motion | at rest in time | longest [s] | left or closed in time | longest [s] |" \
+              " latest event of the window [ms] | crashes or hangs |"
+        print "|---|---|---|---|---|---|---|---|---|"
+        count = split("tcp rtu reo", links, " ")
+        for (l = 1; l <= count; ++l) {
+            link = links[l]
+            printf "| %s | %d | %d | %d | %.2f | %d | %.2f | %.0f | %d |\n", link, all[link], started[link], rested[link],
+                rest[link], left[link], ending[link], late[link], crashes[link]
+        }
+    }' "$log"
+    exit 0
+fi
+
+if [[ $what == reconnect ]]; then
+    echo "Connections of one process, $(date -u +%Y-%m-%d), $(nproc) processors, $sequences for each link"
+    for link in tcp rtu reo; do
+        # One arena: the heap's figure knows no other.
+        MALLOC_ARENA_MAX=1 nice timeout 3600 "$program" reconnect "$link" "$sequences" | tee -a "$log"
+    done
+    exit 0
+fi
+
 batch=125
 echo "Hostile device, $(date -u +%Y-%m-%d), $(nproc) processors, $sequences sequences for each link, $at_once at once"
 for link in tcp rtu reo; do

@@ -2,9 +2,6 @@
 // and stopped, and how quick a large study is to open and to look through. Called by tests/studies/soak.sh:
 //     soak learn STUDY GENERATIONS | soak restart STUDY TIMES | soak open STUDY
 
-#include <dirent.h>
-#include <malloc.h>
-#include <unistd.h>
 #include <QAbstractItemView>
 #include <QApplication>
 #include <QDockWidget>
@@ -16,10 +13,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <vector>
 
 #include "app/trapwright/engines.h"
+#include "tests/ui/footprint.h"
 #include "ui/look/message_bar.h"
 #include "ui/pages/page.h"
 #include "ui/window/main_window.h"
@@ -31,37 +28,8 @@ using session::RunState;
 
 constexpr int kPatience = 60000;  // [ms]
 
-/// What a program may lose bit by bit.
-struct Footprint {
-    double resident = 0.0;  // [MiB]
-    double used = 0.0;      // of the heap [MiB]
-    int threads = 0;
-    int files = 0;
-};
-
-int countEntries(const char* folder) {
-    DIR* list = ::opendir(folder);
-    int count = 0;
-    while (list != nullptr && ::readdir(list) != nullptr)
-        ++count;
-    if (list != nullptr) ::closedir(list);
-    return count - 2;
-}
-
-Footprint measure() {
-    double all = 0.0;
-    double resident = 0.0;
-    std::ifstream("/proc/self/statm") >> all >> resident;
-    const struct mallinfo2 heap = ::mallinfo2();
-    constexpr double kMebi = 1024.0 * 1024.0;
-    return {resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / kMebi,
-            static_cast<double>(heap.uordblks + heap.hblkhd) / kMebi, countEntries("/proc/self/task"),
-            // The folder that is read is open itself.
-            countEntries("/proc/self/fd") - 1};
-}
-
 void print(const char* what, int count) {
-    const Footprint now = measure();
+    const tests::Footprint now = tests::measureFootprint();
     std::printf("%-12s %6d   resident %7.1f MiB, heap in use %7.1f MiB, %3d threads, %3d open files\n", what,
                 count, now.resident, now.used, now.threads, now.files);
     std::fflush(stdout);
