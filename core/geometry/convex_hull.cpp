@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "core/geometry/mass_properties.h"
+#include "core/geometry/mesh_edges.h"
 #include "core/geometry/polygon_faces.h"
 
 namespace trapwright::geometry {
@@ -27,13 +30,13 @@ bool isBefore(const base::Vec3& a, const base::Vec3& b) {
 
 /// The greatest distance of any point from the plane of three far points, over their spread; 0 if all are one
 /// point.
-double calcRelativeThickness(const std::vector<base::Vec3>& points) {
+double calcRelativeThickness(std::span<const base::Vec3> points) {
     const auto findFarthest = [&](auto&& distance) {
         return *std::max_element(points.begin(), points.end(), [&](const base::Vec3& a, const base::Vec3& b) {
             return distance(a) < distance(b);
         });
     };
-    const base::Vec3& a = points.front();
+    const base::Vec3& a = *std::min_element(points.begin(), points.end(), isBefore);
     const base::Vec3 b = findFarthest([&](const base::Vec3& p) { return (p - a).norm(); });
     const double size = (b - a).norm();
     if (size == 0.0) return 0.0;
@@ -43,6 +46,101 @@ double calcRelativeThickness(const std::vector<base::Vec3>& points) {
     if (normal.norm() <= kFlatTolerance * size) return 0.0;
     const base::Vec3 d = findFarthest([&](const base::Vec3& p) { return std::abs(normal.dot(p - a)); });
     return std::abs(normal.normalized().dot(d - a)) / size;
+}
+
+/// The border of a flat face, counter-clockwise from its lowest vertex; empty if it is not one loop. Edges
+/// run from first to second.
+std::vector<int> chainBorder(std::vector<std::pair<int, int>>& edges) {
+    std::sort(edges.begin(), edges.end());
+    std::vector<int> loop;
+    for (int vertex = edges.front().first; loop.empty() || vertex != loop.front();) {
+        const auto edge = std::lower_bound(edges.begin(), edges.end(), std::pair(vertex, -1));
+        if (edge == edges.end() || edge->first != vertex || loop.size() == edges.size()) return {};
+        loop.push_back(vertex);
+        vertex = edge->second;
+    }
+    return loop.size() == edges.size() ? loop : std::vector<int>();
+}
+
+/// The face of every triangle, a face being triangles that lie in one plane exactly, and the borders of all
+/// faces as edges.
+struct FlatFaces {
+    std::vector<std::size_t> faceOf;
+    std::vector<std::vector<std::pair<int, int>>> borders;
+};
+
+FlatFaces findFlatFaces(const TriangleMesh& mesh) {
+    const auto point = [&](int vertex) {
+        const base::Vec3& p = mesh.vertices[static_cast<std::size_t>(vertex)];
+        return Kernel::Point_3(p.x(), p.y(), p.z());
+    };
+    const auto apexOf = [&](const EdgeSide& side) {
+        const Triangle& t = mesh.triangles[side.triangle];
+        return t[0] + t[1] + t[2] - side.low - side.high;
+    };
+    std::vector<std::size_t> parents(mesh.triangles.size());
+    std::iota(parents.begin(), parents.end(), std::size_t{0});
+    const auto findRoot = [&](std::size_t i) {
+        while (parents[i] != i)
+            i = parents[i] = parents[parents[i]];
+        return i;
+    };
+    const std::vector<EdgeSide> sides = collectSides(mesh);
+    forEachEdge(sides, [&](auto first, auto last) {
+        if (last - first == 2 && CGAL::coplanar(point(first->low), point(first->high), point(apexOf(*first)),
+                                                point(apexOf(*(first + 1)))))
+            parents[findRoot((first + 1)->triangle)] = findRoot(first->triangle);
+    });
+    FlatFaces faces;
+    std::vector<std::size_t> numberOf(parents.size(), parents.size());
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        std::size_t& number = numberOf[findRoot(i)];
+        if (number == parents.size()) {
+            number = faces.borders.size();
+            faces.borders.emplace_back();
+        }
+        faces.faceOf.push_back(number);
+    }
+    forEachEdge(sides, [&](auto first, auto last) {
+        const std::size_t face = faces.faceOf[first->triangle];
+        if (std::all_of(first, last, [&](const EdgeSide& s) { return faces.faceOf[s.triangle] == face; }))
+            return;
+        for (auto side = first; side != last; ++side)
+            faces.borders[faces.faceOf[side->triangle]].push_back(
+                side->forward ? std::pair(side->low, side->high) : std::pair(side->high, side->low));
+    });
+    return faces;
+}
+
+/// CGAL leaves vertices inside flat faces and edges, and cuts flat faces into triangles, as the addresses of
+/// its vertices have it: by what was in memory before. Cuts them anew, each from its lowest corner.
+void recutFlatFaces(TriangleMesh& mesh) {
+    FlatFaces faces = findFlatFaces(mesh);
+    if (faces.borders.size() == mesh.triangles.size()) return;
+    std::vector<std::vector<int>> loops;
+    std::vector<int> facesAt(mesh.vertices.size(), 0);
+    for (auto& border : faces.borders) {
+        loops.push_back(border.empty() ? std::vector<int>() : chainBorder(border));
+        for (const int vertex : loops.back())
+            ++facesAt[static_cast<std::size_t>(vertex)];
+    }
+    TriangleMesh cut;
+    std::vector<int> number(mesh.vertices.size(), -1);
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        if (facesAt[i] < 3) continue;  // inside a face or an edge
+        number[i] = static_cast<int>(cut.vertices.size());
+        cut.vertices.push_back(mesh.vertices[i]);
+    }
+    for (std::vector<int>& loop : loops) {
+        std::erase_if(loop, [&](int vertex) { return number[static_cast<std::size_t>(vertex)] < 0; });
+        if (loop.size() < 3) return;  // no clean polygons: better left as it is
+        for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+            cut.triangles.push_back({number[static_cast<std::size_t>(loop[0])],
+                                     number[static_cast<std::size_t>(loop[k])],
+                                     number[static_cast<std::size_t>(loop[k + 1])]});
+    }
+    std::sort(cut.triangles.begin(), cut.triangles.end());
+    mesh = std::move(cut);
 }
 
 TriangleMesh computeHullTriangles(const std::vector<base::Vec3>& points) {
@@ -77,9 +175,8 @@ TriangleMesh computeHullTriangles(const std::vector<base::Vec3>& points) {
     return mesh;
 }
 
-}  // namespace
-
-base::Result<TriangleMesh> computeHullMesh(std::span<const base::Vec3> points) {
+/// The hull's triangles as CGAL has them.
+base::Result<TriangleMesh> computeTriangles(std::span<const base::Vec3> points) {
     std::vector<base::Vec3> sorted(points.begin(), points.end());
     for (std::size_t i = 0; i < sorted.size(); ++i)
         if (!sorted[i].allFinite())
@@ -87,7 +184,7 @@ base::Result<TriangleMesh> computeHullMesh(std::span<const base::Vec3> points) {
                                " are not finite numbers. Repair the part's file."};
     std::sort(sorted.begin(), sorted.end(), isBefore);
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    if (sorted.size() < 4 || calcRelativeThickness(sorted) <= kFlatTolerance)
+    if (!doSpanVolume(sorted))
         return base::Error{
             "No convex hull: the " + std::to_string(sorted.size()) +
             " different points lie in one plane and enclose no volume. Use a part that is a solid."};
@@ -99,16 +196,32 @@ base::Result<TriangleMesh> computeHullMesh(std::span<const base::Vec3> points) {
     }
 }
 
-base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> points) {
-    const auto hull = computeHullMesh(points);
-    if (!hull) return hull.error();
-    const double size = (calcBoundingBox(*hull).size()).norm();
+}  // namespace
+
+bool doSpanVolume(std::span<const base::Vec3> points) {
+    return points.size() >= 4 && calcRelativeThickness(points) > kFlatTolerance;
+}
+
+base::Result<TriangleMesh> computeHullMesh(std::span<const base::Vec3> points) {
+    auto hull = computeTriangles(points);
+    if (hull) recutFlatFaces(*hull);
+    return hull;
+}
+
+base::Result<ConvexPolytope> mergeHullFaces(const TriangleMesh& hull) {
+    const double size = (calcBoundingBox(hull).size()).norm();
     // The last, negative one leaves every triangle a face of its own.
     for (const double tolerance : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, -1.0})
-        if (auto polytope = mergeCoplanarTriangles(*hull, tolerance * kCoplanarTolerance * size))
+        if (auto polytope = mergeCoplanarTriangles(hull, tolerance * kCoplanarTolerance * size))
             return std::move(*polytope);
-    return base::Error{"No convex hull: the hull of " + std::to_string(hull->vertices.size()) +
+    return base::Error{"No convex hull: the hull of " + std::to_string(hull.vertices.size()) +
                        " corners has no clean faces. Use a part with fewer tiny triangles."};
+}
+
+base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> points) {
+    const auto hull = computeTriangles(points);
+    if (!hull) return hull.error();
+    return mergeHullFaces(*hull);
 }
 
 base::Result<ConvexPolytope> computeConvexHull(const TriangleMesh& mesh) {

@@ -14,8 +14,15 @@ namespace trapwright::geometry {
 /// coordinate is not finite, or the points do not span a volume (fewer than 4 that are not in one plane).
 base::Result<ConvexPolytope> computeConvexHull(std::span<const base::Vec3> points);
 
-/// The same hull as triangles, without merging any: quicker, for weighing many.
+/// The same hull as triangles: quicker, for weighing many. Faces of more corners, exactly plane ones, are
+/// fans from their lowest corners; so the triangles, too, depend on the set of points only.
 base::Result<TriangleMesh> computeHullMesh(std::span<const base::Vec3> points);
+
+/// Of such triangles the polytope. Error: no clean faces.
+base::Result<ConvexPolytope> mergeHullFaces(const TriangleMesh& hull);
+
+/// Whether points do span a volume. Their coordinates must be finite.
+bool doSpanVolume(std::span<const base::Vec3> points);
 
 /// The convex hull of the vertices that triangles of `mesh` use.
 base::Result<ConvexPolytope> computeConvexHull(const TriangleMesh& mesh);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <set>
 
 #include "core/geometry/mass_properties.h"
@@ -40,18 +41,17 @@ int countUsedVertices(const TriangleMesh& mesh) {
 
 /// Takes out triangles without area and repeated ones.
 void dropUseless(TriangleMesh& mesh, MeshReport& report) {
-    std::set<Triangle> known;
+    report.degenerateTriangles = static_cast<int>(std::erase_if(
+        mesh.triangles, [&](const Triangle& triangle) { return isDegenerate(mesh, triangle); }));
+    std::vector<Triangle> corners = mesh.triangles;
+    for (Triangle& triangle : corners)
+        std::sort(triangle.begin(), triangle.end());
+    const std::vector<char> repeated = findRepeated(corners, mesh.vertices.size());
     std::vector<Triangle> kept;
-    for (const Triangle& triangle : mesh.triangles) {
-        Triangle key = triangle;
-        std::sort(key.begin(), key.end());
-        if (isDegenerate(mesh, triangle))
-            ++report.degenerateTriangles;
-        else if (!known.insert(key).second)
-            ++report.duplicateTriangles;
-        else
-            kept.push_back(triangle);
-    }
+    kept.reserve(mesh.triangles.size());
+    for (std::size_t i = 0; i < repeated.size(); ++i)
+        if (repeated[i] == 0) kept.push_back(mesh.triangles[i]);
+    report.duplicateTriangles = static_cast<int>(mesh.triangles.size() - kept.size());
     mesh.triangles = std::move(kept);
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 
 namespace trapwright::geometry {
 
@@ -12,29 +12,105 @@ namespace {
 
 using GridCell = std::array<std::int64_t, 3>;
 
-struct GridCellHash {
-    std::size_t operator()(const GridCell& cell) const {
-        std::uint64_t hash = 0;
-        for (const std::int64_t number : cell)
-            hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9E3779B97F4A7C15U;
-        return hash ^ (hash >> 32U);
+std::size_t hashOf(const GridCell& cell) {
+    std::uint64_t hash = 0;
+    for (const std::int64_t number : cell)
+        hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9E3779B97F4A7C15U;
+    return hash ^ (hash >> 32U);
+}
+
+/// The numbers of points by the hash of their cell: several cells may share a chain.
+class GridChains {
+ public:
+    explicit GridChains(std::size_t mostPoints) : heads_(std::bit_ceil(mostPoints + 1), -1) {}
+
+    void add(const GridCell& cell, int point) {
+        int& head = heads_[hashOf(cell) & (heads_.size() - 1)];
+        next_.push_back(head);
+        head = point;
     }
+
+    /// Calls `visit` with the points of the cell, and maybe of others.
+    template <class Visit>
+    void visitNear(const GridCell& cell, Visit visit) const {
+        for (int point = heads_[hashOf(cell) & (heads_.size() - 1)]; point >= 0;
+             point = next_[static_cast<std::size_t>(point)])
+            visit(point);
+    }
+
+ private:
+    std::vector<int> heads_;
+    std::vector<int> next_;  // by point
 };
+
+/// Where each number's items begin, and one end more, when items are sorted by number.
+template <class Items, class NumberOf>
+std::vector<std::size_t> countStarts(const Items& items, std::size_t limit, NumberOf numberOf) {
+    std::vector<std::size_t> starts(limit + 1, 0);
+    for (const auto& item : items)
+        ++starts[static_cast<std::size_t>(numberOf(item)) + 1];
+    for (std::size_t i = 0; i < limit; ++i)
+        starts[i + 1] += starts[i];
+    return starts;
+}
 
 }  // namespace
 
+std::vector<EdgeSide> collectSides(const TriangleMesh& mesh) {
+    std::vector<EdgeSide> unsorted;
+    unsorted.reserve(3 * mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int from = mesh.triangles[i][k];
+            const int to = mesh.triangles[i][(k + 1) % 3];
+            unsorted.push_back({std::min(from, to), std::max(from, to), i, from < to});
+        }
+    // By the lower vertex into buckets, which are small.
+    const std::vector<std::size_t> starts =
+        countStarts(unsorted, mesh.vertices.size(), [](const EdgeSide& side) { return side.low; });
+    std::vector<EdgeSide> sides(unsorted.size());
+    std::vector<std::size_t> ends(starts.begin(), starts.end() - 1);
+    for (const EdgeSide& side : unsorted)
+        sides[ends[static_cast<std::size_t>(side.low)]++] = side;
+    const auto at = [&](std::size_t index) { return sides.begin() + static_cast<std::ptrdiff_t>(index); };
+    for (std::size_t vertex = 0; vertex < ends.size(); ++vertex)
+        std::sort(at(starts[vertex]), at(ends[vertex]), [](const EdgeSide& a, const EdgeSide& b) {
+            return std::pair(a.high, a.triangle) < std::pair(b.high, b.triangle);
+        });
+    return sides;
+}
+
 EdgeUses collectEdges(const TriangleMesh& mesh) {
     EdgeUses edges;
-    for (const Triangle& t : mesh.triangles)
-        for (int k = 0; k < 3; ++k) {
-            const int from = t[k];
-            const int to = t[(k + 1) % 3];
-            if (from < to)
-                ++edges[{from, to}].forward;
-            else
-                ++edges[{to, from}].backward;
-        }
+    edges.reserve(2 * mesh.triangles.size());
+    forEachEdge(collectSides(mesh), [&](auto first, auto last) {
+        EdgeUse use;
+        for (auto side = first; side != last; ++side)
+            ++(side->forward ? use.forward : use.backward);
+        edges.push_back({{first->low, first->high}, use});
+    });
     return edges;
+}
+
+std::vector<char> findRepeated(const std::vector<Triangle>& triples, std::size_t limit) {
+    const std::vector<std::size_t> starts =
+        countStarts(triples, limit, [](const Triangle& triple) { return triple[0]; });
+    std::vector<std::size_t> order(triples.size());
+    std::vector<std::size_t> ends(starts.begin(), starts.end() - 1);
+    for (std::size_t i = 0; i < triples.size(); ++i)
+        order[ends[static_cast<std::size_t>(triples[i][0])]++] = i;
+    const auto isBefore = [&](std::size_t a, std::size_t b) {
+        return std::pair(triples[a], a) < std::pair(triples[b], b);
+    };
+    std::vector<char> repeated(triples.size(), 0);
+    for (std::size_t number = 0; number < ends.size(); ++number) {
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(starts[number]);
+        const auto last = order.begin() + static_cast<std::ptrdiff_t>(ends[number]);
+        std::sort(first, last, isBefore);
+        for (auto place = first; place != last; ++place)
+            if (place != first && triples[*place] == triples[*(place - 1)]) repeated[*place] = 1;
+    }
+    return repeated;
 }
 
 bool isDegenerate(const TriangleMesh& mesh, const Triangle& t) {
@@ -56,7 +132,7 @@ TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance) {
             cell[axis] = static_cast<std::int64_t>(std::floor((point[axis] - origin[axis]) / spacing));
         return cell;
     };
-    std::unordered_map<GridCell, std::vector<int>, GridCellHash> grid;
+    GridChains grid(mesh.vertices.size());
     const auto findNear = [&](const base::Vec3& point) {
         int best = -1;
         // A little more than the tolerance, for the rounding of cells.
@@ -65,17 +141,16 @@ TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance) {
         const GridCell high = findCell(point + reach);
         for (std::int64_t x = low[0]; x <= high[0]; ++x)
             for (std::int64_t y = low[1]; y <= high[1]; ++y)
-                for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-                    const auto place = grid.find({x, y, z});
-                    if (place == grid.end()) continue;
-                    for (const int candidate : place->second)
+                for (std::int64_t z = low[2]; z <= high[2]; ++z)
+                    grid.visitNear({x, y, z}, [&](int candidate) {
                         if ((welded.vertices[candidate] - point).norm() <= tolerance &&
                             (best < 0 || candidate < best))
                             best = candidate;
-                }
+                    });
         return best;
     };
     std::vector<int> number(mesh.vertices.size(), -1);
+    welded.triangles.reserve(mesh.triangles.size());
     for (const Triangle& triangle : mesh.triangles) {
         Triangle t{};
         for (int k = 0; k < 3; ++k) {
@@ -86,7 +161,7 @@ TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance) {
                 if (known < 0) {
                     known = static_cast<int>(welded.vertices.size());
                     welded.vertices.push_back(point);
-                    grid[findCell(point)].push_back(known);
+                    grid.add(findCell(point), known);
                 }
             }
             t[k] = known;

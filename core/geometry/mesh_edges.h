@@ -1,6 +1,6 @@
 #pragma once
 
-#include <map>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -16,9 +16,36 @@ struct EdgeUse {
     [[nodiscard]] int count() const { return forward + backward; }
 };
 
-using EdgeUses = std::map<std::pair<int, int>, EdgeUse>;
+/// By edge, in ascending order.
+using EdgeUses = std::vector<std::pair<std::pair<int, int>, EdgeUse>>;
 
 EdgeUses collectEdges(const TriangleMesh& mesh);
+
+/// A triangle at the edge between two vertices, low < high.
+struct EdgeSide {
+    int low = 0;
+    int high = 0;
+    std::size_t triangle = 0;
+    bool forward = false;  // it runs from low to high
+};
+
+/// All triangles at all edges: by edge, then in their order.
+std::vector<EdgeSide> collectSides(const TriangleMesh& mesh);
+
+/// Calls `visit` with first and last side of each edge, in order.
+template <class Visit>
+void forEachEdge(const std::vector<EdgeSide>& sides, Visit visit) {
+    for (auto first = sides.begin(); first != sides.end();) {
+        auto last = first + 1;
+        while (last != sides.end() && last->low == first->low && last->high == first->high)
+            ++last;
+        visit(first, last);
+        first = last;
+    }
+}
+
+/// Which triples are the same as one before. Numbers are from 0 to below `limit`.
+std::vector<char> findRepeated(const std::vector<Triangle>& triples, std::size_t limit);
 
 /// Whether two corners have the same index, or the three lie on one line exactly.
 bool isDegenerate(const TriangleMesh& mesh, const Triangle& triangle);

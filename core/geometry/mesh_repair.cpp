@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "core/geometry/convex_hull.h"
 #include "core/geometry/mass_properties.h"
@@ -77,29 +76,34 @@ int countOdd(const TriangleMesh& mesh) {
                                           [](const auto& edge) { return edge.second.count() % 2 != 0; }));
 }
 
+/// The triangles whose key is that of none before.
+TriangleMesh takeFirsts(const TriangleMesh& mesh, const std::vector<Triangle>& keys) {
+    const std::vector<char> repeated = findRepeated(keys, mesh.vertices.size());
+    TriangleMesh firsts{mesh.vertices, {}};
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        if (repeated[i] == 0) firsts.triangles.push_back(mesh.triangles[i]);
+    return firsts;
+}
+
 /// Drops triangles with the corners of one before. Where solids touch, their faces lie on each other and face
 /// either way: then one of each kind stays, if that leaves the surface better closed.
 int dropDuplicates(TriangleMesh& mesh) {
-    TriangleMesh once{mesh.vertices, {}};
-    TriangleMesh eitherWay{mesh.vertices, {}};
-    std::set<Triangle> known;
-    std::set<Triangle> knownWay;
-    for (const Triangle& t : mesh.triangles) {
-        Triangle way = t;
+    std::vector<Triangle> ways = mesh.triangles;
+    for (Triangle& way : ways)
         std::rotate(way.begin(), std::min_element(way.begin(), way.end()), way.end());
-        Triangle corners = t;
-        std::sort(corners.begin(), corners.end());
-        if (known.insert(corners).second) once.triangles.push_back(t);
-        if (knownWay.insert(way).second) eitherWay.triangles.push_back(t);
-    }
+    std::vector<Triangle> corners = mesh.triangles;
+    for (Triangle& triangle : corners)
+        std::sort(triangle.begin(), triangle.end());
+    const TriangleMesh once = takeFirsts(mesh, corners);
     const std::size_t before = mesh.triangles.size();
     const std::size_t count = once.triangles.size();
     if (count == before) return 0;
+    const TriangleMesh eitherWay = takeFirsts(mesh, ways);
     // A surface that comes whole from either side is that of a viewer, not of solids that touch.
     const bool isTouching = eitherWay.triangles.size() > count && eitherWay.triangles.size() < 2 * count;
-    TriangleMesh& best = isTouching && countOdd(eitherWay) <= countOdd(once) ? eitherWay : once;
+    const TriangleMesh& best = isTouching && countOdd(eitherWay) <= countOdd(once) ? eitherWay : once;
     if (countOdd(best) > countOdd(mesh)) return 0;  // parts of shells that overlap
-    mesh = std::move(best);
+    mesh = TriangleMesh(best);
     return static_cast<int>(before - mesh.triangles.size());
 }
 
@@ -165,8 +169,9 @@ bool isClosed(const TriangleMesh& mesh) {
 }
 
 base::Status refuseOpen(const TriangleMesh& mesh, double largestHole) {
+    if (isClosed(mesh)) return base::success();
     const MeshReport report = checkMesh(mesh);
-    if ((report.holes.empty() && report.inconsistentEdges == 0) || isClosed(mesh)) return base::success();
+    if (report.holes.empty() && report.inconsistentEdges == 0) return base::success();
     if (!report.holes.empty())
         return base::Error{
             "the surface is open: " +
@@ -216,7 +221,7 @@ base::Result<RepairedMesh> repairMesh(const TriangleMesh& mesh, double largestHo
         notes.push_back("dropped " + formatCount(count, "triangle", "triangles") + " without area");
     if (const int count = dropDuplicates(clean); count > 0)
         notes.push_back("dropped " + formatCount(count, "repeated triangle", "repeated triangles"));
-    if (!computeHullMesh(clean.vertices))
+    if (!doSpanVolume(clean.vertices))
         return base::Error{"the mesh has no volume: all of it lies in one plane or line through " +
                            formatPlace(mesh.vertices[mesh.triangles[0][0]]) + ". Export the part as a solid"};
     const MeshReport report = checkMesh(clean);

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "core/geometry/mass_properties.h"
+#include "core/geometry/mesh_edges.h"
 
 namespace trapwright::geometry {
 
@@ -120,20 +121,21 @@ class SearchableShell {
 std::vector<Shell> findShells(const TriangleMesh& mesh) {
     std::vector<std::size_t> parents(mesh.triangles.size());
     std::iota(parents.begin(), parents.end(), std::size_t{0});
-    std::map<std::pair<int, int>, std::size_t> firstAt;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (int k = 0; k < 3; ++k) {
-            const auto edge = std::minmax(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
-            const auto [place, isNew] = firstAt.emplace(std::pair<int, int>(edge), i);
-            if (!isNew) parents[findRoot(parents, i)] = findRoot(parents, place->second);
-        }
+    forEachEdge(collectSides(mesh), [&](auto first, auto last) {
+        for (auto side = first + 1; side != last; ++side)
+            parents[findRoot(parents, side->triangle)] = findRoot(parents, first->triangle);
+    });
 
     std::vector<Shell> shells;
-    std::map<std::size_t, std::size_t> shellOfRoot;
+    constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> shellOfRoot(parents.size(), kNone);
     for (std::size_t i = 0; i < parents.size(); ++i) {
-        const auto [place, isNew] = shellOfRoot.emplace(findRoot(parents, i), shells.size());
-        if (isNew) shells.emplace_back();
-        shells[place->second].triangles.push_back(i);
+        std::size_t& shell = shellOfRoot[findRoot(parents, i)];
+        if (shell == kNone) {
+            shell = shells.size();
+            shells.emplace_back();
+        }
+        shells[shell].triangles.push_back(i);
     }
     for (Shell& shell : shells)
         shell.volume = calcMassProperties(shells.size() == 1 ? mesh : extractShell(mesh, shell), 1.0).volume;

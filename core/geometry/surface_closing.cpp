@@ -8,8 +8,12 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <exception>
+#include <numeric>
 #include <string>
+
+#include "core/geometry/mesh_edges.h"
 
 namespace trapwright::geometry {
 
@@ -39,6 +43,61 @@ Surface makeOrientedSurface(const TriangleMesh& mesh) {
     pmp::stitch_borders(surface, CGAL::parameters::apply_per_connected_component(true));
     pmp::stitch_borders(surface);
     return surface;
+}
+
+/// Whether each edge has one triangle on either side, facing alike, and the triangles at each vertex hang
+/// together around it: then there is nothing to be done.
+bool isClosedManifold(const TriangleMesh& mesh) {
+    std::vector<std::size_t> parents(3 * mesh.triangles.size());
+    std::iota(parents.begin(), parents.end(), std::size_t{0});
+    const auto findRoot = [&](std::size_t i) {
+        while (parents[i] != i)
+            i = parents[i] = parents[parents[i]];
+        return i;
+    };
+    const auto findCorner = [&](const EdgeSide& side, int vertex) {
+        const Triangle& t = mesh.triangles[side.triangle];
+        return 3 * side.triangle +
+               static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
+    };
+    bool areEdgesClosed = true;
+    std::size_t groups = parents.size();  // of corners that hang together
+    forEachEdge(collectSides(mesh), [&](auto first, auto last) {
+        if (last - first != 2 || first->forward == (first + 1)->forward) areEdgesClosed = false;
+        if (!areEdgesClosed) return;
+        for (const int vertex : {first->low, first->high}) {
+            const std::size_t a = findRoot(findCorner(*first, vertex));
+            const std::size_t b = findRoot(findCorner(*(first + 1), vertex));
+            if (a != b) --groups;
+            parents[a] = b;
+        }
+    });
+    if (!areEdgesClosed) return false;
+    std::vector<char> used(mesh.vertices.size(), 0);
+    for (const Triangle& t : mesh.triangles)
+        for (const int vertex : t)
+            used[static_cast<std::size_t>(vertex)] = 1;
+    return groups == static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+/// The vertices that triangles use, in the order in which they do so first.
+TriangleMesh renumberVertices(const TriangleMesh& mesh) {
+    TriangleMesh renumbered;
+    renumbered.triangles.reserve(mesh.triangles.size());
+    std::vector<int> number(mesh.vertices.size(), -1);
+    for (const Triangle& triangle : mesh.triangles) {
+        Triangle t{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            int& known = number[static_cast<std::size_t>(triangle[k])];
+            if (known < 0) {
+                known = static_cast<int>(renumbered.vertices.size());
+                renumbered.vertices.push_back(mesh.vertices[static_cast<std::size_t>(triangle[k])]);
+            }
+            t[k] = known;
+        }
+        renumbered.triangles.push_back(t);
+    }
+    return renumbered;
 }
 
 MeshHole describeHole(const Surface& surface, Halfedge rim) {
@@ -77,6 +136,7 @@ TriangleMesh toMesh(const Surface& surface) {
 }  // namespace
 
 base::Result<ClosedSurface> closeSurface(const TriangleMesh& mesh, double largestPerimeter) {
+    if (isClosedManifold(mesh)) return ClosedSurface{renumberVertices(mesh), {}};
     try {
         Surface surface = makeOrientedSurface(mesh);
         ClosedSurface closed;

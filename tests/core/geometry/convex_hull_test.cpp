@@ -43,6 +43,32 @@ class ConvexHullTest : public QObject {
     Q_OBJECT
 
  private slots:
+    /// Not on what was in memory before.
+    void trianglesDependOnThePointsOnly() {
+        const TriangleMesh torus = shapes::makeTorus(64, 32, 10 * base::kMillimetre, 3 * base::kMillimetre);
+        base::Random random({.seed = 3});
+        const auto first = computeHullMesh(torus.vertices);
+        QVERIFY(first.ok());
+        std::vector<std::vector<char>> other;
+        for (int round = 0; round < 8; ++round) {
+            // Of every size, and every other one given back: new memory then has addresses in any order.
+            for (int i = 0; i < 4000; ++i)
+                other.emplace_back(static_cast<std::size_t>(random.uniform(1.0, i % 2 == 0 ? 1e3 : 1e5)));
+            for (std::size_t i = round % 2; i < other.size(); i += 2)
+                std::vector<char>().swap(other[i]);
+            const auto again = computeHullMesh(torus.vertices);
+            QVERIFY(again.ok());
+            QVERIFY(again->vertices == first->vertices);
+            QVERIFY(again->triangles == first->triangles);
+        }
+        // Closed, and as large as the one of polygons.
+        const auto polytope = computeConvexHull(torus.vertices);
+        QVERIFY(polytope.ok());
+        const double volume = calcMassProperties(toMesh(*polytope), 1.0).volume;
+        QVERIFY(std::abs(calcMassProperties(*first, 1.0).volume / volume - 1.0) < 1e-6);
+        QCOMPARE(first->triangles.size(), 2 * first->vertices.size() - 4);
+    }
+
     void solidsKeepTheirPolygons_data() {
         QTest::addColumn<TriangleMesh>("mesh");
         QTest::addColumn<int>("vertices");
