@@ -28,6 +28,7 @@ constexpr std::size_t kMostPieces = 192;
 // Relative to the diagonal of the box around the mesh:
 constexpr double kSimplification = 5e-4;  // what is found is up to twice that
 constexpr double kNear = 2e-3;
+constexpr double kThinning = 5e-4;  // what rolls must not become coarser than simplifying leaves it
 constexpr double kFarthest = 1e-2;
 
 // Relative to the volume:
@@ -88,12 +89,13 @@ base::Status fillPieces(ContactShape& shape, const TriangleMesh& mesh, double si
                                std::to_string(shape.deviation / base::kMillimetre) + " mm it still has " +
                                std::to_string(shape.triangles) + " triangles. Use a simpler part."};
     }
-    auto near = computeNearConvexPieces(shape.triangles > 0 ? simplified : mesh, kNear * size, kMostPieces);
+    auto near = computeNearConvexPieces(shape.triangles > 0 ? simplified : mesh, kNear * size,
+                                        kThinning * size, kMostPieces);
     if (!near) return near.error();
     if (near->excess > kFarthest * size || std::abs(sumVolumes(near->pieces) - volume) > kNearVolume * volume)
         return explain(mesh, near->excess);
     shape.pieces = std::move(near->pieces);
-    shape.deviation += near->excess;
+    shape.deviation += std::max(near->excess, near->shortfall);
     return base::success();
 }
 

@@ -23,8 +23,9 @@ struct ContactShape {
 
 /// Hull and convex pieces for contact. A hull of more than 4000 corners is simplified to within about 0.1 %
 /// of the size. Pieces are those of computeConvexPieces if there are not too many of them; otherwise of a
-/// surface simplified to within about 0.1 % of the size (simplifySurface), as hulls that reach out of it a
-/// little (computeNearConvexPieces, 0.2 % of the size where 192 pieces will do, never more than 1 %). `mesh`
+/// surface simplified to within about 0.1 % of the size (simplifySurface), as hulls of few corners that reach
+/// out of it a little (computeNearConvexPieces, 0.2 % of the size where 192 pieces will do, never more than
+/// 1 %), and by another 0.05 % inside it. `mesh`
 /// must be closed and outward oriented. Errors: it encloses no volume, crosses itself (with the place), is
 /// too involved.
 base::Result<ContactShape> computeContactShape(const TriangleMesh& mesh);

@@ -9,6 +9,7 @@
 
 #include "core/geometry/convex_cell.h"
 #include "core/geometry/convex_hull.h"
+#include "core/geometry/hull_thinning.h"
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/solid_probe.h"
 
@@ -28,6 +29,8 @@ constexpr std::size_t kHollowSamples = 400;
 constexpr std::size_t kWeighedPolygons = 1000;
 constexpr std::size_t kFewPolygons = 100;
 constexpr double kJitter = 1e-7;
+
+constexpr double kLargestGrowth = 0.1;  // when two pieces are joined: of the smaller one's volume
 
 /// A cell of space, the surface of the solid inside it, and the hull of the solid inside it.
 struct Node {
@@ -163,6 +166,13 @@ void measure(Node& node, const Solid& solid) {
             probeExcess(node, solid, hollows[i].corner + hollows[i].depth * hollows[i].normal);
 }
 
+Box boxOf(const Node& node) {
+    Box box;
+    for (const Vec3& vertex : node.hull.vertices)
+        box.include(vertex);
+    return box;
+}
+
 std::vector<Plane> proposeCuts(const Node& node, const Solid& solid) {
     std::vector<Plane> planes;
     const auto add = [&](const Vec3& normal, const Vec3& point) {
@@ -176,7 +186,9 @@ std::vector<Plane> proposeCuts(const Node& node, const Solid& solid) {
         if (!known) planes.push_back({unit, offset});
     };
     const Vec3 across = (node.over - node.under).normalized();
-    for (const Vec3& point : {node.under, node.deepest}) {
+    // Through its middle a ring's sector falls into equal ones, which are the fewest.
+    const Box box = boxOf(node);
+    for (const Vec3& point : {node.under, node.deepest, Vec3(0.5 * (box.low + box.high))}) {
         if (point.isZero(0.0)) continue;
         for (const Vec3& axis : solid.axes) {
             add(axis, point);
@@ -243,6 +255,66 @@ std::vector<Node> split(const Node& node, const Solid& solid) {
     return best;
 }
 
+/// The hull of the solid in two cells, if it may be a piece: it adds little, so that it is worth measuring.
+std::optional<Node> tryJoin(const Node& a, const Node& b, const Solid& solid) {
+    const Box boxA = boxOf(a);
+    const Box boxB = boxOf(b);
+    const double margin = kOnTolerance * solid.size;
+    if ((boxA.low.array() > boxB.high.array() + margin).any() ||
+        (boxB.low.array() > boxA.high.array() + margin).any())
+        return std::nullopt;
+    Node joined;
+    joined.points = a.hull.vertices;
+    joined.points.insert(joined.points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
+    if (!fillHull(joined, solid)) return std::nullopt;
+    if (joined.volume - a.volume - b.volume > kLargestGrowth * std::min(a.volume, b.volume))
+        return std::nullopt;
+    joined.points = a.points;
+    joined.points.insert(joined.points.end(), b.points.begin(), b.points.end());
+    return joined;
+}
+
+struct Join {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    double added = 0.0;  // volume [m^3]
+    Node result;
+};
+
+/// Joins neighbours whose common hull reaches out of the solid by no more than `tolerance`, either: cutting
+/// in halves leaves some. What adds least goes first.
+std::vector<Node> joinNeighbours(std::vector<Node> nodes, double tolerance, const Solid& solid) {
+    std::vector<Join> joins;
+    const auto propose = [&](std::size_t i, std::size_t j) {
+        auto node = tryJoin(nodes[i], nodes[j], solid);
+        if (!node) return;
+        const double added = node->volume - nodes[i].volume - nodes[j].volume;
+        joins.push_back({i, j, added, std::move(*node)});
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (std::size_t j = i + 1; j < nodes.size(); ++j)
+            propose(i, j);
+    std::vector<char> gone(nodes.size(), 0);
+    while (!joins.empty()) {
+        const auto best = std::min_element(joins.begin(), joins.end(),
+                                           [](const Join& a, const Join& b) { return a.added < b.added; });
+        Join join = std::move(*best);
+        joins.erase(best);
+        measure(join.result, solid);
+        if (join.result.excess > tolerance) continue;
+        gone[join.first] = gone[join.second] = 1;
+        nodes.push_back(std::move(join.result));
+        gone.push_back(0);
+        std::erase_if(joins, [&](const Join& j) { return gone[j.first] != 0 || gone[j.second] != 0; });
+        for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+            if (gone[i] == 0) propose(i, nodes.size() - 1);
+    }
+    std::vector<Node> left;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (gone[i] == 0) left.push_back(std::move(nodes[i]));
+    return left;
+}
+
 /// The file's axes and the principal ones.
 std::vector<Vec3> findAxes(const base::Mat3& inertia) {
     const Eigen::SelfAdjointEigenSolver<base::Mat3> solver(inertia);
@@ -257,7 +329,7 @@ std::vector<Vec3> findAxes(const base::Mat3& inertia) {
 }  // namespace
 
 base::Result<NearConvexPieces> computeNearConvexPieces(const TriangleMesh& mesh, double tolerance,
-                                                       std::size_t mostPieces) {
+                                                       double thinning, std::size_t mostPieces) {
     Box box = calcBoundingBox(mesh);
     const SolidProbe probe(mesh);
     const MassProperties mass = calcMassProperties(mesh, 1.0);
@@ -299,10 +371,13 @@ base::Result<NearConvexPieces> computeNearConvexPieces(const TriangleMesh& mesh,
     for (Node& node : open)
         done.push_back(std::move(node));
     NearConvexPieces result;
-    for (const Node& node : done) {
-        auto piece = computeConvexHull(node.points);
+    for (const Node& node : joinNeighbours(std::move(done), tolerance, solid)) {
+        const auto thinned = thinHull(node.points, thinning);
+        if (!thinned) continue;
+        auto piece = mergeHullFaces(thinned->mesh);
         if (!piece) continue;
         result.excess = std::max(result.excess, node.excess);
+        result.shortfall = std::max(result.shortfall, thinned->shortfall);
         result.pieces.push_back(std::move(*piece));
     }
     return result;
