@@ -5,7 +5,7 @@
 
 #include "core/evolution/chromosome.h"
 
-/// What Figures 6 and 7 show of a population (design.md section 3, decision 9).
+/// What Figures 6 and 7 show of a population (decisions.md#distance-and-statistics).
 namespace trapwright::evolution {
 
 /// The share of a population whose mean is shown.

@@ -8,8 +8,8 @@
 
 namespace trapwright::evolution {
 
-/// What the paper's transition function is given beside the parents, and design.md's bounds (section 3,
-/// decision 5).
+/// What the paper's transition function is given beside the parents, and the bounds of
+/// decisions.md#smoothing.
 struct TransitionParameters {
     double staticMutation = 0.002;  // p_sm
     double smoothingLimit = 0.3;    // what p_s = 1 stands for, all others in proportion; 1 in the paper

@@ -11,8 +11,8 @@ namespace trapwright::study {
 /// The orientations in which parts passed the finish line, in the trials' order.
 std::vector<base::Quaternion> finalOrientations(std::span<const trial::Outcome> outcomes);
 
-/// Success (decision 11): finished within `tolerance` [rad] of the expected orientation, modulo the part's
-/// symmetry.
+/// Success (decisions.md#selection-and-success): finished within `tolerance` [rad] of the expected
+/// orientation, modulo the part's symmetry.
 bool isOriented(const trial::Outcome& outcome, const base::Quaternion& expected,
                 const part::SymmetryGroup& symmetry, double tolerance);
 

@@ -39,7 +39,7 @@ base::Result<Settings> presetSettings(const std::string& name) {
     settings.evolution.populationSize = 100;
     settings.evolution.tournamentSize = 6;
 
-    // Section 6: 50 Hz at 12 degrees. The half-stroke is not printed (design decision 12).
+    // Section 6: 50 Hz at 12 degrees. The half-stroke is not printed (decisions.md#drive).
     settings.simulation.drive.frequency = 50.0;
     settings.simulation.drive.angle = 12.0 * base::kDegree;
     settings.simulation.drive.halfStroke = 0.8e-3;

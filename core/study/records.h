@@ -21,8 +21,8 @@ struct IndividualRecord {
     int finished = 0;
     int fellOff = 0;
     int stuck = 0;  // stuck or timed out
-    /// Success (decision 11): finished within the tolerance of the mode of its own final orientations. None:
-    /// learned by a program that did not count it.
+    /// Success (decisions.md#selection-and-success): finished within the tolerance of the mode of its own
+    /// final orientations. None: learned by a program that did not count it.
     std::optional<int> oriented{};
 
     /// Of all its trials. None: not simulated, or not counted.
@@ -34,7 +34,7 @@ struct IndividualRecord {
     friend bool operator==(const IndividualRecord&, const IndividualRecord&) = default;
 };
 
-/// The curves of Figures 6 and 7 (decision 9), and success.
+/// The curves of Figures 6 and 7 (decisions.md#distance-and-statistics), and success.
 struct GenerationStatistics {
     trial::Fitness best;                    // of the winner
     trial::Fitness topMean;                 // arithmetic mean of the top 30 %

@@ -31,8 +31,8 @@ enum class LearningEnd {
 base::Result<LearningEnd> evolve(const StudyInputs& inputs, std::optional<GenerationRecord> last,
                                  const LearningEvents& events, const LearningControl& control);
 
-/// A generation's winner and statistics (Figures 6 and 7; decision 9). Strategy values as they take effect,
-/// between their bounds.
+/// A generation's winner and statistics (Figures 6 and 7; decisions.md#distance-and-statistics). Strategy
+/// values as they take effect, between their bounds.
 GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> individuals,
                                     const EvolutionSettings& settings);
 

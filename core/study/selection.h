@@ -22,10 +22,10 @@ std::vector<Winner> rankWinners(std::vector<Winner> winners, int count);
 /// winners.
 const Winner* findBestWinner(std::span<const Winner> winners);
 
-/// Selecting the final solution (paper, section 6.1.1; decision 11): the highest of all generations' winners
-/// are re-simulated with many fresh trials each. Best first: by the number of parts that finish within the
-/// tolerance of that track's modal orientation, then by fitness, then the earlier generation. Errors:
-/// settings or part that cannot be used, no winners, engine, cancelled.
+/// Selecting the final solution (paper, section 6.1.1; decisions.md#selection-and-success): the highest of
+/// all generations' winners are re-simulated with many fresh trials each. Best first: by the number of parts
+/// that finish within the tolerance of that track's modal orientation, then by fitness, then the earlier
+/// generation. Errors: settings or part that cannot be used, no winners, engine, cancelled.
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
                                             base::RunControl control);
 

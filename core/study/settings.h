@@ -17,7 +17,8 @@ namespace trapwright::study {
 
 using PointEncoding = track::PointEncoding;
 
-/// The track's form (paper, Table 1 and section 3.1; decisions 1-4). Lengths in metres.
+/// The track's form (paper, Table 1 and section 3.1; decisions.md#surface-points and what follows). Lengths
+/// in metres.
 struct TrackSettings {
     track::FeederShape shape;
     int crossSections = 5;  // functional ones
@@ -36,7 +37,7 @@ struct TrackSettings {
     friend bool operator==(const TrackSettings& a, const TrackSettings& b);
 };
 
-/// The genetic algorithm's settings (paper, Table 1; decisions 5, 6, 8).
+/// The genetic algorithm's settings (paper, Table 1; decisions.md#smoothing and what follows).
 struct EvolutionSettings {
     int populationSize = 100;       // P
     int trialsPerEvaluation = 100;  // N
@@ -71,7 +72,7 @@ struct SimulationSettings {
     friend bool operator==(const SimulationSettings& a, const SimulationSettings& b);
 };
 
-/// After learning (paper, sections 6.1.1 and 6.2; decision 11).
+/// After learning (paper, sections 6.1.1 and 6.2; decisions.md#selection-and-success).
 struct ValidationSettings {
     int selectionWinners = 10;  // how many of the highest winners are re-simulated
     int selectionTrials = 1000;

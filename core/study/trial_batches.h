@@ -37,8 +37,8 @@ trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int
 /// Fresh trials of a winner (paper, section 6.1.1).
 trial::TrialBatch makeSelectionBatch(const TrialScene& scene, int generation, int individual, int trials);
 
-/// Trials that start near one of the part's stable poses (paper, section 6.2; decision 11). Trial i of pose p
-/// is trial p x trials + i of the stream.
+/// Trials that start near one of the part's stable poses (paper, section 6.2;
+/// decisions.md#selection-and-success). Trial i of pose p is trial p x trials + i of the stream.
 trial::TrialBatch makeValidationBatch(const TrialScene& scene, int generation, int individual, int pose,
                                       int trials);
 

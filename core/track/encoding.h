@@ -8,13 +8,13 @@
 
 namespace trapwright::track {
 
-/// How a point's y value becomes a place across the track (design.md section 3, decision 1).
+/// How a point's y value becomes a place across the track (decisions.md#surface-points).
 enum class PointEncoding {
     strip,  // point j keeps within its own strip of width / points, so a section never crosses itself
     free    // the paper's: any place in the box, so a surface may overhang or cross itself
 };
 
-/// How values in [0, 1] describe the functional cross-sections (paper, section 4.2.1; decisions 1 and 2).
+/// How values in [0, 1] describe the functional cross-sections (paper, section 4.2.1; decisions.md#genes).
 struct Encoding {
     int sections = 5;          // functional ones
     int points = 8;            // per section

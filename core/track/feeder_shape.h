@@ -19,7 +19,7 @@ struct FeederShape {
     [[nodiscard]] base::Vec3 toTrack(const base::Vec3& roomPoint, double xNear) const;
     /// The right-handed tangent frame at x, as columns in the room: conveying direction, third axis
     /// completing (outward on a linear or clockwise feeder, inward on an anticlockwise one), up. Orientations
-    /// of parts are compared in it (design.md section 3, decision 7).
+    /// of parts are compared in it (decisions.md#track-frame).
     [[nodiscard]] base::Mat3 tangentFrame(double x) const;
 };
 

@@ -7,7 +7,7 @@
 
 namespace trapwright::track {
 
-/// Surface smoothing (paper, section 3.2; decision 5). `points` are the (y, z) values of a grid
+/// Surface smoothing (paper, section 3.2; decisions.md#smoothing). `points` are the (y, z) values of a grid
 /// [section][point], flat. Every point but the four corners is removed with `probability` and reconstructed
 /// from those that persist: on the grid's border by linear interpolation along the border, inside as the mean
 /// of the nearest known points before and after it in its section and in its row of equal index, weighted by

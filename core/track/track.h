@@ -33,9 +33,9 @@ struct Track {
 };
 
 /// Distance from x to the finish line in segments, the first and the last one counted by the fraction that
-/// lies between (paper, Eq. 3; decision 9); 0 at or past the finish. x before the track counts as its
-/// beginning. The lead-in counts as one segment; a bowl's interpolated sub-sections (track_solid.h) do not
-/// count.
+/// lies between (paper, Eq. 3; decisions.md#distance-and-statistics); 0 at or past the finish. x before the
+/// track counts as its beginning. The lead-in counts as one segment; a bowl's interpolated sub-sections
+/// (track_solid.h) do not count.
 double segmentsToFinish(const Track& track, double x);
 
 }  // namespace trapwright::track

@@ -7,7 +7,8 @@
 
 namespace trapwright::track {
 
-/// What surrounds the trap (paper, section 3.1, Figure 3; design.md section 3, decisions 1, 3 and 4).
+/// What surrounds the trap (paper, section 3.1, Figure 3; decisions.md#lead-in-and-lead-out,
+/// decisions.md#bowl).
 struct TrackParameters {
     FeederShape shape;
     double width = 60e-3;                 // of the lead-in, and of the box that the trap keeps to [m]

@@ -13,7 +13,8 @@ namespace trapwright::track {
 struct TrackFile {
     std::string about;  // where the track comes from
     Track track;
-    std::optional<base::Quaternion> expectedOrientation;  // of the part at the finish, as in decision 7
+    /// Of the part at the finish (decisions.md#track-frame).
+    std::optional<base::Quaternion> expectedOrientation;
 };
 
 /// The file's text. The lead-in's first section is told by its x alone: it equals the second.

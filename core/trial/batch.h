@@ -21,7 +21,7 @@ struct ContactParameters {
     double restitution = 0.2;
 };
 
-/// When a trial ends (paper, section 3.4; decision 10).
+/// When a trial ends (paper, section 3.4; decisions.md#endings).
 struct Termination {
     double timeLimit = 10.0;      // simulated [s]
     double stuckTime = 1.5;       // without stuckProgress: stuck [s]
@@ -46,7 +46,7 @@ struct TrialSpec {
     double restitutionScale = 1.0;
 };
 
-/// One track and N trials on it. Immutable values: a batch can be sent to another process.
+/// One track and N trials on it. Immutable values.
 struct TrialBatch {
     std::shared_ptr<const track::Track> track;
     std::shared_ptr<const part::Part> part;

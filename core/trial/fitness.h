@@ -18,7 +18,7 @@ struct Fitness {
     friend bool operator==(const Fitness&, const Fitness&) = default;
 };
 
-/// How far apart two orientations are (decision 6).
+/// How far apart two orientations are (decisions.md#symmetric-distance).
 enum class OrientationDistance {
     symmetric,  // the least angle over the part's symmetry group; between axes for a continuous one
     plain       // the rotation angle as printed in Eq. 5
@@ -36,15 +36,16 @@ double calcConcentration(std::span<const base::Quaternion> orientations, const p
 Fitness calcFitness(const track::Track& track, std::span<const Outcome> outcomes, int overlaps,
                     const part::SymmetryGroup& symmetry, OrientationDistance distance);
 
-/// The fitness of a track that is not simulated because triangles overlap (decision 8): F_C = -overlaps, F_D
-/// = minus all segments from the start, F_O = -sqrt(pi), below anything that trials can give (all ends half a
-/// turn apart, starts alike).
+/// The fitness of a track that is not simulated because triangles overlap (decisions.md#overlapping-tracks):
+/// F_C = -overlaps, F_D = minus all segments from the start, F_O = -sqrt(pi), below anything that trials can
+/// give (all ends half a turn apart, starts alike).
 Fitness calcUnsimulatedFitness(const track::Track& track, int overlaps);
 
 /// The F_O that a perfect feeder attains from uniformly random starts, where all parts end indistinguishable.
 /// With the symmetric distance: the mean square root of the distance of two random orientations (error <
 /// 0.001). With the plain one a symmetric part's ends still differ at random by its symmetry group, which
-/// takes that much away (0.137 is left for a cuboid, decision 6; less than 0 for a Dinf part).
+/// takes that much away (0.137 is left for a cuboid, decisions.md#symmetric-distance; less than 0 for a Dinf
+/// part).
 double calcBestOrientationScore(const part::SymmetryGroup& symmetry, OrientationDistance distance);
 
 /// The most frequent orientation: the one with the most others within `tolerance` [rad], refined to the mean

@@ -14,7 +14,7 @@ enum class Ending { finished, fellOff, stuck, timedOut };
 std::string_view endingName(Ending ending);
 
 /// How one trial ended. Poses are in track coordinates: position (x, y, z) of FeederShape, rotation in the
-/// tangent frame at the part's x (decision 7).
+/// tangent frame at the part's x (decisions.md#track-frame).
 struct Outcome {
     Ending ending = Ending::stuck;
     base::Pose initial;   // at the start

@@ -7,8 +7,8 @@
 
 namespace trapwright::trial {
 
-/// Follows one part along its track and says when and how its trial ends (paper, section 3.4; decision 10).
-/// Engines call update() every few milliseconds of simulated time.
+/// Follows one part along its track and says when and how its trial ends (paper, section 3.4;
+/// decisions.md#endings). Engines call update() every few milliseconds of simulated time.
 class Progress {
  public:
     Progress(const track::Track& track, const Termination& termination)

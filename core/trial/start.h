@@ -8,7 +8,7 @@
 namespace trapwright::trial {
 
 /// How start poses are drawn. Learning: any orientation (paper, section 3.4). Validation: near one stable
-/// pose with any heading (decision 11).
+/// pose with any heading (decisions.md#selection-and-success).
 struct StartPolicy {
     std::optional<base::Quaternion> nearPose;  // part frame to world, z up; none: uniform on SO(3)
     double tilt = 2.0 * base::kDegree;         // standard deviation of the disturbance of nearPose [rad]

@@ -8,7 +8,7 @@
 #include "core/stats/samples.h"
 #include "core/trial/engine.h"
 
-/// Two engines on the same trials: design.md section 6, last row.
+/// Two engines on the same trials: decisions.md#engines-in-agreement, last row.
 namespace trapwright::verify {
 
 /// One part on one track.
@@ -44,7 +44,7 @@ struct Agreement {
     double familyP = 1.0;            // the least of the three, adjusted for all tests of the table (Holm)
     bool meetsDesign = false;        // each rate in the other's 95 % interval, times with p > 0.01
 
-    /// Engines that are alike fail somewhere in a table with a probability of 5 % at most. design.md's
+    /// Engines that are alike fail somewhere in a table with a probability of 5 % at most. A rule of one
     /// criterion they miss in many a table: see README.md.
     [[nodiscard]] bool passed() const { return familyP > 0.05; }
 };

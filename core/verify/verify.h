@@ -10,7 +10,7 @@
 
 namespace trapwright::verify {
 
-/// One row of the table of design.md section 6: what must come out, what came out.
+/// One row of the table in decisions.md#engines-in-agreement: what must come out, what came out.
 struct Row {
     std::string name;  // short, for people
     std::string expected;
@@ -27,7 +27,7 @@ struct Case {
     std::function<std::vector<Row>(const EngineFactory&, const base::RunControl&)> run;
 };
 
-/// Every case that any engine must pass, in the order of design.md section 6.
+/// Every case that any engine must pass, in the order of decisions.md#engines-in-agreement.
 std::vector<Case> allCases();
 
 /// Runs the cases whose names contain `filter` (all if empty), handing out each case's rows as they come.

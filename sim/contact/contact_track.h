@@ -17,7 +17,7 @@ struct TrackTriangle {
     double radius;
 };
 
-/// A strictly convex edge of the track: only these push (design.md section 4).
+/// A strictly convex edge of the track: only these push (decisions.md#contact-features).
 struct TrackEdge {
     base::Vec3 from, to;   // [m]
     base::Vec3 direction;  // unit

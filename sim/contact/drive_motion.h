@@ -26,8 +26,8 @@ struct TrackPlacement {
 };
 
 /// The drive's prescribed motion in closed form: a translation along the vibration line (linear feeder), or
-/// the helical oscillation about the bowl's axis that has this line at the bowl radius (decision 4). The same
-/// as Simbody's Slider or Screw mobilizer under Motion::Sinusoid, which the tests hold it against.
+/// the helical oscillation about the bowl's axis that has this line at the bowl radius (decisions.md#bowl).
+/// The same as Simbody's Slider or Screw mobilizer under Motion::Sinusoid, which the tests hold it against.
 class DriveMotion {
  public:
     /// phase [rad] at time 0.

@@ -8,7 +8,7 @@
 
 namespace trapwright::simbody {
 
-/// The certifying mode of design.md section 4: the continuous contact law under an error-controlled
+/// The certifying mode (decisions.md#contact-features): the continuous contact law under an error-controlled
 /// integrator, some hundred times slower than SimbodyEngine, which it is there to be held against.
 class CertifyingEngine : public trial::Engine {
  public:

@@ -17,7 +17,8 @@ namespace {
 /// In the order of the work; pages that are not listed follow.
 constexpr std::array kContents = {"index",    "part",  "track",    "evolve",       "review",   "export",
                                   "validate", "drive", "settings", "command-line", "glossary", "paper"};
-constexpr auto kBibliography = "bibliography";
+/// For whoever reads the sources as well, and so one folder higher.
+constexpr std::array kSharedPages = {"decisions", "bibliography"};
 
 QString readText(const std::filesystem::path& path) {
     QFile file(look::toText(path));
@@ -99,7 +100,9 @@ HelpBook::HelpBook(const std::filesystem::path& folder) {
         const int placeB = placeOf(b.name);
         return placeA != placeB ? placeA < placeB : a.name < b.name;
     });
-    if (!pages_.empty()) add(folder.parent_path() / (std::string(kBibliography) + ".md"));
+    if (pages_.empty()) return;
+    for (const char* name : kSharedPages)
+        add(folder.parent_path() / (std::string(name) + ".md"));
 }
 
 HelpBook HelpBook::installed() {

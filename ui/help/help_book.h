@@ -39,8 +39,8 @@ std::vector<Section> readSections(const QString& markdown);
 /// The pages of the help.
 class HelpBook {
  public:
-    /// All pages of a folder, those that have a place in the contents first, and the bibliography beside it.
-    /// Without the folder there are none.
+    /// All pages of a folder, those that have a place in the contents first, and the decisions and the
+    /// bibliography beside it. Without the folder there are none.
     explicit HelpBook(const std::filesystem::path& folder);
     /// Those that come with the program (base::findResource).
     static HelpBook installed();

@@ -81,39 +81,81 @@ class TransitionTest : public QObject {
         QCOMPARE(child, parent2);
     }
 
-    // Algorithm 2, line by line, on a stream of the same key.
-    void isAlgorithm2() {
-        const TransitionParameters parameters{0.003, 1.0, 0.0};
-        for (std::uint64_t seed = 0; seed < 30; ++seed) {
-            base::Random setup = makeRandom(seed + 100);
-            const auto p1 = evolution::createRandomChromosome(kLayout, setup);
-            const auto p2 = evolution::createRandomChromosome(kLayout, setup);
-            double smoothed = -1.0;
-            const auto smooth = [&](const Bits& points, double probability, base::Random& random) {
-                smoothed = probability;
-                return evolution::mutateBinaryUniform(points, probability, random);
-            };
-            base::Random stream = makeRandom(seed);
-            const auto child = evolution::transition(p1, p2, parameters, smooth, stream);
+    // Lines 14 to 20: gene 3 is crossed by the parents' mean, sqrt(1 x 0) = 0, so that it is parent 2's;
+    // genes 1 and 2 then follow the child's own p_x, not a parent's.
+    void strategyComesFirst() {
+        base::Random random = makeRandom(5);
+        Chromosome zeros{Bits(800, 0), Bits(50000, 0), encodeStrategy(1.0, 0.0, 0.0)};
+        Chromosome ones{Bits(800, 1), Bits(50000, 1), encodeStrategy(0.0, 0.0, 0.0)};
+        auto child = evolution::transition(zeros, ones, {0.0, 1.0, 0.0}, keep, random);
+        QCOMPARE(child, ones);
+        // The same with a child that takes each bit of its lengths from either parent.
+        std::swap(zeros.strategy, ones.strategy);
+        child = evolution::transition(zeros, ones, {0.0, 1.0, 0.0}, keep, random);
+        QCOMPARE(child.strategy, ones.strategy);
+        const double share = countDifferent(child.lengths, ones.lengths) / 50000.0;
+        QVERIFY2(std::abs(share - 0.5) < 4.0 * 0.5 / std::sqrt(50000.0), QByteArray::number(share));
+    }
 
-            base::Random random = makeRandom(seed);
-            const auto v1 = evolution::decodeGray(p1.strategy, 20);
-            const auto v2 = evolution::decodeGray(p2.strategy, 20);
-            const double px = std::sqrt(v1[0] * v2[0]);
-            const double pdm = std::sqrt(v1[1] * v2[1]);
-            Bits gene3 = evolution::crossStateBased(p1.strategy, p2.strategy, px, random);
-            gene3 = evolution::mutateBinaryUniform(gene3, pdm + 0.003, random);
-            QCOMPARE(child.strategy, gene3);
-            const auto v = evolution::decodeGray(gene3, 20);
-            Bits gene2 = evolution::crossStateBased(p1.lengths, p2.lengths, v[0], random);
-            gene2 = evolution::mutateBinaryUniform(gene2, v[1] + 0.003, random);
-            QCOMPARE(child.lengths, gene2);
-            Bits gene1 = evolution::crossStateBased(p1.points, p2.points, v[0], random);
-            gene1 = evolution::mutatePoints(gene1, 10, v[1] + 0.003, random);
-            gene1 = evolution::mutateBinaryUniform(gene1, v[2], random);
-            QCOMPARE(child.points, gene1);
-            QCOMPARE(smoothed, v[2]);
+    // Algorithm 1: the state is redrawn before each bit with probability p_x, so that bit k (from 1) is
+    // parent 1's with (1 - (1 - p_x)^k) / 2: with 1/2 these are 1/4, 3/8, 7/16, 15/32.
+    void lengthsAreCrossedBitByBit() {
+        const Bits strategy = encodeStrategy(0.5, 0.0, 0.0);
+        const Chromosome zeros{Bits(800, 0), Bits(4, 0), strategy};
+        const Chromosome ones{Bits(800, 1), Bits(4, 1), strategy};
+        constexpr std::array kExpected = {0.25, 0.375, 0.4375, 0.46875};
+        constexpr int kRuns = 20000;
+        std::array<int, 4> fromFirst{};
+        base::Random random = makeRandom(6);
+        for (int run = 0; run < kRuns; ++run) {
+            const auto child = evolution::transition(zeros, ones, {0.0, 1.0, 0.0}, keep, random);
+            for (std::size_t k = 0; k < 4; ++k)
+                fromFirst[k] += child.lengths[k] == 0 ? 1 : 0;
         }
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double share = static_cast<double>(fromFirst[k]) / kRuns;
+            QVERIFY2(std::abs(share - kExpected[k]) < 4.0 * 0.5 / std::sqrt(kRuns),
+                     QByteArray::number(share));
+        }
+    }
+
+    // Lines 15 and 19: p_dm of 0.04 and 0.09 gives sqrt(0.0036) = 0.06, with p_sm = 0.02 each bit of gene 3
+    // is drawn anew with 0.08, so 60 x 0.04 = 2.4 of them change. The p_x of 0 keeps parent 2's.
+    void ratesOfMutationAddUp() {
+        Chromosome parent1{Bits(20, 0), Bits(10, 0), encodeStrategy(0.0, 0.04, 0.0)};
+        Chromosome parent2{Bits(20, 0), Bits(10, 0), encodeStrategy(0.0, 0.09, 0.0)};
+        constexpr int kRuns = 4000;
+        double changed = 0.0;
+        base::Random random = makeRandom(7);
+        for (int run = 0; run < kRuns; ++run)
+            changed += countDifferent(
+                evolution::transition(parent1, parent2, {0.02, 1.0, 0.0}, keep, random).strategy,
+                parent2.strategy);
+        const double mean = changed / kRuns;
+        QVERIFY2(std::abs(mean - 2.4) < 4.0 * std::sqrt(2.4 * 0.96 / kRuns), QByteArray::number(mean));
+    }
+
+    // Lines 24, 27 and 28. A floor of p_dm of 1 has every bit of the lengths drawn anew, so that half of them
+    // change (BUM), and b = 10 times one bit of each value of a point: 1 - 0.9^10 = 0.651 are hit, 0.326
+    // change (2DPM). Smoothing comes last, with the child's p_s, and what it gives is gene 1.
+    void eachGeneHasItsMutation() {
+        const Chromosome parent{Bits(40000, 0), Bits(40000, 0), encodeStrategy(0.0, 0.0, 0.25)};
+        Bits mutated;
+        double probability = -1.0;
+        const Bits smoothed(40000, 1);
+        const auto smooth = [&](const Bits& points, double p, base::Random& /*random*/) {
+            mutated = points;
+            probability = p;
+            return smoothed;
+        };
+        base::Random random = makeRandom(9);
+        const auto child = evolution::transition(parent, parent, {0.0, 1.0, 1.0}, smooth, random);
+        const double lengths = countDifferent(child.lengths, parent.lengths) / 40000.0;
+        const double points = countDifferent(mutated, parent.points) / 40000.0;
+        QVERIFY2(std::abs(lengths - 0.5) < 4.0 * 0.5 / 200.0, QByteArray::number(lengths));
+        QVERIFY2(std::abs(points - 0.3257) < 4.0 * 0.47 / 200.0, QByteArray::number(points));
+        QCOMPARE(child.points, smoothed);
+        QCOMPARE(probability, evolution::decodeStrategy(child.strategy).smoothing);
     }
 
     // Of equal parents only mutation tells the child: its rate is the floor and the static rate together.

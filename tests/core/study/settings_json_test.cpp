@@ -17,7 +17,14 @@ namespace {
 /// Every field away from its default.
 Settings unusualSettings() {
     Settings s;
-    s.part = {"/parts/a \"quoted\" näme.step", "inch", 7850.5, 0.0123456789012345678};
+    s.part = {"/parts/a \"quoted\" näme.step",
+              "inch",
+              7850.5,
+              0.0123456789012345678,
+              part::SymmetryUse::none,
+              "brass \\ zinc",
+              study::PoseWeights::dropped,
+              "129, 48, 23"};
     s.track.shape = {track::FeederType::bowl, 0.1 + 0.2, track::Conveying::anticlockwise};
     s.track.crossSections = 7;
     s.track.pointsPerSection = 11;
@@ -34,6 +41,7 @@ Settings unusualSettings() {
                    true, 4,  1.0 / 3.0, true,      0.7, 12,   0xFFFFFFFFFFFFFFFFULL};
     s.simulation.drive = {60.25, 0.7e-3 / 9.0, 13.7 * base::kDegree};
     s.simulation.contact = {0.6, 0.55, 0.21};
+    s.simulation.surface = "PLA, printed";
     s.simulation.termination = {11.5, 1.25, 1.5e-3};
     s.simulation.start.nearPose = base::Quaternion(0.5, -0.5, 0.1 + 0.2, std::sqrt(0.5));
     s.simulation.start.tilt = 2.5 * base::kDegree;
@@ -41,6 +49,7 @@ Settings unusualSettings() {
     s.simulation.gravity = 9.81;
     s.simulation.engine = "native";
     s.validation = {30, 2000, 500, 24.9 * base::kDegree};
+    s.feeder = {1.0 / 7.0, 2.5};
     return s;
 }
 
@@ -75,18 +84,16 @@ class SettingsJsonTest : public QObject {
         const QStringList lines = QString::fromStdString(study::toJson(Settings{})).split('\n');
         const QStringList unusual = QString::fromStdString(json).split('\n');
         QCOMPARE(lines.size(), unusual.size());
-        int fields = 0;
         for (qsizetype i = 0; i < lines.size(); ++i) {
-            if (lines[i] == unusual[i]) continue;
+            if (!lines[i].contains(':') || lines[i].endsWith('{')) continue;
+            QVERIFY2(lines[i] != unusual[i], qPrintable("not away from its default: " + lines[i]));
             QStringList changed = lines;
             changed[i] = unusual[i];
             if (!lines[i].endsWith(',')) changed[i].remove(',');
             const auto back = study::settingsFromJson(changed.join('\n').toStdString(), Settings{});
             QVERIFY2(back.ok(), back.ok() ? "" : back.error().message.c_str());
             QVERIFY2(!(*back == Settings{}), qPrintable(lines[i]));
-            ++fields;
         }
-        QCOMPARE(fields, 50);
     }
 
     void lengthsSurviveToTheLastBit() {

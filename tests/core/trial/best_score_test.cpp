@@ -24,7 +24,8 @@ class BestScoreTest : public QObject {
                 1e-12);
     }
 
-    // Decision 6: with the plain angle a perfect feeder of cuboids gains only 0.137 over random.
+    // decisions.md#symmetric-distance: with the plain angle a perfect feeder of cuboids gains only 0.137 over
+    // random.
     void plainCuboidGainsLittle() {
         const double score = trial::calcBestOrientationScore(testing::makeD2(), OrientationDistance::plain);
         QVERIFY(std::abs(score - 0.137) < 5e-4);

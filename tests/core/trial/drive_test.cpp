@@ -10,7 +10,7 @@ class DriveTest : public QObject {
     Q_OBJECT
 
  private slots:
-    // design.md section 3, decision 12: at 50 Hz and 12 degrees parts lift off from 0.478 mm.
+    // decisions.md#drive: at 50 Hz and 12 degrees parts lift off from 0.478 mm.
     void liftsOffWhereTheDesignSays() {
         const trial::Drive drive{50.0, 0.478e-3, 12.0 * base::kDegree};
         QVERIFY(std::abs(trial::calcThrowNumber(drive) - 1.0) < 1e-3);

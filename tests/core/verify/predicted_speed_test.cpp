@@ -21,7 +21,7 @@ class PredictedSpeedTest : public QObject {
     Q_OBJECT
 
  private slots:
-    // design.md, section 3, decision 12: 1.0 at a half-stroke of 0.478 mm.
+    // decisions.md#drive: 1.0 at a half-stroke of 0.478 mm.
     void partsLiftOffAtThrowNumberOne() {
         QVERIFY(std::abs(predict(0.478e-3).throwNumber - 1.0) < 2e-3);
         QCOMPARE(predict(0.47e-3).conveyance, verify::Conveyance::slides);

@@ -1,6 +1,7 @@
 #include "ui/charts/study_chart.h"
 
 #include <QAbstractButton>
+#include <QLabel>
 #include <QSignalSpy>
 #include <QSvgRenderer>
 #include <QtTest>
@@ -59,6 +60,14 @@ QAbstractButton& legendItem(const QWidget& chart, const QString& key) {
     return *chart.findChild<QAbstractButton*>("legend." + key);
 }
 
+/// What is read where the curves will be.
+QString shownText(const QWidget& chart) {
+    QStringList texts;
+    for (const QLabel* label : chart.findChildren<QLabel*>())
+        if (label->isVisible() && label->wordWrap()) texts << label->text();
+    return texts.join(' ');
+}
+
 bool isClose(double a, double b) {
     return std::abs(a - b) < 1e-6;
 }
@@ -73,9 +82,25 @@ class StudyChartTest : public QObject {
         FitnessChart chart;
         showChart(chart);
         QVERIFY(!chart.savePictureAction()->isEnabled());
+        QCOMPARE(shownText(chart),
+                 QString("The learning curves begin when the first generation is complete."));
         chart.setStudies({someStudy(1)});
+        QCOMPARE(shownText(chart), QString());
         QVERIFY(chart.savePictureAction()->isEnabled());
         QCOMPARE(chart.shownPlots().size(), std::size_t{2});  // nothing ever overlapped
+    }
+
+    void withoutSuccessItSaysWhy() {
+        charts::SuccessChart chart;
+        showChart(chart);
+        QVERIFY2(shownText(chart).contains("first generation"), qPrintable(shownText(chart)));
+        StudyCurves curves = someStudy(2);
+        for (study::GenerationSummary& summary : curves.summaries) {
+            summary.statistics.success.reset();
+            summary.statistics.topSuccess.reset();
+        }
+        chart.setStudies({curves});
+        QVERIFY2(shownText(chart).contains("older Trapwright"), qPrintable(shownText(chart)));
     }
 
     void everythingIsInViewAndStaysSo() {

@@ -59,6 +59,29 @@ QStringList findDeadLinks(const QString& file, const QString& text) {
     return dead;
 }
 
+/// What a source cites in the project's documents, "decisions.md#bowl", and is not there.
+QStringList findDeadReferences(const QString& text, int& found) {
+    static const QRegularExpression reference(R"(\b([a-z_-]+\.md)#([a-z0-9-]+))");
+    QStringList dead;
+    for (const QRegularExpressionMatch& match : reference.globalMatch(text)) {
+        ++found;
+        if (!hasHeading(kRoot + "/resources/docs/" + match.captured(1), match.captured(2)))
+            dead << match.captured();
+    }
+    return dead;
+}
+
+/// All sources of the project's own folders.
+QStringList findSources() {
+    QStringList sources;
+    for (const char* folder : {"app", "core", "sim", "tests", "ui"}) {
+        QDirIterator files(kRoot + '/' + folder, {"*.h", "*.cpp"}, QDir::Files, QDirIterator::Subdirectories);
+        while (files.hasNext())
+            sources << files.next();
+    }
+    return sources;
+}
+
 /// "Clopper and Pearson (1934" and the like: the last surname and the year.
 QList<QPair<QString, QString>> findCitations(const QString& text) {
     static const QRegularExpression citation(
@@ -111,6 +134,37 @@ class DocsTest : public QObject {
         QCOMPARE(findDeadLinks(kRoot + "/resources/docs/help/index.md", text).size(), dead);
     }
 
+    void noReferenceLeadsNowhere() {
+        QStringList dead;
+        int found = 0;
+        for (const QString& file : findSources()) {
+            if (file.endsWith("docs_test.cpp")) continue;
+            for (const QString& reference : findDeadReferences(readText(file), found))
+                dead << QString("%1 (%2)").arg(reference, QDir(kRoot).relativeFilePath(file));
+        }
+        QVERIFY2(dead.isEmpty(), qPrintable(dead.join("; ")));
+        QVERIFY2(found > 30, qPrintable(QString("only %1 references were seen").arg(found)));
+    }
+
+    void aDeadReferenceIsFound() {
+        int found = 0;
+        const QString text =
+            "(decisions.md#bowl, decisions.md#ball; bibliography.md#standards, none.md#bowl)";
+        QCOMPARE(findDeadReferences(text, found), QStringList({"decisions.md#ball", "none.md#bowl"}));
+        QCOMPARE(found, 4);
+    }
+
+    // Numbers of a list that only some have say nothing to others.
+    void nothingIsCitedThatIsNotHere() {
+        static const QRegularExpression elsewhere(R"(design\.md|\b[Dd]ecisions? \d)");
+        for (const QString& file : findDocuments() + findSources()) {
+            if (file.endsWith("docs_test.cpp")) continue;
+            const auto match = elsewhere.match(readText(file));
+            QVERIFY2(!match.hasMatch(),
+                     qPrintable(QDir(kRoot).relativeFilePath(file) + ": " + match.captured()));
+        }
+    }
+
     void everyPaperIsInTheBibliography() {
         const QString bibliography = readText(kRoot + "/resources/docs/bibliography.md");
         const QStringList noAuthors = {"GDC", "Qt", "Detection", "Properties", "Nov", "Debian"};
@@ -145,7 +199,7 @@ class DocsTest : public QObject {
         for (const help::Page& page : book.pages())
             names << page.name;
         for (const char* name : {"index", "part", "track", "evolve", "review", "export", "validate", "drive",
-                                 "settings", "command-line", "glossary", "paper", "bibliography"})
+                                 "settings", "command-line", "glossary", "paper", "decisions", "bibliography"})
             QVERIFY2(names.contains(name), name);
         QCOMPARE(names.front(), QString("index"));
         // And the first page leads to all of them.

@@ -19,7 +19,7 @@ using tests::User;
 
 namespace {
 
-constexpr std::array kPages = {"part", "track", "evolve", "review", "export"};
+constexpr std::array kPages = {"part", "track", "evolve", "review", "export", "validate"};
 
 }  // namespace
 
@@ -59,7 +59,7 @@ class MainWindowTest : public QObject {
         QCOMPARE(scene->contents().track->width, 60e-3);
         user.type("track.segmentWidth_mm", "90");
         QTRY_COMPARE_WITH_TIMEOUT(scene->contents().track->width, 90e-3, kPatience);
-        // Its start point has 60 mm of lead-in behind it (decision 3).
+        // Its start point has 60 mm of lead-in behind it (decisions.md#lead-in-and-lead-out).
         QCOMPARE(scene->contents().track->start, 60e-3);
     }
 
@@ -79,7 +79,7 @@ class MainWindowTest : public QObject {
         QVERIFY(!user.find<QLabel>("track.problems")->isVisible());
     }
 
-    // design.md, section 3, decision 12.
+    // decisions.md#drive.
     void theThrowNumberFollowsTheDrive() {
         User user;
         QVERIFY(user.import("cuboid") && user.show("track"));
