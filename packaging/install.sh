@@ -10,14 +10,14 @@ packages=(
     # numbers and random streams
     libboost-dev libeigen3-dev librandom123-dev
     # parts and tracks: reading, repairing, taking apart, writing
-    lib3mf-dev libassimp-dev libbullet-dev libbullet-extras-dev libcgal-dev libmeshoptimizer-dev
+    lib3mf-dev libassimp-dev libcgal-dev libmeshoptimizer-dev
     libocct-data-exchange-dev libocct-foundation-dev libocct-modeling-algorithms-dev libocct-modeling-data-dev
     # what OpenCASCADE's and lib3mf's packages link to, but leave out of their dependencies
     libtbb-dev libzip-dev
     # simulation
     libhwy-dev libsimbody-dev
     # studies and the command line
-    libcli11-dev libfmt-dev libspdlog-dev libsqlite3-dev libsqlitecpp-dev nlohmann-json3-dev libcereal-dev
+    libcli11-dev libfmt-dev libsqlite3-dev libsqlitecpp-dev nlohmann-json3-dev libcereal-dev
     # the studio: window, charts, icons, 3D scene, films
     ffmpeg fonts-dejavu-core libgl1-mesa-dri libqt6opengl6-dev libvtk9-dev qt6-base-dev qt6-charts-dev qt6-svg-dev
     # the drives of feeders: Modbus and serial ports

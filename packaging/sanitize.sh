@@ -5,7 +5,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # The most valuable first, by what it finds in the time that it takes: what reads foreign bytes, then threads.
 folders=(core_base core_drive core_store core_study core_track core_stats core_evolution core_calibration core_trial
-    core_work core_part core_geometry sim ui_session core_bench core_verify app ui_scene)
+    core_workflow core_part core_geometry sim ui_session core_bench core_verify app ui_scene)
 
 usage() {
     cat << 'USAGE'

@@ -1,5 +1,5 @@
-#include "core/work/part_process.h"
+#include "core/workflow/part_process.h"
 
 int main(int argc, char** argv) {
-    return trapwright::work::serveImport(argc, argv);
+    return trapwright::workflow::serveImport(argc, argv);
 }

@@ -10,7 +10,7 @@
 #include "app/trapwright/engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
-#include "core/work/study_engines.h"
+#include "core/workflow/study_engines.h"
 
 namespace trapwright::app {
 
@@ -45,7 +45,8 @@ Attempt<std::vector<bench::Contender>> chooseContenders(const std::string& engin
     }
     std::vector<std::string> names = splitAtCommas(engines == "all" ? "" : engines);
     if (engines == "hybrid")
-        names = {work::engineFor(engines, work::EngineUse::learning), *work::referenceFor(engines)};
+        names = {workflow::engineFor(engines, workflow::EngineUse::learning),
+                 *workflow::referenceFor(engines)};
     for (const std::string& name : names) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const bench::Contender& contender) {
             return contender.name == name;

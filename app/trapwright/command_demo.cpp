@@ -70,7 +70,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!study) return study.failure();
     const auto before = study->file.generationCount();
     if (!before) return Failure{ExitCode::badInput, before.error().message};
-    auto inputs = makeInputs(*study, std::nullopt, work::EngineUse::learning, options.threads);
+    auto inputs = makeInputs(*study, std::nullopt, workflow::EngineUse::learning, options.threads);
     if (!inputs) return inputs.failure();
 
     console.print(fmt::format(
@@ -86,7 +86,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                        fmt::format("Stopped. Go on with: trapwright evolve {} --resume", path)};
     }
 
-    inputs = makeInputs(*study, std::nullopt, work::EngineUse::judging, options.threads);
+    inputs = makeInputs(*study, std::nullopt, workflow::EngineUse::judging, options.threads);
     if (!inputs) return inputs.failure();
     inputs->settings.validation.selectionWinners = kSelectionWinners;
     inputs->settings.validation.selectionTrials = options.selectionTrials;
@@ -109,7 +109,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                                   std::move(track).value(), validation->expectedOrientation};
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (const char* name : {"cuboid.stl", "cuboid.3mf"}) {
-        const auto exported = work::exportTrack(design, {&design.track.solid, 1}, folder / name);
+        const auto exported = workflow::exportTrack(design, {&design.track.solid, 1}, folder / name);
         if (!exported) return toFailure(exported.error());
         console.print(describeExport(exported->front()));
         files.push_back(exported->front().path.string());

@@ -56,7 +56,7 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) 
 
 /// "native, winners checked by simbody"
 std::string describeEngines(const OpenStudy& study, const study::StudyInputs& inputs) {
-    const auto reference = work::referenceFor(study.settings.simulation.engine);
+    const auto reference = workflow::referenceFor(study.settings.simulation.engine);
     return inputs.engine->name() + (reference ? ", winners checked by " + *reference : "");
 }
 
@@ -86,25 +86,26 @@ std::string_view endName(study::LearningEnd end) {
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openOrCreate(options, console);
     if (!study) return study.failure();
-    auto inputs = makeInputs(*study, std::nullopt, work::EngineUse::learning, options.threads);
+    auto inputs = makeInputs(*study, std::nullopt, workflow::EngineUse::learning, options.threads);
     if (!inputs) return inputs.failure();
     console.print(describeStart(*study, *inputs));
 
-    auto report = runLearning(study->file, *inputs, console, std::nullopt);
-    if (!report) return report.failure();
+    auto ran = runLearning(study->file, *inputs, console, std::nullopt);
+    if (!ran) return ran.failure();
+    const workflow::LearningReport& report = ran->report;
     const auto summaries = study->file.loadSummaries();
     if (!summaries) return Failure{ExitCode::badInput, summaries.error().message};
-    const double rate = report->seconds > 0.0 ? static_cast<double>(report->trials) / report->seconds : 0.0;
+    const double rate = report.seconds > 0.0 ? static_cast<double>(report.trials) / report.seconds : 0.0;
     console.print(fmt::format("{}: {} generations in {}, {} trials in {:.1f} s ({:.1f}/s)\n",
-                              report->interrupted ? "Stopped" : "Done", summaries->size(), options.study,
-                              report->trials, report->seconds, rate));
-    const auto reference = work::referenceFor(study->settings.simulation.engine);
+                              ran->interrupted ? "Stopped" : "Done", summaries->size(), options.study,
+                              report.trials, report.seconds, rate));
+    const auto reference = workflow::referenceFor(study->settings.simulation.engine);
     const auto unchecked = study->file.loadUncheckedWinners();
     if (!unchecked) return Failure{ExitCode::badInput, unchecked.error().message};
     if (reference && !unchecked->empty())
         console.print(
             fmt::format("{} winners are not checked yet; evolve --resume does that.\n", unchecked->size()));
-    if (report->interrupted && !console.json())
+    if (ran->interrupted && !console.json())
         console.note(fmt::format("Go on with: trapwright evolve {} --resume", options.study));
 
     const auto checks = study->file.loadChecks();
@@ -117,13 +118,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
          {"engine", inputs->engine->name()},
          {"reference_engine", reference ? nlohmann::ordered_json(*reference) : nlohmann::ordered_json()},
          {"threads", inputs->threads},
-         {"end", endName(report->end)},
-         {"trials", report->trials},
-         {"seconds", report->seconds},
+         {"end", endName(report.end)},
+         {"trials", report.trials},
+         {"seconds", report.seconds},
          {"trials_per_second", rate},
          {"generations", generations},
          {"checks", toJson(*checks)}});
-    return report->interrupted ? ExitCode::interrupted : ExitCode::ok;
+    return ran->interrupted ? ExitCode::interrupted : ExitCode::ok;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/work_failure.h"
 #include "core/study/track_design.h"
-#include "core/work/track_export.h"
+#include "core/workflow/track_export.h"
 
 namespace trapwright::app {
 
@@ -33,7 +33,7 @@ std::vector<std::string> defaultFiles(const std::string& study) {
 
 /// How the last selection found this individual's parts to end; none if it is not in there.
 std::optional<base::Quaternion> findExpectedOrientation(const store::StudyFile& file,
-                                                        const study::Winner& individual) {
+                                                        const study::Individual& individual) {
     const auto selections = file.loadSelections();
     if (!selections || selections->empty()) return std::nullopt;
     for (const study::SelectionEntry& entry : selections->back().entries) {
@@ -68,9 +68,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     const track::TrackFile design{name, *track, findExpectedOrientation(*file, *individual)};
     for (const std::string& path : options.files.empty() ? defaultFiles(options.study) : options.files) {
-        const auto exported = work::exportTrack(design, solids, path);
+        const auto exported = workflow::exportTrack(design, solids, path);
         if (!exported) return toFailure(exported.error());
-        for (const work::ExportedFile& written : *exported) {
+        for (const workflow::ExportedFile& written : *exported) {
             console.print(describeExport(written));
             files.push_back({{"file", written.path.string()},
                              {"size_mm", toJson(written.size, 1e3)},

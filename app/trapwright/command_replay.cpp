@@ -12,7 +12,7 @@
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 #include "core/base/file.h"
-#include "core/work/study_trials.h"
+#include "core/workflow/study_trials.h"
 
 namespace trapwright::app {
 
@@ -28,7 +28,7 @@ struct Options {
     std::optional<std::string> out;
 };
 
-Failure refuseTrial(const Options& options, const study::Winner& individual, int trials) {
+Failure refuseTrial(const Options& options, const study::Individual& individual, int trials) {
     if (trials == 0) {
         return {ExitCode::usage, fmt::format("Generation {}, individual {} has no {} trials to replay.",
                                              individual.generation, individual.individual, options.kind)};
@@ -38,10 +38,10 @@ Failure refuseTrial(const Options& options, const study::Winner& individual, int
                         individual.generation, individual.individual, options.kind, trials - 1)};
 }
 
-work::TrialsRequest makeRequest(const Options& options, study::Winner individual) {
-    work::TrialsRequest request;
-    if (options.kind == "selection") request.kind = work::TrialKind::selection;
-    if (options.kind == "validation") request.kind = work::TrialKind::validation;
+workflow::TrialsRequest makeRequest(const Options& options, study::Individual individual) {
+    workflow::TrialsRequest request;
+    if (options.kind == "selection") request.kind = workflow::TrialKind::selection;
+    if (options.kind == "validation") request.kind = workflow::TrialKind::validation;
     request.winner = std::move(individual);
     request.poses = {options.pose - 1};
     return request;
@@ -85,12 +85,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!study) return study.failure();
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.failure();
-    const work::TrialsRequest request = makeRequest(options, *individual);
-    const auto trials = work::findStoredTrials(study->file, study->settings, request);
+    const workflow::TrialsRequest request = makeRequest(options, *individual);
+    const auto trials = workflow::findStoredTrials(study->file, study->settings, request);
     if (!trials) return Failure{ExitCode::badInput, trials.error().message};
     if (options.trial < 0 || options.trial >= trials->count)
         return refuseTrial(options, *individual, trials->count);
-    auto batch = work::makeTrials(study->settings, study->part, request, *trials);
+    auto batch = workflow::makeTrials(study->settings, study->part, request, *trials);
     if (!batch) return Failure{ExitCode::badInput, batch.error().message};
     auto engine = makeEngine(trials->engine, {1, 0.0});
     if (!engine) return engine.failure();

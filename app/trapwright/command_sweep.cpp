@@ -12,7 +12,7 @@
 #include "app/trapwright/work_display.h"
 #include "core/study/settings.h"
 #include "core/verify/conveying.h"
-#include "core/work/study_engines.h"
+#include "core/workflow/study_engines.h"
 
 namespace trapwright::app {
 
@@ -30,8 +30,8 @@ struct Options {
     std::string engine = "simbody";
 };
 
-trial::Drive driveFor(const Options& options, int row) {
-    trial::Drive drive;
+trial::Vibration driveFor(const Options& options, int row) {
+    trial::Vibration drive;
     drive.frequency = options.frequency;
     drive.angle = options.angle * base::kDegree;
     drive.halfStroke = (options.from + row * options.step) * base::kMillimetre;
@@ -51,7 +51,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         return Failure{ExitCode::usage, fmt::format("--step {} is too fine.", options.step)};
     auto loaded = loadPart(options.part, console);
     if (!loaded) return loaded.failure();
-    auto engine = makeEngine(work::engineFor(options.engine, work::EngineUse::judging), {});
+    auto engine = makeEngine(workflow::engineFor(options.engine, workflow::EngineUse::judging), {});
     if (!engine) return engine.failure();
 
     verify::ConveyingScene scene;

@@ -14,7 +14,7 @@
 #include "core/study/evaluator.h"
 #include "core/study/track_trials.h"
 #include "core/track/track_file.h"
-#include "core/work/study_engines.h"
+#include "core/workflow/study_engines.h"
 
 namespace trapwright::app {
 
@@ -63,7 +63,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!file) return Failure{ExitCode::badInput, file.error().message};
     auto loaded = loadPart(options.part, console);
     if (!loaded) return loaded.failure();
-    auto engine = makeEngine(work::engineFor(options.engine, work::EngineUse::judging),
+    auto engine = makeEngine(workflow::engineFor(options.engine, workflow::EngineUse::judging),
                              {options.threads, options.step * 1e-3});
     if (!engine) return engine.failure();
     const std::shared_ptr<const part::Part> part = loaded->part;

@@ -9,7 +9,7 @@
 #include "app/trapwright/engines.h"
 #include "app/trapwright/work_display.h"
 #include "core/verify/verify.h"
-#include "core/work/study_engines.h"
+#include "core/workflow/study_engines.h"
 
 namespace trapwright::app {
 
@@ -53,7 +53,7 @@ Attempt<nlohmann::ordered_json> runCases(const EngineFactory& factory, const std
 
 Attempt<ExitCode> run(Options options, const Console& console) {
     // What learns is what has to agree.
-    options.engine = work::engineFor(options.engine, work::EngineUse::learning);
+    options.engine = workflow::engineFor(options.engine, workflow::EngineUse::learning);
     auto factory = findEngine(options.engine);
     if (!factory) return factory.failure();
     std::string names;

@@ -23,7 +23,7 @@ Attempt<EngineFactory> findEngine(const std::string& name);
 Attempt<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name,
                                                          const trial::EngineOptions& options);
 
-/// The same as a work::EngineMaker.
+/// The same as a workflow::EngineMaker.
 base::Result<std::shared_ptr<const trial::Engine>> makeWorkEngine(const std::string& name,
                                                                   const trial::EngineOptions& options);
 

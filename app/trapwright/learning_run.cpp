@@ -9,7 +9,7 @@
 #include "app/trapwright/work_display.h"
 #include "app/trapwright/work_failure.h"
 #include "core/stats/binomial.h"
-#include "core/work/learning.h"
+#include "core/workflow/learning.h"
 
 namespace trapwright::app {
 
@@ -126,15 +126,15 @@ WorkWatch watchLearning(const Situation& situation, Clock::time_point begin, stu
 /// Makes the checks that are left and shows the progress. False if Ctrl-C ended it; the rest stays to be
 /// done.
 Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inputs,
-                           const std::vector<study::Winner>& left, const Console& console) {
+                           const std::vector<study::Individual>& left, const Console& console) {
     if (left.empty()) return true;
     const base::RunControl control;
-    WorkDisplay display(console, watchTrials("Checking winners", work::countCheckTrials(left), control));
-    const auto checked = work::checkWinners(
+    WorkDisplay display(console, watchTrials("Checking winners", workflow::countCheckTrials(left), control));
+    const auto checked = workflow::checkWinners(
         file, inputs, makeWorkEngine, left,
         [&](const study::CheckRecord& record) { display.print(describeCheck(record)); }, control);
     if (checked) return true;
-    if (checked.error().kind == work::FailureKind::cancelled) return false;
+    if (checked.error().kind == workflow::FailureKind::cancelled) return false;
     return toFailure(checked.error(), file);
 }
 
@@ -146,15 +146,15 @@ const char* const kLearningHeading =
     "Generation success   Clopper-Pearson  finished        F    F_C     F_D     F_O  success     "
     "   F    F_C     F_D     F_O     p_x    p_dm     p_s seconds\n";
 
-Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
-                                    const Console& console, std::optional<double> timeLimit) {
+Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
+                                 const Console& console, std::optional<double> timeLimit) {
     study::LearningControl control;
     Situation situation(inputs.settings.evolution.generations, control.run);
     const Clock::time_point begin = Clock::now();
     bool timeOver = false;
     auto learned = [&] {
         WorkDisplay display(console, watchLearning(situation, begin, control, console));
-        work::LearnEvents events;
+        workflow::LearnEvents events;
         events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
         events.saved = [&](const study::GenerationRecord& record) {
             situation.setSuccess(record.statistics.success);
@@ -165,24 +165,22 @@ Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyIn
             }
         };
         events.checked = [&](const study::CheckRecord& record) { display.print(describeCheck(record)); };
-        return work::learn(file, inputs, makeWorkEngine, events, control);
+        return workflow::learn(file, inputs, makeWorkEngine, events, control);
     }();
     if (!learned) return toFailure(learned.error(), file);
-    LearningReport report;
-    report.end = learned->end;
-    report.interrupted = learned->end == study::LearningEnd::cancelled ||
-                         (learned->end == study::LearningEnd::stopped && !timeOver);
-    report.trials = learned->trials;
-    report.seconds = learned->seconds;
+    LearningRun ran{std::move(*learned), false};
+    const study::LearningEnd end = ran.report.end;
+    ran.interrupted =
+        end == study::LearningEnd::cancelled || (end == study::LearningEnd::stopped && !timeOver);
     // Who asked to stop, or has a time limit, did not ask for this to begin.
-    if (learned->end == study::LearningEnd::completed && !control.stopRequested()) {
-        auto finished = finishChecks(file, inputs, learned->unchecked, console);
+    if (end == study::LearningEnd::completed && !control.stopRequested()) {
+        auto finished = finishChecks(file, inputs, ran.report.unchecked, console);
         if (!finished) return finished.failure();
-        report.interrupted = !*finished;
+        ran.interrupted = !*finished;
     }
     if (const auto there = file.checkInPlace(); !there)
-        return toFailure({work::FailureKind::saving, there.error().message}, file);
-    return report;
+        return toFailure({workflow::FailureKind::saving, there.error().message}, file);
+    return ran;
 }
 
 }  // namespace trapwright::app

@@ -1,20 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "app/trapwright/console.h"
 #include "core/store/study_file.h"
-#include "core/study/runner.h"
+#include "core/workflow/learning.h"
 
 namespace trapwright::app {
 
-/// How a learning run went.
-struct LearningReport {
-    study::LearningEnd end = study::LearningEnd::completed;
+/// How a learning run on a terminal went.
+struct LearningRun {
+    workflow::LearningReport report;
     bool interrupted = false;  // by Ctrl-C
-    std::int64_t trials = 0;   // of this run
-    double seconds = 0.0;      // of this run, without the checks after it
 };
 
 /// Learns from the last generation in the file on, saves each in it, prints a line for each and shows the
@@ -22,8 +19,8 @@ struct LearningReport {
 /// begun that would probably end after it. If the engine setting has a reference, winners are checked
 /// meanwhile and, when the last generation is there, those that are left; after an earlier end the next run
 /// does that.
-Attempt<LearningReport> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
-                                    const Console& console, std::optional<double> timeLimit);
+Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
+                                 const Console& console, std::optional<double> timeLimit);
 
 /// The heading of the lines that runLearning prints.
 extern const char* const kLearningHeading;

@@ -59,7 +59,7 @@ std::vector<std::string> collectNames(const Range& range, Projection name) {
 
 std::vector<std::string> studyEngineNames() {
     std::vector<std::string> names = engineNames();
-    names.emplace_back("hybrid");  // stands for two (work::engineFor)
+    names.emplace_back("hybrid");  // stands for two (workflow::engineFor)
     return names;
 }
 

@@ -10,7 +10,7 @@
 #include "app/trapwright/work_failure.h"
 #include "core/base/resources.h"
 #include "core/study/presets.h"
-#include "core/work/part_process.h"
+#include "core/workflow/part_process.h"
 
 namespace trapwright::app {
 
@@ -66,7 +66,7 @@ Attempt<LoadedPart> loadPart(const PartRequest& request, const Console& console)
         stage = text;
     };
     const WorkDisplay display(console, {progress, [&](int /*count*/) { control.cancel(); }});
-    auto loaded = work::importPartApart(request, control, tellStage);
+    auto loaded = workflow::importPartApart(request, control, tellStage);
     if (!loaded) return toFailure(loaded.error().failure);
     return std::move(*loaded);
 }

@@ -4,12 +4,12 @@
 #include "app/trapwright/exit_codes.h"
 #include "app/trapwright/options.h"
 #include "core/part/materials.h"
-#include "core/work/part_source.h"
+#include "core/workflow/part_source.h"
 
 namespace trapwright::app {
 
-using work::LoadedPart;
-using work::PartRequest;
+using workflow::LoadedPart;
+using workflow::PartRequest;
 
 /// Adds --units, --density, --material and --symmetry-tolerance to a command.
 void addPartOptions(Command command, PartRequest& request);

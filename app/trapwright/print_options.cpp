@@ -168,7 +168,7 @@ Attempt<std::vector<track::PrintPiece>> buildPieces(const track::Track& track, c
     return std::move(*pieces);
 }
 
-std::string describeExport(const work::ExportedFile& file) {
+std::string describeExport(const workflow::ExportedFile& file) {
     std::string text = fmt::format(
         "Wrote {}: {}{:.1f} x {:.1f} x {:.1f} mm, {} {}, {:.1f} cm^3, closed and manifold\n",
         file.path.string(), file.solids > 1 ? fmt::format("{} pieces, ", file.solids) : std::string(),

@@ -11,7 +11,7 @@
 #include "core/geometry/print_check.h"
 #include "core/track/print_pieces.h"
 #include "core/track/printer.h"
-#include "core/work/track_export.h"
+#include "core/workflow/track_export.h"
 
 namespace trapwright::app {
 
@@ -56,7 +56,7 @@ Attempt<std::vector<track::PrintPiece>> buildPieces(const track::Track& track, c
                                                     const PrintMeans& means);
 
 /// A sentence about a file for people.
-std::string describeExport(const work::ExportedFile& file);
+std::string describeExport(const workflow::ExportedFile& file);
 
 /// What a printer may fail at, a line each; empty if there is nothing.
 std::string describeFlaws(const geometry::PrintReport& report);

@@ -8,7 +8,7 @@
 #include "app/trapwright/program.h"
 #include "core/base/parallel.h"
 #include "core/study/selection.h"
-#include "core/work/study_design.h"
+#include "core/workflow/study_design.h"
 
 namespace trapwright::app {
 
@@ -43,7 +43,7 @@ Attempt<OpenStudy> openStudy(const std::string& path, Access access) {
 }
 
 Attempt<OpenStudy> loadStudy(store::StudyFile file) {
-    auto design = work::loadDesign(file);
+    auto design = workflow::loadDesign(file);
     if (!design) return Failure{ExitCode::badInput, design.error().message};
     return OpenStudy{std::move(file), std::move(design->settings), std::move(design->part)};
 }
@@ -60,7 +60,7 @@ void addIndividualOptions(Command command, IndividualChoice& choice) {
         .needs(generation);
 }
 
-Attempt<study::Winner> findIndividual(const store::StudyFile& file, const IndividualChoice& choice) {
+Attempt<study::Individual> findIndividual(const store::StudyFile& file, const IndividualChoice& choice) {
     const auto count = file.generationCount();
     if (!count) return Failure{ExitCode::badInput, count.error().message};
     if (*count == 0) {
@@ -87,15 +87,15 @@ Attempt<study::Winner> findIndividual(const store::StudyFile& file, const Indivi
                            fmt::format("--individual {}: generation {} has the individuals 0 to {}.",
                                        individual, generation, size - 1)};
         }
-        return study::Winner{generation, individual,
-                             record->individuals[static_cast<std::size_t>(individual)]};
+        return study::Individual{generation, individual,
+                                 record->individuals[static_cast<std::size_t>(individual)]};
     }
     const auto chosen = file.loadChosenWinner();
     if (!chosen) return Failure{ExitCode::badInput, chosen.error().message};
     if (const auto& place = *chosen) {
         auto record = file.loadIndividual(place->generation, place->individual);
         if (!record) return Failure{ExitCode::badInput, record.error().message};
-        return study::Winner{place->generation, place->individual, std::move(*record)};
+        return study::Individual{place->generation, place->individual, std::move(*record)};
     }
     const auto selections = file.loadSelections();
     if (!selections) return Failure{ExitCode::badInput, selections.error().message};
@@ -103,7 +103,7 @@ Attempt<study::Winner> findIndividual(const store::StudyFile& file, const Indivi
         const study::SelectionEntry& first = selections->back().entries.front();
         auto record = file.loadIndividual(first.generation, first.individual);
         if (!record) return Failure{ExitCode::badInput, record.error().message};
-        return study::Winner{first.generation, first.individual, std::move(*record)};
+        return study::Individual{first.generation, first.individual, std::move(*record)};
     }
     auto winners = file.loadWinners();
     if (!winners) return Failure{ExitCode::badInput, winners.error().message};
@@ -111,9 +111,9 @@ Attempt<study::Winner> findIndividual(const store::StudyFile& file, const Indivi
 }
 
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       work::EngineUse use, unsigned threads) {
-    auto made =
-        makeEngine(work::engineFor(engine.value_or(study.settings.simulation.engine), use), {threads, 0.0});
+                                       workflow::EngineUse use, unsigned threads) {
+    auto made = makeEngine(workflow::engineFor(engine.value_or(study.settings.simulation.engine), use),
+                           {threads, 0.0});
     if (!made) return made.failure();
     return study::StudyInputs{study.settings, study.part, *made,
                               threads == 0 ? base::availableThreads() : threads};

@@ -8,7 +8,7 @@
 #include "app/trapwright/options.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
-#include "core/work/study_engines.h"
+#include "core/workflow/study_engines.h"
 
 namespace trapwright::app {
 
@@ -44,11 +44,11 @@ void addIndividualOptions(Command command, IndividualChoice& choice);
 /// The individual that is meant: the one named; a generation's winner; otherwise the final track that was
 /// chosen in the studio, or the first of the last selection, or without any the best winner
 /// (study::findBestWinner).
-Attempt<study::Winner> findIndividual(const store::StudyFile& file, const IndividualChoice& choice);
+Attempt<study::Individual> findIndividual(const store::StudyFile& file, const IndividualChoice& choice);
 
 /// The engine for this use that the study's setting, or the one named, means; made for these threads (0:
 /// all).
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       work::EngineUse use, unsigned threads);
+                                       workflow::EngineUse use, unsigned threads);
 
 }  // namespace trapwright::app

@@ -2,7 +2,7 @@
 
 #include "app/trapwright/work_display.h"
 #include "app/trapwright/work_failure.h"
-#include "core/work/judging.h"
+#include "core/workflow/judging.h"
 
 namespace trapwright::app {
 
@@ -13,28 +13,28 @@ Failure describeRunFailure(const base::RunControl& control, const base::Error& e
 
 Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                               const Console& console) {
-    auto candidates = work::findCandidates(file, inputs);
+    auto candidates = workflow::findCandidates(file, inputs);
     if (!candidates) return toFailure(candidates.error());
     const auto trials =
         static_cast<std::int64_t>(candidates->size()) * inputs.settings.validation.selectionTrials;
     const base::RunControl control;
     auto record = [&] {
         const WorkDisplay display(console, watchTrials("Selection", trials, control));
-        return work::selectAndSave(file, inputs, std::move(*candidates), control);
+        return workflow::selectAndSave(file, inputs, std::move(*candidates), control);
     }();
     if (!record) return toFailure(record.error(), file);
     return std::move(*record);
 }
 
 Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
-                                                 const study::Winner& individual,
+                                                 const study::Individual& individual,
                                                  const std::optional<base::Quaternion>& expected,
                                                  const Console& console) {
     const base::RunControl control;
     auto record = [&] {
-        const WorkDisplay display(console,
-                                  watchTrials("Validation", work::countValidationTrials(inputs), control));
-        return work::validateAndSave(file, inputs, individual, expected, control);
+        const WorkDisplay display(
+            console, watchTrials("Validation", workflow::countValidationTrials(inputs), control));
+        return workflow::validateAndSave(file, inputs, individual, expected, control);
     }();
     if (!record) return toFailure(record.error(), file);
     return std::move(*record);

@@ -16,7 +16,7 @@ Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const stud
 /// Validation of one individual likewise. `expected`: the orientation that counts as success, if not the
 /// mode.
 Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
-                                                 const study::Winner& individual,
+                                                 const study::Individual& individual,
                                                  const std::optional<base::Quaternion>& expected,
                                                  const Console& console);
 

@@ -133,7 +133,8 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
     evolution.trialsPerEvaluation = options.trials.value_or(evolution.trialsPerEvaluation);
     evolution.seed = options.seed.value_or(evolution.seed);
     settings.simulation.engine = options.engine.value_or(settings.simulation.engine);
-    if (auto engine = findEngine(work::engineFor(settings.simulation.engine, work::EngineUse::learning));
+    if (auto engine =
+            findEngine(workflow::engineFor(settings.simulation.engine, workflow::EngineUse::learning));
         !engine)
         return Failure{engine.failure().code, engine.failure().message + " A study also takes hybrid."};
     return settings;

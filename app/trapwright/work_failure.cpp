@@ -2,27 +2,27 @@
 
 namespace trapwright::app {
 
-Failure toFailure(const work::Failure& failure) {
+Failure toFailure(const workflow::Failure& failure) {
     switch (failure.kind) {
-        case work::FailureKind::settings:
+        case workflow::FailureKind::settings:
             return {ExitCode::usage, failure.message};
-        case work::FailureKind::reading:
+        case workflow::FailureKind::reading:
             return {ExitCode::badInput, failure.message};
-        case work::FailureKind::saving:
+        case workflow::FailureKind::saving:
             return {ExitCode::cannotWrite, failure.message};
-        case work::FailureKind::notSolid:
+        case workflow::FailureKind::notSolid:
             return {ExitCode::no, failure.message};
-        case work::FailureKind::cancelled:
+        case workflow::FailureKind::cancelled:
             return {ExitCode::interrupted, "Interrupted; nothing of it was kept."};
-        case work::FailureKind::simulation:
+        case workflow::FailureKind::simulation:
             break;
     }
     return {ExitCode::fault, failure.message};
 }
 
-Failure toFailure(const work::Failure& failure, const store::StudyFile& file) {
+Failure toFailure(const workflow::Failure& failure, const store::StudyFile& file) {
     Failure told = toFailure(failure);
-    if (failure.kind != work::FailureKind::saving || file.checkInPlace()) return told;
+    if (failure.kind != workflow::FailureKind::saving || file.checkInPlace()) return told;
     const auto rescued = file.rescue();
     told.message += rescued ? " The copy is " + rescued->string() + "."
                             : " It could not be copied: " + rescued.error().message;

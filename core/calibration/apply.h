@@ -6,14 +6,14 @@
 
 #include "core/calibration/measurement.h"
 #include "core/trial/batch.h"
-#include "core/trial/drive.h"
+#include "core/trial/vibration.h"
 
 namespace trapwright::calibration {
 
 /// What a simulation has of what is measured: in study::Settings `simulation.contact` and `simulation.drive`.
 struct Parameters {
     trial::ContactParameters contact;
-    trial::Drive drive;
+    trial::Vibration drive;
 };
 
 /// One parameter that would change.

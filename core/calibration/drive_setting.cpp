@@ -59,7 +59,7 @@ bool DriveComparison::differs() const {
     return (halfStroke && halfStroke->large()) || (frequency && frequency->large());
 }
 
-DriveComparison compareDrive(const DriveSetting& setting, const trial::Drive& simulated) {
+DriveComparison compareDrive(const DriveSetting& setting, const trial::Vibration& simulated) {
     DriveComparison comparison;
     if (setting.halfStroke && simulated.halfStroke > 0.0)
         comparison.halfStroke = Deviation{*setting.halfStroke, simulated.halfStroke};

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/calibration/measurement.h"
-#include "core/trial/drive.h"
+#include "core/trial/vibration.h"
 
 namespace trapwright::calibration {
 
@@ -61,6 +61,6 @@ struct DriveComparison {
     [[nodiscard]] bool differs() const;
 };
 
-DriveComparison compareDrive(const DriveSetting& setting, const trial::Drive& simulated);
+DriveComparison compareDrive(const DriveSetting& setting, const trial::Vibration& simulated);
 
 }  // namespace trapwright::calibration

@@ -281,14 +281,6 @@ bool StudyFile::writable() const {
     return state_->lock != nullptr;
 }
 
-base::Result<StudyOrigin> StudyFile::loadOrigin() const {
-    return guarded(path(), "The study could not be read", [&]() -> base::Result<StudyOrigin> {
-        SQLite::Statement query(*state_->database, "SELECT program, created FROM study");
-        if (!query.executeStep()) return damagedValue(path(), "its origin");
-        return StudyOrigin{query.getColumn(0).getString(), query.getColumn(1).getString()};
-    });
-}
-
 base::Result<study::Settings> StudyFile::loadSettings() const {
     return guarded(path(), "The settings could not be read", [&]() -> base::Result<study::Settings> {
         const std::string json = state_->database->execAndGet("SELECT settings FROM study").getString();

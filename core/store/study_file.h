@@ -28,12 +28,6 @@ struct StoredPart {
     part::PartOptions options;    // name, original file, density, symmetry tolerance
 };
 
-/// Where a study comes from.
-struct StudyOrigin {
-    std::string program;  // that made the file, with its version
-    std::string created;  // UTC, "2026-03-31T12:00:00Z"
-};
-
 /// An individual by its place in the study.
 struct IndividualPlace {
     int generation = 0;
@@ -71,7 +65,6 @@ class StudyFile {
     [[nodiscard]] const std::filesystem::path& path() const;
     [[nodiscard]] bool writable() const;
 
-    [[nodiscard]] base::Result<StudyOrigin> loadOrigin() const;
     [[nodiscard]] base::Result<study::Settings> loadSettings() const;
     [[nodiscard]] base::Result<StoredPart> loadPart() const;
     /// Replaces the settings. Once a generation is saved only the number of generations and what concerns
@@ -99,7 +92,7 @@ class StudyFile {
     /// Winner, curves and time of every generation from `first` on: all that a chart needs.
     [[nodiscard]] base::Result<std::vector<study::GenerationSummary>> loadSummaries(int first = 0) const;
     /// The winner of every generation, in their order.
-    [[nodiscard]] base::Result<std::vector<study::Winner>> loadWinners() const;
+    [[nodiscard]] base::Result<std::vector<study::Individual>> loadWinners() const;
 
     /// Adds the check of a generation's winner, in a transaction of its own. An error if the generation has
     /// one already.
@@ -107,7 +100,7 @@ class StudyFile {
     /// All checks, in the order of their generations.
     [[nodiscard]] base::Result<std::vector<study::CheckRecord>> loadChecks() const;
     /// The winners that were simulated and have no check, in the order of their generations.
-    [[nodiscard]] base::Result<std::vector<study::Winner>> loadUncheckedWinners() const;
+    [[nodiscard]] base::Result<std::vector<study::Individual>> loadUncheckedWinners() const;
 
     base::Status saveSelection(const study::SelectionRecord& record);
     /// All selections, oldest first.

@@ -106,15 +106,15 @@ std::string nameOf(int generation, int individual) {
     return "individual " + std::to_string(individual) + " of generation " + std::to_string(generation);
 }
 
-base::Result<std::vector<study::Winner>> readWinners(SQLite::Database& database,
-                                                     const std::filesystem::path& path,
-                                                     const std::string& condition) {
+base::Result<std::vector<study::Individual>> readWinners(SQLite::Database& database,
+                                                         const std::filesystem::path& path,
+                                                         const std::string& condition) {
     SQLite::Statement query(database, std::string("SELECT generation, individual.number, ") +
                                           kIndividualColumns +
                                           " FROM generation JOIN individual ON individual.generation = "
                                           "generation.number AND individual.number = generation.winner " +
                                           condition + "ORDER BY generation");
-    std::vector<study::Winner> winners;
+    std::vector<study::Individual> winners;
     while (query.executeStep()) {
         const int generation = query.getColumn(0).getInt();
         const int number = query.getColumn(1).getInt();
@@ -232,12 +232,12 @@ base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int
                    });
 }
 
-base::Result<std::vector<study::Winner>> StudyFile::loadWinners() const {
+base::Result<std::vector<study::Individual>> StudyFile::loadWinners() const {
     return guarded(path(), "The winners could not be read",
                    [&] { return readWinners(*state_->database, path(), ""); });
 }
 
-base::Result<std::vector<study::Winner>> StudyFile::loadUncheckedWinners() const {
+base::Result<std::vector<study::Individual>> StudyFile::loadUncheckedWinners() const {
     return guarded(path(), "The winners could not be read", [&] {
         return readWinners(*state_->database, path(),
                            "WHERE individual.trials > 0 AND NOT EXISTS (SELECT 1 FROM winner_check "

@@ -19,7 +19,7 @@ BackgroundChecks::~BackgroundChecks() {
     stop();
 }
 
-void BackgroundChecks::add(Winner winner) {
+void BackgroundChecks::add(Individual winner) {
     {
         const std::lock_guard lock(mutex_);
         waiting_.push_back(std::move(winner));
@@ -32,7 +32,7 @@ std::vector<CheckRecord> BackgroundChecks::takeFinished() {
     return std::exchange(finished_, {});
 }
 
-std::vector<Winner> BackgroundChecks::stop() {
+std::vector<Individual> BackgroundChecks::stop() {
     {
         // Under the lock, or the thread could miss it between its look and its wait.
         const std::lock_guard lock(mutex_);
@@ -40,11 +40,11 @@ std::vector<Winner> BackgroundChecks::stop() {
     }
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
-    std::vector<Winner> left = std::exchange(left_, {});
-    for (Winner& winner : std::exchange(waiting_, {}))
+    std::vector<Individual> left = std::exchange(left_, {});
+    for (Individual& winner : std::exchange(waiting_, {}))
         left.push_back(std::move(winner));
     std::sort(left.begin(), left.end(),
-              [](const Winner& a, const Winner& b) { return a.generation < b.generation; });
+              [](const Individual& a, const Individual& b) { return a.generation < b.generation; });
     return left;
 }
 
@@ -54,7 +54,7 @@ void BackgroundChecks::run() {
     while (true) {
         wake_.wait(lock, [this] { return control_.cancelled() || !waiting_.empty(); });
         if (control_.cancelled()) return;
-        Winner winner = std::move(waiting_.back());
+        Individual winner = std::move(waiting_.back());
         waiting_.pop_back();
         lock.unlock();
         auto record = checkWinner(inputs_, *reference_, winner, control_);

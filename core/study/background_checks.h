@@ -26,12 +26,12 @@ class BackgroundChecks {
     ~BackgroundChecks();
 
     /// Has the winner checked sooner or later; it has trials.
-    void add(Winner winner);
+    void add(Individual winner);
     /// What has been finished since the last call.
     std::vector<CheckRecord> takeFinished();
     /// Ends the thread; a check that is under way is dropped. What is still to be checked, earliest
     /// generation first, a check that failed included.
-    std::vector<Winner> stop();
+    std::vector<Individual> stop();
 
  private:
     void run();
@@ -41,8 +41,8 @@ class BackgroundChecks {
     base::RunControl control_;
     std::mutex mutex_;
     std::condition_variable wake_;
-    std::vector<Winner> waiting_;  // the last comes first
-    std::vector<Winner> left_;     // failed or dropped
+    std::vector<Individual> waiting_;  // the last comes first
+    std::vector<Individual> left_;     // failed or dropped
     std::vector<CheckRecord> finished_;
     std::thread thread_;  // last: it uses all of the above
 };

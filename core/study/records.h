@@ -72,7 +72,7 @@ struct GenerationSummary {
 GenerationSummary summarize(const GenerationRecord& record);
 
 /// The best individual of a generation.
-struct Winner {
+struct Individual {
     int generation = 0;
     int individual = 0;
     IndividualRecord record;

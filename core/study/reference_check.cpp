@@ -27,12 +27,12 @@ EngineScore scoreOf(const StudyInputs& inputs, const trial::Engine& engine, cons
 
 }  // namespace
 
-int countCheckTrials(const Winner& winner) {
+int countCheckTrials(const Individual& winner) {
     return std::min(winner.record.trials, kCheckTrials);
 }
 
 base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::Engine& reference,
-                                      const Winner& winner, const base::RunControl& control) {
+                                      const Individual& winner, const base::RunControl& control) {
     assert(winner.record.trials > 0);
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     auto built = decodeTrack(inputs.settings.track, winner.record.chromosome);

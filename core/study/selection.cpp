@@ -19,15 +19,15 @@ bool isBetter(const SelectionEntry& a, const SelectionEntry& b) {
 
 }  // namespace
 
-std::vector<Winner> rankWinners(std::vector<Winner> winners, int count) {
-    std::stable_sort(winners.begin(), winners.end(), [](const Winner& a, const Winner& b) {
+std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) {
+    std::stable_sort(winners.begin(), winners.end(), [](const Individual& a, const Individual& b) {
         return std::make_tuple(-a.record.fitness.total(), a.generation, a.individual) <
                std::make_tuple(-b.record.fitness.total(), b.generation, b.individual);
     });
-    std::vector<Winner> ranked;
-    for (Winner& winner : winners) {
+    std::vector<Individual> ranked;
+    for (Individual& winner : winners) {
         if (ranked.size() == static_cast<std::size_t>(count)) break;
-        const bool known = std::any_of(ranked.begin(), ranked.end(), [&](const Winner& better) {
+        const bool known = std::any_of(ranked.begin(), ranked.end(), [&](const Individual& better) {
             return better.record.chromosome == winner.record.chromosome;
         });
         if (!known) ranked.push_back(std::move(winner));
@@ -35,27 +35,29 @@ std::vector<Winner> rankWinners(std::vector<Winner> winners, int count) {
     return ranked;
 }
 
-const Winner* findBestWinner(std::span<const Winner> winners) {
-    const auto worth = [](const Winner& winner) {
+const Individual* findBestWinner(std::span<const Individual> winners) {
+    const auto worth = [](const Individual& winner) {
         const auto success = winner.record.success();
         return std::make_pair(success ? success->share() : -1.0, winner.record.fitness.total());
     };
     // The first of the greatest ones.
-    const auto best = std::max_element(winners.begin(), winners.end(),
-                                       [&](const Winner& a, const Winner& b) { return worth(a) < worth(b); });
+    const auto best =
+        std::max_element(winners.begin(), winners.end(),
+                         [&](const Individual& a, const Individual& b) { return worth(a) < worth(b); });
     return best == winners.end() ? nullptr : &*best;
 }
 
-base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
+base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Individual> winners,
                                             base::RunControl control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     if (winners.empty())
         return base::Error{"There are no winners to select from. Learn some generations first."};
     const Settings& settings = inputs.settings;
 
-    const std::vector<Winner> ranked = rankWinners(std::move(winners), settings.validation.selectionWinners);
+    const std::vector<Individual> ranked =
+        rankWinners(std::move(winners), settings.validation.selectionWinners);
     std::vector<trial::TrialBatch> batches;
-    for (const Winner& winner : ranked) {
+    for (const Individual& winner : ranked) {
         auto track = decodeTrack(settings.track, winner.record.chromosome);
         if (!track) return track.error();
         const TrialScene scene =
@@ -93,7 +95,8 @@ stats::Interval TrackSuccess::calcInterval() const {
 
 std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selections,
                                         std::span<const ValidationRecord> validations,
-                                        const Winner& individual, std::span<const part::PoseGroup> groups) {
+                                        const Individual& individual,
+                                        std::span<const part::PoseGroup> groups) {
     using Source = TrackSuccess::Source;
     const auto isMeant = [&](const auto& of) {
         return of.generation == individual.generation && of.individual == individual.individual;

@@ -15,18 +15,18 @@ namespace trapwright::study {
 
 /// The `count` fittest of these winners, best first, no chromosome twice (the highest score of each counts;
 /// among equals the earlier generation is first).
-std::vector<Winner> rankWinners(std::vector<Winner> winners, int count);
+std::vector<Individual> rankWinners(std::vector<Individual> winners, int count);
 
 /// The winner that is best by what was counted while learning: the greatest success, then the highest
 /// fitness, then the earliest generation. A success that is not known is below any. Null if there are no
 /// winners.
-const Winner* findBestWinner(std::span<const Winner> winners);
+const Individual* findBestWinner(std::span<const Individual> winners);
 
 /// Selecting the final solution (paper, section 6.1.1; decisions.md#selection-and-success): the highest of
 /// all generations' winners are re-simulated with many fresh trials each. Best first: by the number of parts
 /// that finish within the tolerance of that track's modal orientation, then by fitness, then the earlier
 /// generation. Errors: settings or part that cannot be used, no winners, engine, cancelled.
-base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Winner> winners,
+base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Individual> winners,
                                             base::RunControl control);
 
 /// What is known of a track's success, the share of parts that finish in the expected orientation.
@@ -48,6 +48,7 @@ struct TrackSuccess {
 /// alike.
 std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selections,
                                         std::span<const ValidationRecord> validations,
-                                        const Winner& individual, std::span<const part::PoseGroup> groups);
+                                        const Individual& individual,
+                                        std::span<const part::PoseGroup> groups);
 
 }  // namespace trapwright::study

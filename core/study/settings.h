@@ -61,7 +61,7 @@ struct EvolutionSettings {
 
 /// What is simulated and how it ends.
 struct SimulationSettings {
-    trial::Drive drive;
+    trial::Vibration drive;
     trial::ContactParameters contact;
     std::string surface{};  // that the contact numbers are of, as the library of materials names it; or empty
     trial::Termination termination;

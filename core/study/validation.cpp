@@ -70,7 +70,7 @@ std::vector<stats::Stratum> strataOf(std::span<const ValidationGroup> groups) {
 
 }  // namespace
 
-base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner& individual,
+base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individual& individual,
                                         const std::optional<base::Quaternion>& expected,
                                         base::RunControl control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();

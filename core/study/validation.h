@@ -17,7 +17,7 @@ namespace trapwright::study {
 /// that start near each of the part's stable poses with a random heading. The expected orientation is the
 /// mode of all final orientations, unless one is given. Errors: settings or part that cannot be used, a part
 /// without stable poses, genes, engine, cancelled.
-base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Winner& individual,
+base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individual& individual,
                                         const std::optional<base::Quaternion>& expected,
                                         base::RunControl control);
 

@@ -30,12 +30,6 @@ struct Encoding {
     [[nodiscard]] std::size_t lengthValues() const { return static_cast<std::size_t>(sections); }
 };
 
-/// The values of genes 1 and 2, all in [0, 1].
-struct EncodedTrap {
-    std::vector<double> points;   // [section][point][y, z], flat
-    std::vector<double> lengths;  // [section]: its distance from the section before
-};
-
 /// An error that names the first parameter that is out of its range.
 base::Status checkEncoding(const Encoding& encoding);
 
@@ -43,8 +37,5 @@ base::Status checkEncoding(const Encoding& encoding);
 /// [0, height]. The values must be as many as the encoding says, in [0, 1].
 std::vector<CrossSection> decodeTrap(const Encoding& encoding, std::span<const double> points,
                                      std::span<const double> lengths);
-
-/// The inverse of decodeTrap. An error that names the section and point that the encoding cannot express.
-base::Result<EncodedTrap> encodeTrap(const Encoding& encoding, std::span<const CrossSection> sections);
 
 }  // namespace trapwright::track

@@ -10,16 +10,10 @@
 #include "core/base/result.h"
 #include "core/part/part.h"
 #include "core/track/track.h"
-#include "core/trial/drive.h"
+#include "core/trial/contact_parameters.h"
+#include "core/trial/vibration.h"
 
 namespace trapwright::trial {
-
-/// The material pair. Values and their sources are in resources/materials.
-struct ContactParameters {
-    double staticFriction = 0.5;
-    double kineticFriction = 0.5;
-    double restitution = 0.2;
-};
 
 /// When a trial ends (paper, section 3.4; decisions.md#endings).
 struct Termination {
@@ -50,7 +44,7 @@ struct TrialSpec {
 struct TrialBatch {
     std::shared_ptr<const track::Track> track;
     std::shared_ptr<const part::Part> part;
-    Drive drive;
+    Vibration drive;
     ContactParameters contact;
     Termination termination;
     double gravity = base::kStandardGravity;  // [m/s^2]

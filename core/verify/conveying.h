@@ -17,7 +17,7 @@ struct ConveyingSpeed {
 /// What is vibrated and simulated, and for how long.
 struct ConveyingScene {
     std::shared_ptr<const part::Part> part;  // laid in its most probable stable pose
-    trial::Drive drive;
+    trial::Vibration drive;
     trial::ContactParameters contact;
     int headings = 4;       // spread evenly over a turn
     double settling = 0.5;  // before speed is measured [s]

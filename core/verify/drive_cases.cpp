@@ -17,7 +17,7 @@ using base::Vec3;
 namespace {
 
 /// The paper's cuboid lying on the level track (8 x 12 mm face down) under a drive.
-trial::TrialBatch makeLying(const trial::Drive& drive, double duration) {
+trial::TrialBatch makeLying(const trial::Vibration& drive, double duration) {
     const Quaternion lying = Quaternion::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ());
     trial::TrialBatch scene = makeStillScene(makeFlat(), makePaperCuboid(),
                                              {lying, Vec3(0.08, 0.0, 17.0 * kMillimetre + 1e-9)}, duration);
@@ -38,7 +38,7 @@ double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene,
 
 /// Whether the lying cuboid ever loses contact within ten periods.
 bool leavesTrack(const trial::Engine& engine, double halfStroke, const base::RunControl& control) {
-    trial::Drive drive;
+    trial::Vibration drive;
     drive.halfStroke = halfStroke;
     trial::TrialBatch scene = makeLying(drive, 0.2);
     scene.contact.restitution = 0.0;
@@ -51,7 +51,7 @@ bool leavesTrack(const trial::Engine& engine, double halfStroke, const base::Run
 /// Length of the first flight under vertical vibration without restitution, from the instant at which the
 /// track's acceleration passes -g (known in closed form) to the landing, found between two samples. [s]
 double measureFlight(const trial::Engine& engine, double throwNumber, const base::RunControl& control) {
-    trial::Drive drive;
+    trial::Vibration drive;
     drive.angle = 90.0 * base::kDegree;
     drive.halfStroke =
         throwNumber * base::kStandardGravity / (drive.angularFrequency() * drive.angularFrequency());
@@ -79,7 +79,7 @@ std::vector<Row> runStickSlip(const EngineFactory& factory, const base::RunContr
     std::vector<Row> rows;
     for (const double halfStroke : {0.25e-3, 0.35e-3, 0.45e-3}) {
         for (const double friction : {0.3, 0.5}) {
-            trial::Drive drive;
+            trial::Vibration drive;
             drive.halfStroke = halfStroke;
             trial::TrialBatch scene = makeLying(drive, 1.01);
             scene.contact = {friction, friction, 0.3};
@@ -102,7 +102,7 @@ std::vector<Row> runHopping(const EngineFactory& factory, const base::RunControl
     constexpr int kPeriods = 50;
     for (const double halfStroke : {0.62e-3, 0.7e-3, 0.8e-3}) {
         for (const double restitution : {0.0, 0.2, 0.4}) {
-            trial::Drive drive;
+            trial::Vibration drive;
             drive.halfStroke = halfStroke;
             trial::TrialBatch scene = makeLying(drive, (2 * kPeriods + 1) * drive.period());
             scene.contact = {0.5, 0.5, restitution};
@@ -132,7 +132,7 @@ std::vector<Row> runPlasticHop(const EngineFactory& factory, const base::RunCont
     const double expected = std::sqrt(1.0 + base::kPi * base::kPi);
     double low = 0.95 * expected;
     double high = 1.05 * expected;
-    const double period = trial::Drive{}.period();
+    const double period = trial::Vibration{}.period();
     for (int i = 0; i < 8; ++i) {
         const double middle = 0.5 * (low + high);
         (measureFlight(*engine, middle, control) < period ? low : high) = middle;
@@ -147,7 +147,7 @@ std::vector<Row> runStepHalved(const EngineFactory& factory, const base::RunCont
     std::vector<Row> rows;
     const double step = factory({})->defaultStep();
     for (const double halfStroke : {0.4e-3, 0.62e-3, 0.7e-3, 0.8e-3, 0.9e-3}) {
-        trial::Drive drive;
+        trial::Vibration drive;
         drive.halfStroke = halfStroke;
         const trial::TrialBatch scene = makeLying(drive, 1.31);
         const double whole = measureSpeed(*factory({0, step}), scene, 25, 65, control);

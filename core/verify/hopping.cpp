@@ -10,7 +10,7 @@ namespace {
 /// A point on or above the plane; steps from event to event.
 class HoppingPoint {
  public:
-    HoppingPoint(const trial::Drive& drive, double friction, double restitution, double gravity)
+    HoppingPoint(const trial::Vibration& drive, double friction, double restitution, double gravity)
         : w_(drive.angularFrequency()),
           along_(drive.halfStroke * std::cos(drive.angle)),
           up_(drive.halfStroke * std::sin(drive.angle)),
@@ -110,7 +110,7 @@ class HoppingPoint {
 
 }  // namespace
 
-double calcHoppingSpeed(const trial::Drive& drive, double friction, double restitution, double gravity,
+double calcHoppingSpeed(const trial::Vibration& drive, double friction, double restitution, double gravity,
                         int periods) {
     HoppingPoint point(drive, friction, restitution, gravity);
     point.advanceTo(periods * drive.period());

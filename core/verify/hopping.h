@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trial/drive.h"
+#include "core/trial/vibration.h"
 
 namespace trapwright::verify {
 
@@ -9,7 +9,7 @@ namespace trapwright::verify {
 /// and flight in closed form, events by bisection; friction impulse at an impact at most friction times the
 /// normal impulse. Restitution falls linearly from the given value at 12 mm/s to 0 at 3 mm/s, as the contact
 /// law's does. Shares no code with the engines. [m/s]
-double calcHoppingSpeed(const trial::Drive& drive, double friction, double restitution, double gravity,
+double calcHoppingSpeed(const trial::Vibration& drive, double friction, double restitution, double gravity,
                         int periods);
 
 }  // namespace trapwright::verify

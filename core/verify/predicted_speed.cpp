@@ -5,7 +5,7 @@
 
 namespace trapwright::verify {
 
-ConveyingPrediction predictConveying(const trial::Drive& drive, const trial::ContactParameters& contact,
+ConveyingPrediction predictConveying(const trial::Vibration& drive, const trial::ContactParameters& contact,
                                      double gravity) {
     // Hops need not repeat every period; over this many their mean has settled to a per cent.
     constexpr int kPeriods = 100;

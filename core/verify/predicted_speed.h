@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/trial/batch.h"
-#include "core/trial/drive.h"
+#include "core/trial/vibration.h"
 
 namespace trapwright::verify {
 
@@ -22,7 +22,7 @@ struct ConveyingPrediction {
 /// stick_slip.h and hopping.h for a point, whichever the throw number calls for. Below lift-off restitution
 /// plays no part. Some ten milliseconds of work. The drive and the parameters must be in their ranges
 /// (study::findProblems).
-ConveyingPrediction predictConveying(const trial::Drive& drive, const trial::ContactParameters& contact,
+ConveyingPrediction predictConveying(const trial::Vibration& drive, const trial::ContactParameters& contact,
                                      double gravity);
 
 }  // namespace trapwright::verify

@@ -10,7 +10,7 @@ constexpr int kRows = 32;
 constexpr double kLongestThrow = 3.3;
 
 /// The half-stroke of a row, from 1.
-double halfStrokeOf(int row, trial::Drive drive, double gravity) {
+double halfStrokeOf(int row, trial::Vibration drive, double gravity) {
     drive.halfStroke = 1.0;
     return kLongestThrow / trial::calcThrowNumber(drive, gravity) * row / kRows;
 }

@@ -9,7 +9,7 @@ namespace {
 /// The plane's motion (displacement amplitude times sine) and the point's friction limit.
 class Plane {
  public:
-    Plane(const trial::Drive& drive, double friction, double gravity)
+    Plane(const trial::Vibration& drive, double friction, double gravity)
         : w_(drive.angularFrequency()),
           x_(drive.halfStroke * std::cos(drive.angle)),
           z_(drive.halfStroke * std::sin(drive.angle)),
@@ -46,7 +46,7 @@ double bisect(const F& positiveBefore, double low, double high) {
 
 }  // namespace
 
-double calcStickSlipSpeed(const trial::Drive& drive, double friction, double gravity) {
+double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double gravity) {
     const Plane plane(drive, friction, gravity);
     const double period = drive.period();
     const double scan = period / 2000.0;

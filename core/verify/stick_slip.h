@@ -1,12 +1,12 @@
 #pragma once
 
-#include "core/trial/drive.h"
+#include "core/trial/vibration.h"
 
 namespace trapwright::verify {
 
 /// Mean conveying speed of a point on a level, vibrating plane under Coulomb friction, for throw numbers
 /// below 1, once the motion is periodic. Event-driven: velocities in closed form between events (stick,
 /// slip), events by bisection. Shares no code with the engines. [m/s]
-double calcStickSlipSpeed(const trial::Drive& drive, double friction, double gravity);
+double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double gravity);
 
 }  // namespace trapwright::verify

@@ -56,7 +56,7 @@ struct Detector::Query {
     Mat3 toTrack;   // rotation part -> track
     Vec3 position;  // of the part's origin in the track frame
     double margin;
-    std::vector<ContactPoint>* contacts;
+    std::vector<Contact>* contacts;
 
     [[nodiscard]] Vec3 pointToPart(const Vec3& p) const { return toTrack.transpose() * (p - position); }
     [[nodiscard]] Vec3 pointToTrack(const Vec3& p) const { return toTrack * p + position; }
@@ -64,7 +64,7 @@ struct Detector::Query {
 };
 
 void Detector::findContacts(const base::Pose& partInTrack, double moved, double margin,
-                            std::vector<ContactPoint>& contacts) {
+                            std::vector<Contact>& contacts) {
     contacts.clear();
     travel_ += moved;
     if (travel_ + margin < nextLook_) return;

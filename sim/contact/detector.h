@@ -11,7 +11,7 @@
 namespace trapwright::contact {
 
 /// A place where part and track touch or are about to.
-struct ContactPoint {
+struct Contact {
     base::Vec3 point;       // track frame [m]
     base::Vec3 normal;      // unit, out of the track into the part
     double gap;             // along the normal; negative: overlap [m]
@@ -28,7 +28,7 @@ class Detector {
     /// All pairs with a gap below `margin`. `moved` bounds how far any point of the part has moved relative
     /// to the track since the last call. [m]
     void findContacts(const base::Pose& partInTrack, double moved, double margin,
-                      std::vector<ContactPoint>& contacts);
+                      std::vector<Contact>& contacts);
 
  private:
     enum class Kind : std::uint8_t { vertexOnTriangle, edgeAcrossEdge, faceOnVertex };

@@ -16,7 +16,7 @@ base::Pose TrackPlacement::toTrack(const base::Pose& pose) const {
             toTrack(pose.position)};
 }
 
-DriveMotion::DriveMotion(const trial::Drive& drive, const track::FeederShape& shape, double phase)
+DriveMotion::DriveMotion(const trial::Vibration& drive, const track::FeederShape& shape, double phase)
     : angularFrequency_(drive.angularFrequency()),
       phase_(phase),
       along_(drive.halfStroke * std::cos(drive.angle)),

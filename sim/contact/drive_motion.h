@@ -2,7 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/track/feeder_shape.h"
-#include "core/trial/drive.h"
+#include "core/trial/vibration.h"
 
 namespace trapwright::contact {
 
@@ -31,7 +31,7 @@ struct TrackPlacement {
 class DriveMotion {
  public:
     /// phase [rad] at time 0.
-    DriveMotion(const trial::Drive& drive, const track::FeederShape& shape, double phase);
+    DriveMotion(const trial::Vibration& drive, const track::FeederShape& shape, double phase);
 
     [[nodiscard]] TrackPlacement placement(double time) const;
     /// What the sine is multiplied by: a translation [m], and a rotation about the room's z axis [rad].

@@ -46,19 +46,21 @@ class Scaling {
 }  // namespace
 
 StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
-                                const std::vector<StepContact>& contacts, const SurfaceLaw& law, double dt) {
+                                const std::vector<MovingContact>& contacts,
+                                const trial::ContactParameters& law, double dt) {
     const Scaling scaling(inertia);
     const scalar::Law pair{law.staticFriction, law.kineticFriction, law.restitution};
     const scalar::Motion scaledBefore = scaling.scale(before);
     const scalar::Motion scaledFree = scaling.scale(free);
     const scalar::Matrix turns = scaling.turns();
     points_.clear();
-    for (const StepContact& contact : contacts)
+    for (const MovingContact& contact : contacts)
         points_.push_back({contact.arm, contact.normal, contact.gap});
-    const int count = thinOut(points_, kept_);
+    const int count = reduceManifold(points_, kept_);
     rows_.resize(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
-        scalar::prepareRow(rows_[i], describe(contacts[kept_[i]]), turns, scaledBefore, scaledFree, pair, dt);
+        scalar::prepareConstraint(rows_[i], describe(contacts[kept_[i]]), turns, scaledBefore, scaledFree,
+                                  pair, dt);
 
     const scalar::Motion after = scalar::solve(rows_.data(), count, scaledFree);
     StepResult result;
@@ -67,7 +69,7 @@ StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& be
 
     remembered_.clear();
     for (int i = 0; i < count; ++i) {
-        const scalar::Row& row = rows_[i];
+        const scalar::ContactConstraint& row = rows_[i];
         result.carrying += row.normal > 0.0 ? 1 : 0;
         // The impulse of an impact says nothing about the next step's.
         const bool impact = row.target > 0.0;
@@ -80,7 +82,7 @@ StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& be
 std::vector<ContactImpulse> ImpulseSolver::impulses(double mass) const {
     std::vector<ContactImpulse> result;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const scalar::Row& row = rows_[i];
+        const scalar::ContactConstraint& row = rows_[i];
         if (row.normal <= 0.0) continue;
         const Vec3 perMass = row.normal * fromTriple(row.axis[0]) +
                              row.tangential.x * fromTriple(row.axis[1]) +
@@ -90,16 +92,16 @@ std::vector<ContactImpulse> ImpulseSolver::impulses(double mass) const {
     return result;
 }
 
-scalar::Touch ImpulseSolver::describe(const StepContact& contact) const {
-    scalar::Touch touch{toTriple(contact.arm),
-                        toTriple(contact.normal),
-                        contact.gap,
-                        toTriple(contact.trackVelocity),
-                        toTriple(contact.trackVelocityBefore),
-                        false,
-                        0.0,
-                        {0.0, 0.0},
-                        false};
+scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact) const {
+    scalar::MovingContact touch{toTriple(contact.arm),
+                                toTriple(contact.normal),
+                                contact.gap,
+                                toTriple(contact.trackVelocity),
+                                toTriple(contact.trackVelocityBefore),
+                                false,
+                                0.0,
+                                {0.0, 0.0},
+                                false};
     for (const Remembered& old : remembered_) {
         if (old.feature != contact.feature) continue;
         touch.known = true;

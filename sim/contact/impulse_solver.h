@@ -26,7 +26,7 @@ struct BodyInertia {
 };
 
 /// A contact of one step, in room axes.
-struct StepContact {
+struct MovingContact {
     base::Vec3 arm;                  // from the centre of mass to the point [m]
     base::Vec3 normal;               // unit, track -> part
     double gap;                      // at the step's begin [m]
@@ -58,7 +58,8 @@ class ImpulseSolver {
     /// step. dt [s]. Contacts that say the same are taken as one, more than
     /// kMaxContacts are thinned out.
     StepResult solve(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
-                     const std::vector<StepContact>& contacts, const SurfaceLaw& law, double dt);
+                     const std::vector<MovingContact>& contacts, const trial::ContactParameters& law,
+                     double dt);
 
     /// The impulse that each contact of the last solve gave a part of this mass [kg]; for contacts that stand
     /// for others, theirs too.
@@ -78,9 +79,9 @@ class ImpulseSolver {
         bool sliding;
     };
 
-    [[nodiscard]] scalar::Touch describe(const StepContact& contact) const;
+    [[nodiscard]] scalar::MovingContact describe(const MovingContact& contact) const;
 
-    std::vector<scalar::Row> rows_;
+    std::vector<scalar::ContactConstraint> rows_;
     std::array<int, kMaxContacts> kept_{};  // which contact each row is of
     std::vector<ManifoldPoint> points_;
     std::vector<Remembered> remembered_;

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/trial/contact_parameters.h"
+
 /// The contact law's continuous form, and what both forms are told. The discrete form is in formulas/.
 /// Derivations and sources: README.md of this folder.
 namespace trapwright::contact {
-
-/// The material pair of one trial.
-struct SurfaceLaw {
-    double staticFriction = 0.5;
-    double kineticFriction = 0.5;
-    double restitution = 0.3;
-};
 
 // The continuous form.
 
@@ -45,7 +40,7 @@ inline double calcNormalForce(double depth, double rate, double approach, double
 
 /// Friction force over normal force and slip speed `slip` [s/m]: Coulomb's law, linear below kSlipScale;
 /// static friction up to ten times that, kinetic from there on.
-inline double calcFrictionRatio(double slip, const SurfaceLaw& law) {
+inline double calcFrictionRatio(double slip, const trial::ContactParameters& law) {
     const double kinetic = std::clamp((slip / kSlipScale - 1.0) / 9.0, 0.0, 1.0);
     const double friction = law.staticFriction + (law.kineticFriction - law.staticFriction) * kinetic;
     return friction / std::max(slip, kSlipScale);

@@ -94,7 +94,7 @@ Indices thinOutPlanes(std::span<const ManifoldPoint> points, const Indices& all,
 
 }  // namespace
 
-int thinOut(std::span<const ManifoldPoint> points, std::span<int> kept) {
+int reduceManifold(std::span<const ManifoldPoint> points, std::span<int> kept) {
     const int most = static_cast<int>(kept.size());
     const int distinct = findDistinct(points, kept);
     if (distinct <= most) return distinct;

@@ -14,7 +14,7 @@ constexpr double kMargin = 5e-6;
 }  // namespace
 
 PartContact::PartContact(const ContactTrack& track, const ContactBody& body, const DriveMotion& drive,
-                         const SurfaceLaw& law, double dt)
+                         const trial::ContactParameters& law, double dt)
     : body_(&body), drive_(drive), law_(law), dt_(dt), detector_(track, body) {
     before_ = drive_.placement(-dt_);
     now_ = drive_.placement(0.0);
@@ -39,7 +39,7 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
         if (!solver_.released()) solver_.release();
     } else {
         stepContacts_.clear();
-        for (const ContactPoint& point : points_) {
+        for (const Contact& point : points_) {
             const Vec3 here = now_.toRoom(point.point);
             stepContacts_.push_back({here - pose.position, now_.turn(point.normal), point.gap,
                                      (next_.toRoom(point.point) - here) / dt_,

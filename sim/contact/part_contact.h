@@ -15,7 +15,7 @@ namespace trapwright::contact {
 class PartContact {
  public:
     PartContact(const ContactTrack& track, const ContactBody& body, const DriveMotion& drive,
-                const SurfaceLaw& law, double dt);
+                const trial::ContactParameters& law, double dt);
 
     /// Advances the track from step `step` (time step * dt) to the next. pose: part frame to room at the
     /// step's begin; inverseInertia: the part's, in part axes [1/(kg m^2)]; before, free: see ImpulseSolver.
@@ -28,20 +28,20 @@ class PartContact {
     /// What the contacts of the last step did to a part of this mass [kg], mean over the step.
     [[nodiscard]] std::vector<trial::ContactForce> forces(double mass) const;
     /// Contacts of the last step.
-    [[nodiscard]] const std::vector<ContactPoint>& contacts() const { return points_; }
+    [[nodiscard]] const std::vector<Contact>& contacts() const { return points_; }
 
  private:
     const ContactBody* body_;
     DriveMotion drive_;
-    SurfaceLaw law_;
+    trial::ContactParameters law_;
     double dt_;
     Detector detector_;
     ImpulseSolver solver_;
     TrackPlacement before_, now_, next_;
     double lastReach_ =
         0.0;  // how far any point of the part may have moved relative to the track in the last step [m]
-    std::vector<ContactPoint> points_;
-    std::vector<StepContact> stepContacts_;
+    std::vector<Contact> points_;
+    std::vector<MovingContact> stepContacts_;
 };
 
 }  // namespace trapwright::contact

@@ -17,8 +17,8 @@ inline Real boundOf(const Candidates& candidates, int first, const Standing& sta
            load(candidates.blind.data() + first) * standing.path;
 }
 
-inline Bound testFeature(const Herd& herd, const Placed& placed, std::uint32_t name) {
-    const PackedPiece& piece = herd.model().body->pieces[(name >> kPieceShift) & 0x3FFU];
+inline Bound testFeature(const TrialLanes& group, const Placed& placed, std::uint32_t name) {
+    const PackedPiece& piece = group.model().body->pieces[(name >> kPieceShift) & 0x3FFU];
     const int index = static_cast<int>(name & 0xFFFFFU);
     switch (name >> kKindShift) {
         case kVertexOnTriangle:
@@ -30,12 +30,12 @@ inline Bound testFeature(const Herd& herd, const Placed& placed, std::uint32_t n
     }
 }
 
-inline void setBound(const Herd& herd, int lane, Candidates& candidates, int c, const Bound& bound) {
-    const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
+inline void setBound(const TrialLanes& group, int lane, Candidates& candidates, int c, const Bound& bound) {
+    const float way[3] = {group.field(kWayX)[lane], group.field(kWayY)[lane], group.field(kWayZ)[lane]};
     const float blind = bound.blind ? 1.0F : 0.0F;
     const auto place = static_cast<std::size_t>(c);
-    candidates.start[place] = bound.distance - dotThree(bound.direction, way) + herd.field(kTurned)[lane] +
-                              blind * herd.field(kPath)[lane];
+    candidates.start[place] = bound.distance - dotThree(bound.direction, way) + group.field(kTurned)[lane] +
+                              blind * group.field(kPath)[lane];
     candidates.normalX[place] = bound.direction[0];
     candidates.normalY[place] = bound.direction[1];
     candidates.normalZ[place] = bound.direction[2];
@@ -43,9 +43,9 @@ inline void setBound(const Herd& herd, int lane, Candidates& candidates, int c, 
 }
 
 /// Adds the features among `balls` that are near one piece: first by their balls, then by their own bounds.
-inline void addNear(Herd& herd, int lane, const Placed& placed, const BallArrays& balls, const float* centre,
-                    float near, std::uint32_t name) {
-    Candidates& candidates = herd.candidates[lane];
+inline void addNear(TrialLanes& group, int lane, const Placed& placed, const BallArrays& balls,
+                    const float* centre, float near, std::uint32_t name) {
+    Candidates& candidates = group.candidates[lane];
     const int width = static_cast<int>(hn::Lanes(Tag()));
     for (int first = 0; first < balls.count; first += width) {
         const Triple away =
@@ -56,7 +56,7 @@ inline void addNear(Herd& herd, int lane, const Placed& placed, const BallArrays
         for (; bits != 0; bits &= bits - 1) {
             const auto i = static_cast<std::uint32_t>(first) +
                            static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-            const Bound bound = testFeature(herd, placed, name | i);
+            const Bound bound = testFeature(group, placed, name | i);
             if (bound.distance >= placed.margin) continue;
             candidates.names.push_back(name | i);
             const auto padded =
@@ -65,23 +65,23 @@ inline void addNear(Herd& herd, int lane, const Placed& placed, const BallArrays
             for (AlignedVector<float>* array :
                  {&candidates.normalX, &candidates.normalY, &candidates.normalZ, &candidates.blind})
                 array->resize(padded, 0.0F);
-            setBound(herd, lane, candidates, static_cast<int>(candidates.names.size()) - 1, bound);
+            setBound(group, lane, candidates, static_cast<int>(candidates.names.size()) - 1, bound);
         }
     }
 }
 
 /// The features within kSkin of the part.
-inline void collectCandidates(Herd& herd, int lane) {
-    Candidates& candidates = herd.candidates[lane];
+inline void collectCandidates(TrialLanes& group, int lane) {
+    Candidates& candidates = group.candidates[lane];
     candidates.names.clear();
     candidates.start.clear();
     // Counting anew from here keeps the numbers small and so exact.
     for (const int f : {kWayX, kWayY, kWayZ, kPath, kTurned})
-        herd.field(f)[lane] = 0.0F;
-    Placed placed = place(herd, lane);
+        group.field(f)[lane] = 0.0F;
+    Placed placed = place(group, lane);
     candidates.collectAt = kSkin + placed.margin;
     placed.margin = candidates.collectAt;
-    const std::vector<PackedPiece>& pieces = herd.model().body->pieces;
+    const std::vector<PackedPiece>& pieces = group.model().body->pieces;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         float centre[3];
         toTrack(placed, pieces[p].centre, centre);
@@ -89,33 +89,33 @@ inline void collectCandidates(Herd& herd, int lane) {
             centre[k] = static_cast<float>(placed.position[k] + centre[k]);
         const float near = pieces[p].radius + placed.margin;
         const std::uint32_t piece = static_cast<std::uint32_t>(p) << kPieceShift;
-        addNear(herd, lane, placed, placed.track->triangleBalls, centre, near,
+        addNear(group, lane, placed, placed.track->triangleBalls, centre, near,
                 (kVertexOnTriangle << kKindShift) | piece);
-        addNear(herd, lane, placed, placed.track->edgeBalls, centre, near,
+        addNear(group, lane, placed, placed.track->edgeBalls, centre, near,
                 (kEdgeAcrossEdge << kKindShift) | piece);
-        addNear(herd, lane, placed, placed.track->vertexBalls, centre, near,
+        addNear(group, lane, placed, placed.track->vertexBalls, centre, near,
                 (kFaceOnVertex << kKindShift) | piece);
     }
     candidates.count = static_cast<int>(candidates.names.size());
-    herd.found.clear();  // what lies within the skin is not within the margin
+    group.found.clear();  // what lies within the skin is not within the margin
 }
 
-/// Fills herd.found with the contacts of one lane, if any can carry in the coming step.
-inline void findContacts(Herd& herd, int lane) {
-    Candidates& candidates = herd.candidates[lane];
-    const float stepReach = herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane];
+/// Fills group.found with the contacts of one lane, if any can carry in the coming step.
+inline void findContacts(TrialLanes& group, int lane) {
+    Candidates& candidates = group.candidates[lane];
+    const float stepReach = group.field(kStepPath)[lane] + group.field(kStepTurned)[lane];
     const float margin = 1.1F * stepReach + kMargin;
-    if (herd.field(kPath)[lane] + herd.field(kTurned)[lane] + margin >= candidates.collectAt)
-        collectCandidates(herd, lane);
+    if (group.field(kPath)[lane] + group.field(kTurned)[lane] + margin >= candidates.collectAt)
+        collectCandidates(group, lane);
 
-    const float way[3] = {herd.field(kWayX)[lane], herd.field(kWayY)[lane], herd.field(kWayZ)[lane]};
-    const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
-    const float path = herd.field(kPath)[lane];
-    const float turned = herd.field(kTurned)[lane];
+    const float way[3] = {group.field(kWayX)[lane], group.field(kWayY)[lane], group.field(kWayZ)[lane]};
+    const float step[3] = {group.field(kStepX)[lane], group.field(kStepY)[lane], group.field(kStepZ)[lane]};
+    const float path = group.field(kPath)[lane];
+    const float turned = group.field(kTurned)[lane];
     const Standing now = {broadcast(way), path, turned};
     const Standing next = {{way[0] + step[0], way[1] + step[1], way[2] + step[2]},
-                           path + herd.field(kStepPath)[lane],
-                           turned + herd.field(kStepTurned)[lane]};
+                           path + group.field(kStepPath)[lane],
+                           turned + group.field(kStepTurned)[lane]};
     const int width = static_cast<int>(hn::Lanes(Tag()));
     Real leastNext = kNever;
     for (int first = 0; first < candidates.count; first += width)
@@ -124,12 +124,12 @@ inline void findContacts(Herd& herd, int lane) {
         Real least = kNever;
         for (int first = 0; first < candidates.count; first += width)
             least = min(least, boundOf(candidates, first, now));
-        herd.field(kNextLook)[lane] = std::min(path + turned + leastOf(least), candidates.collectAt);
+        group.field(kNextLook)[lane] = std::min(path + turned + leastOf(least), candidates.collectAt);
         return;
     }
 
-    herd.field(kNextLook)[lane] = path + turned;
-    const Placed placed = place(herd, lane);
+    group.field(kNextLook)[lane] = path + turned;
+    const Placed placed = place(group, lane);
     // An impulse at one contact may turn the part toward another: what comes within half of the step's reach
     // counts.
     const Real near = 0.5F * stepReach + kMargin;
@@ -137,36 +137,36 @@ inline void findContacts(Herd& herd, int lane) {
         std::uint32_t bits = bitsOf(boundOf(candidates, first, next) < near);
         for (; bits != 0; bits &= bits - 1) {
             const int c = first + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-            setBound(herd, lane, candidates, c,
-                     testFeature(herd, placed, candidates.names[static_cast<std::size_t>(c)]));
+            setBound(group, lane, candidates, c,
+                     testFeature(group, placed, candidates.names[static_cast<std::size_t>(c)]));
         }
     }
 }
 
 /// Leaves the contacts that can matter, as findContacts does with features, and tells whether any would
 /// overlap more at the step's end if nothing held it: otherwise no impulse acts.
-inline bool anyCarries(Herd& herd, int lane) {
-    const float dt = herd.model().dt;
-    const float step[3] = {herd.field(kStepX)[lane], herd.field(kStepY)[lane], herd.field(kStepZ)[lane]};
-    float spin[3] = {herd.field(kAfterSpinX)[lane], herd.field(kAfterSpinY)[lane],
-                     herd.field(kAfterSpinZ)[lane]};
-    if (herd.model().anyBowl) {
+inline bool anyCarries(TrialLanes& group, int lane) {
+    const float dt = group.model().dt;
+    const float step[3] = {group.field(kStepX)[lane], group.field(kStepY)[lane], group.field(kStepZ)[lane]};
+    float spin[3] = {group.field(kAfterSpinX)[lane], group.field(kAfterSpinY)[lane],
+                     group.field(kAfterSpinZ)[lane]};
+    if (group.model().anyBowl) {
         // Relative to the track, in its axes.
-        const float sine = herd.field(kSine)[lane];
-        const float less = herd.field(kCosineLess)[lane];
+        const float sine = group.field(kSine)[lane];
+        const float less = group.field(kCosineLess)[lane];
         const float x = spin[0];
         const float y = spin[1];
         spin[0] += less * x + sine * y;
         spin[1] += less * y - sine * x;
-        spin[2] -= herd.field(kSineRate)[lane];
+        spin[2] -= group.field(kSineRate)[lane];
     }
-    const float near = 0.5F * (herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane]) + kMargin;
+    const float near = 0.5F * (group.field(kStepPath)[lane] + group.field(kStepTurned)[lane]) + kMargin;
     bool carries = false;
-    FoundContacts& found = herd.found;
+    ContactList& found = group.found;
     const std::size_t count = found.size();
     found.clear();
     for (std::size_t i = 0; i < count; ++i) {
-        const FoundContact contact = found[i];
+        const Contact contact = found[i];
         const float* r = contact.arm;
         const float moved[3] = {step[0] + dt * (spin[1] * r[2] - spin[2] * r[1]),
                                 step[1] + dt * (spin[2] * r[0] - spin[0] * r[2]),

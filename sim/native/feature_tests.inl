@@ -21,26 +21,26 @@ struct Placed {
     alignas(16) float axes[3][4];  // rows of the rotation part -> track
     double position[3];            // [m]
     float margin;
-    FoundContacts* found;
+    ContactList* found;
 };
 
-inline Placed place(Herd& herd, int lane) {
+inline Placed place(TrialLanes& group, int lane) {
     Placed placed;
-    placed.track = herd.track[lane];
-    placed.margin = 1.1F * (herd.field(kStepPath)[lane] + herd.field(kStepTurned)[lane]) + kMargin;
-    placed.found = &herd.found;
+    placed.track = group.track[lane];
+    placed.margin = 1.1F * (group.field(kStepPath)[lane] + group.field(kStepTurned)[lane]) + kMargin;
+    placed.found = &group.found;
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k)
-            placed.axes[i][k] = herd.field(kAxes + 3 * i + k)[lane];
+            placed.axes[i][k] = group.field(kAxes + 3 * i + k)[lane];
         placed.axes[i][3] = 0.0F;
-        placed.position[i] = herd.position(i)[lane];
+        placed.position[i] = group.position(i)[lane];
     }
-    placed.position[0] -= herd.field(kShiftX)[lane];
-    placed.position[2] -= herd.field(kShiftZ)[lane];
-    if (herd.model().anyBowl) {
+    placed.position[0] -= group.field(kShiftX)[lane];
+    placed.position[2] -= group.field(kShiftZ)[lane];
+    if (group.model().anyBowl) {
         // Back by the track's rotation.
-        const float sine = herd.field(kSine)[lane];
-        const float less = herd.field(kCosineLess)[lane];
+        const float sine = group.field(kSine)[lane];
+        const float less = group.field(kCosineLess)[lane];
         const double x = placed.position[0];
         const double y = placed.position[1];
         placed.position[0] += less * x + sine * y;
@@ -83,7 +83,7 @@ inline Triple loadThree(const FloatRows& rows, int row, int column) {
 /// Adds a contact if it `counts`: written in any case, for a processor cannot guess which do.
 inline void addContact(const Placed& placed, const float* pointInPart, const float* normalInTrack, float gap,
                        std::uint64_t name, bool counts) {
-    FoundContact& contact = placed.found->next();
+    Contact& contact = placed.found->next();
     toTrack(placed, pointInPart, contact.arm);
     for (int k = 0; k < 3; ++k)
         contact.normal[k] = normalInTrack[k];

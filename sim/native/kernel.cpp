@@ -29,47 +29,47 @@ namespace trapwright::native::HWY_NAMESPACE {
 #include "sim/native/solving.inl"
 // clang-format on
 
-void endLap(Herd& herd, double trial::Costs::*what) {
-    if (herd.laps != nullptr) herd.laps->end(what);
+void endLap(TrialLanes& group, double trial::Costs::*what) {
+    if (group.laps != nullptr) group.laps->end(what);
 }
 
-void beginStepOf(Herd& herd) {
+void beginStepOf(TrialLanes& group) {
     const int width = static_cast<int>(hn::Lanes(Tag()));
-    herd.looking.clear();
-    for (int lane = 0; lane < herd.count(); lane += width) {
-        moveFreely(herd, lane);
-        moveTrack(herd, lane);
-        lookAhead(herd, lane);
+    group.looking.clear();
+    for (int lane = 0; lane < group.count(); lane += width) {
+        moveFreely(group, lane);
+        moveTrack(group, lane);
+        lookAhead(group, lane);
     }
 }
 
-void finishStepOf(Herd& herd) {
-    endLap(herd, &trial::Costs::integration);
+void finishStepOf(TrialLanes& group) {
+    endLap(group, &trial::Costs::integration);
     std::size_t next = 0;
-    for (int lane = 0; lane < herd.count(); ++lane) {
-        herd.found.clear();
-        if (next < herd.looking.size() && herd.looking[next] == lane) {
+    for (int lane = 0; lane < group.count(); ++lane) {
+        group.found.clear();
+        if (next < group.looking.size() && group.looking[next] == lane) {
             ++next;
-            findContacts(herd, lane);
+            findContacts(group, lane);
         }
-        if (herd.found.empty() || !anyCarries(herd, lane)) {
-            rememberIdle(herd, lane);
+        if (group.found.empty() || !anyCarries(group, lane)) {
+            rememberIdle(group, lane);
             continue;
         }
-        if (herd.found.size() > kFew) thinOutFound(herd.found);
-        endLap(herd, &trial::Costs::detection);
-        enqueue(herd, lane);
-        endLap(herd, &trial::Costs::law);
+        if (group.found.size() > kFew) reduceContacts(group.found);
+        endLap(group, &trial::Costs::detection);
+        enqueue(group, lane);
+        endLap(group, &trial::Costs::law);
     }
-    endLap(herd, &trial::Costs::detection);
-    for (SolveBatch& batch : herd.solveBatches) {
-        if (batch.filled > 0) solveBatch(herd, batch);
+    endLap(group, &trial::Costs::detection);
+    for (SolveBatch& batch : group.solveBatches) {
+        if (batch.filled > 0) solveBatch(group, batch);
     }
-    endLap(herd, &trial::Costs::law);
+    endLap(group, &trial::Costs::law);
     const int width = static_cast<int>(hn::Lanes(Tag()));
-    for (int lane = 0; lane < herd.count(); lane += width)
-        movePose(herd, lane);
-    movePositions(herd);
+    for (int lane = 0; lane < group.count(); lane += width)
+        movePose(group, lane);
+    movePositions(group);
 }
 
 }  // namespace trapwright::native::HWY_NAMESPACE
@@ -81,12 +81,12 @@ namespace trapwright::native {
 HWY_EXPORT(beginStepOf);
 HWY_EXPORT(finishStepOf);
 
-void beginStep(Herd& herd) {
-    HWY_DYNAMIC_DISPATCH(beginStepOf)(herd);
+void beginStep(TrialLanes& group) {
+    HWY_DYNAMIC_DISPATCH(beginStepOf)(group);
 }
 
-void finishStep(Herd& herd) {
-    HWY_DYNAMIC_DISPATCH(finishStepOf)(herd);
+void finishStep(TrialLanes& group) {
+    HWY_DYNAMIC_DISPATCH(finishStepOf)(group);
 }
 
 std::vector<std::string> instructionSets() {

@@ -2,16 +2,16 @@
 
 #include <string>
 
-#include "sim/native/herd.h"
+#include "sim/native/trial_lanes.h"
 
 /// The kernel of the native engine, compiled once per instruction set; the best that the machine has is taken
 /// when the program runs.
 namespace trapwright::native {
 
 /// First half of a time step of every lane: gravity, gyroscopic torque, and where the track goes.
-void beginStep(Herd& herd);
+void beginStep(TrialLanes& group);
 /// Second half: contacts, impulses, new poses.
-void finishStep(Herd& herd);
+void finishStep(TrialLanes& group);
 
 /// The instruction set in use: "AVX3", "AVX2", "SSE4", "SCALAR".
 std::string instructionSet();

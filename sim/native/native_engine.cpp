@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/trial/progress.h"
+#include "core/trial/termination_monitor.h"
 #include "sim/contact/drive_motion.h"
 #include "sim/contact/trial_queue.h"
 #include "sim/native/kernel.h"
@@ -32,7 +32,7 @@ struct Scene {
 
 using TrialQueue = contact::TrialQueue<Scene>;
 
-/// The trial in one lane of a herd.
+/// The trial in one lane of a group.
 struct Run {
     Run(std::shared_ptr<const Scene> s, std::size_t b, std::size_t t)
         : scene(std::move(s)),
@@ -43,24 +43,24 @@ struct Run {
     std::shared_ptr<const Scene> scene;
     std::size_t batch;
     std::size_t trial;
-    trial::Progress progress;
+    trial::TerminationMonitor progress;
     long steps = 0;
     int untilCheck = 0;
 };
 
-/// Trials in the lanes of a herd, with what the herd does not know of them.
+/// Trials in the lanes of a group, with what the group does not know of them.
 class RunningTrials {
  public:
-    RunningTrials(const HerdModel& model, int lanes)
-        : herd_(model, lanes),
+    RunningTrials(const LaneModel& model, int lanes)
+        : group_(model, lanes),
           stepsPerCheck_(static_cast<int>(std::max(1L, std::lround(kCheckInterval / model.step)))) {}
 
     void add(std::shared_ptr<const Scene> scene, std::size_t batch, std::size_t trial) {
-        herd_.add(scene->track, *scene->batch, scene->batch->trials[trial]);
+        group_.add(scene->track, *scene->batch, scene->batch->trials[trial]);
         runs_.emplace_back(std::move(scene), batch, trial);
     }
     void remove(int lane) {
-        herd_.remove(lane);
+        group_.remove(lane);
         if (static_cast<std::size_t>(lane) + 1 < runs_.size()) runs_[lane] = std::move(runs_.back());
         runs_.pop_back();
     }
@@ -70,40 +70,40 @@ class RunningTrials {
         Run& run = runs_[lane];
         if (run.untilCheck-- > 0) return false;
         run.untilCheck = stepsPerCheck_ - 1;
-        return run.progress.update(time(lane), herd_.poseInTrack(lane)).has_value();
+        return run.progress.update(time(lane), group_.poseInTrack(lane)).has_value();
     }
     /// One step of all lanes.
     void step() {
-        beginStep(herd_);
+        beginStep(group_);
         finish();
     }
     /// The second half of a step whose first half is made.
     void finish() {
-        finishStep(herd_);
+        finishStep(group_);
         for (Run& run : runs_)
             ++run.steps;
     }
 
-    [[nodiscard]] int count() const { return herd_.count(); }
-    [[nodiscard]] Herd& herd() { return herd_; }
+    [[nodiscard]] int count() const { return group_.count(); }
+    [[nodiscard]] TrialLanes& group() { return group_; }
     [[nodiscard]] const Run& run(int lane) const { return runs_[lane]; }
     [[nodiscard]] double time(int lane) const {
-        return static_cast<double>(runs_[lane].steps) * herd_.model().step;
+        return static_cast<double>(runs_[lane].steps) * group_.model().step;
     }
 
  private:
-    Herd herd_;
+    TrialLanes group_;
     std::vector<Run> runs_;
     int stepsPerCheck_;
 };
 
 /// One thread's work.
-void runTrials(const HerdModel& model, TrialQueue& queue, int lanes,
+void runTrials(const LaneModel& model, TrialQueue& queue, int lanes,
                std::vector<std::vector<trial::Outcome>>& outcomes, trial::CostMeter* costs,
                base::RunControl& control) {
     trial::CostLaps laps(costs);
     RunningTrials trials(model, lanes);
-    if (costs != nullptr) trials.herd().laps = &laps;
+    if (costs != nullptr) trials.group().laps = &laps;
     const auto removeIfEnded = [&](int lane) {
         if (!trials.hasEnded(lane)) return false;
         const Run& run = trials.run(lane);
@@ -136,24 +136,24 @@ bool anyBowl(std::span<const trial::TrialBatch> batches, const std::vector<std::
     });
 }
 
-base::Vec3 three(const Herd& herd, int field, int lane) {
-    return {herd.field(field)[lane], herd.field(field + 1)[lane], herd.field(field + 2)[lane]};
+base::Vec3 three(const TrialLanes& group, int field, int lane) {
+    return {group.field(field)[lane], group.field(field + 1)[lane], group.field(field + 2)[lane]};
 }
 
 /// The moment at the begin of the coming step, whose first half is made.
 trial::TrajectorySample sampleOf(RunningTrials& trials, const contact::DriveMotion& drive) {
-    const Herd& herd = trials.herd();
-    const double dt = herd.model().step;
+    const TrialLanes& group = trials.group();
+    const double dt = group.model().step;
     trial::TrajectorySample sample;
     sample.time = trials.time(0);
-    sample.room = herd.poseInRoom(0);
+    sample.room = group.poseInRoom(0);
     sample.room.rotation.normalize();
-    sample.track = trials.run(0).progress.toTrackCoordinates(herd.poseInTrack(0));
+    sample.track = trials.run(0).progress.toTrackCoordinates(group.poseInTrack(0));
     sample.drive = drive.displacement(sample.time);
-    sample.velocity = 0.5 * (three(herd, kVelocityX, 0) + three(herd, kAfterX, 0));
-    sample.angularVelocity =
-        three(herd, kSpinX, 0) + dt * (0.375 * three(herd, kTurnX, 0) + 0.125 * three(herd, kTurnBeforeX, 0));
-    sample.contacts = herd.memory[0].carrying;
+    sample.velocity = 0.5 * (three(group, kVelocityX, 0) + three(group, kAfterX, 0));
+    sample.angularVelocity = three(group, kSpinX, 0) +
+                             dt * (0.375 * three(group, kTurnX, 0) + 0.125 * three(group, kTurnBeforeX, 0));
+    sample.contacts = group.warmStarts[0].carrying;
     return sample;
 }
 
@@ -174,7 +174,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
         const trial::TrialBatch& like = batches[members.front()];
         const PackedBody body(contact::prepareBody(like.part->pieces));
-        const HerdModel model(*like.part, body, like.gravity, step_, anyBowl(batches, members));
+        const LaneModel model(*like.part, body, like.gravity, step_, anyBowl(batches, members));
         TrialQueue queue(batches, std::move(members));
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
@@ -190,25 +190,25 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
                                                      double interval, base::RunControl control) const {
     if (const auto problem = findProblem(batch, index)) return *problem;
     const PackedBody body(contact::prepareBody(batch.part->pieces));
-    const HerdModel model(*batch.part, body, batch.gravity, step_, anyBowl({&batch, 1}, {0}));
+    const LaneModel model(*batch.part, body, batch.gravity, step_, anyBowl({&batch, 1}, {0}));
     const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].start.phase);
     RunningTrials trials(model, 1);
     trials.add(std::make_shared<const Scene>(batch), 0, index);
     std::vector<RecordedImpulse> recorded;
-    trials.herd().recorded = &recorded;
+    trials.group().recorded = &recorded;
     std::vector<trial::ContactForce> forces;
     trial::Trajectory trajectory;
     while (true) {
         if (control.cancelled()) return base::Error{"The replay was cancelled."};
         const bool ended = trials.hasEnded(0);
-        beginStep(trials.herd());
+        beginStep(trials.group());
         trial::TrajectorySample sample = sampleOf(trials, drive);
         sample.forces = forces;
         if (ended || sample.time + 0.5 * step_ >= static_cast<double>(trajectory.samples.size()) * interval)
             trajectory.samples.push_back(sample);
         if (ended) break;
         recorded.clear();
-        const base::Vec3 centre = trials.herd().poseInTrack(0).position;
+        const base::Vec3 centre = trials.group().poseInTrack(0).position;
         const contact::TrackPlacement placement = drive.placement(trials.time(0));
         trials.finish();
         const double rate = batch.part->massProperties.mass / step_;

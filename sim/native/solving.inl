@@ -3,17 +3,17 @@
 
 using Index = hn::Vec<hn::RebindToSigned<Tag>>;
 
-inline Real gather(const Herd& herd, int field, Index lanes) {
-    return Real(hn::GatherIndex(Tag(), herd.field(field), lanes));
+inline Real gather(const TrialLanes& group, int field, Index lanes) {
+    return Real(hn::GatherIndex(Tag(), group.field(field), lanes));
 }
-inline Triple gatherThree(const Herd& herd, int field, Index lanes) {
-    return {gather(herd, field, lanes), gather(herd, field + 1, lanes), gather(herd, field + 2, lanes)};
+inline Triple gatherThree(const TrialLanes& group, int field, Index lanes) {
+    return {gather(group, field, lanes), gather(group, field + 1, lanes), gather(group, field + 2, lanes)};
 }
 
 /// What turns scaled quantities (formulas/step.inl) into those of the room's axes, for each lane of a vector.
 struct Scaling {
     Matrix axes;  // part -> room
-    const HerdModel* model;
+    const LaneModel* model;
 
     /// S^T in room axes.
     [[nodiscard]] Matrix turns() const {
@@ -65,21 +65,21 @@ struct TrackMotion {
     }
 };
 
-inline TrackMotion gatherTrackMotion(const Herd& herd, Index lanes) {
+inline TrackMotion gatherTrackMotion(const TrialLanes& group, Index lanes) {
     TrackMotion motion;
-    motion.rateX = gather(herd, kRateX, lanes);
-    motion.rateZ = gather(herd, kRateZ, lanes);
-    motion.beforeX = gather(herd, kRateBeforeX, lanes);
-    motion.beforeZ = gather(herd, kRateBeforeZ, lanes);
-    if (herd.model().anyBowl) {
-        motion.sine = gather(herd, kSine, lanes);
-        motion.cosineLess = gather(herd, kCosineLess, lanes);
-        motion.sineRate = gather(herd, kSineRate, lanes);
-        motion.cosineLessRate = gather(herd, kCosineLessRate, lanes);
-        motion.sineBefore = gather(herd, kSineRateBefore, lanes);
-        motion.cosineLessBefore = gather(herd, kCosineLessRateBefore, lanes);
-        motion.x = gather(herd, kPositionX, lanes);
-        motion.y = gather(herd, kPositionY, lanes);
+    motion.rateX = gather(group, kRateX, lanes);
+    motion.rateZ = gather(group, kRateZ, lanes);
+    motion.beforeX = gather(group, kRateBeforeX, lanes);
+    motion.beforeZ = gather(group, kRateBeforeZ, lanes);
+    if (group.model().anyBowl) {
+        motion.sine = gather(group, kSine, lanes);
+        motion.cosineLess = gather(group, kCosineLess, lanes);
+        motion.sineRate = gather(group, kSineRate, lanes);
+        motion.cosineLessRate = gather(group, kCosineLessRate, lanes);
+        motion.sineBefore = gather(group, kSineRateBefore, lanes);
+        motion.cosineLessBefore = gather(group, kCosineLessRateBefore, lanes);
+        motion.x = gather(group, kPositionX, lanes);
+        motion.y = gather(group, kPositionY, lanes);
     }
     return motion;
 }
@@ -91,12 +91,13 @@ inline Triple loadTouchThree(SolveBatch& batch, int row, int field) {
     return {loadTouch(batch, row, field), loadTouch(batch, row, field + 1), loadTouch(batch, row, field + 2)};
 }
 
-inline Touch loadContact(const Herd& herd, SolveBatch& batch, int row, const TrackMotion& track) {
-    Touch touch;
+inline MovingContact loadContact(const TrialLanes& group, SolveBatch& batch, int row,
+                                 const TrackMotion& track) {
+    MovingContact touch;
     touch.arm = loadTouchThree(batch, row, kArmX);
     touch.normal = loadTouchThree(batch, row, kNormalX);
     touch.gap = loadTouch(batch, row, kGap);
-    if (herd.model().anyBowl) {
+    if (group.model().anyBowl) {
         touch.arm = track.turn(touch.arm);
         touch.normal = track.turn(touch.normal);
         touch.trackVelocity = track.velocity(touch.arm);
@@ -113,23 +114,23 @@ inline Touch loadContact(const Herd& herd, SolveBatch& batch, int row, const Tra
     return touch;
 }
 
-inline void scatterThree(Herd& herd, const SolveBatch& batch, int field, const Triple& value) {
+inline void scatterThree(TrialLanes& group, const SolveBatch& batch, int field, const Triple& value) {
     alignas(64) float values[3][kWidestVector];
     store(value.x, values[0]);
     store(value.y, values[1]);
     store(value.z, values[2]);
     for (int k = 0; k < 3; ++k) {
-        float* to = herd.field(field + k);
+        float* to = group.field(field + k);
         for (int slot = 0; slot < batch.filled; ++slot)
             to[batch.lanes[slot]] = values[k][slot];
     }
 }
 
-inline void remember(Herd& herd, const SolveBatch& batch, const Row* rows) {
+inline void remember(TrialLanes& group, const SolveBatch& batch, const ContactConstraint* rows) {
     for (int slot = 0; slot < batch.filled; ++slot)
-        herd.memory[batch.lanes[slot]].carrying = 0;
+        group.warmStarts[batch.lanes[slot]].carrying = 0;
     for (int r = 0; r < batch.rows; ++r) {
-        const Row& row = rows[r];
+        const ContactConstraint& row = rows[r];
         alignas(64) float normal[kWidestVector];
         alignas(64) float along[kWidestVector];
         alignas(64) float across[kWidestVector];
@@ -141,7 +142,7 @@ inline void remember(Herd& herd, const SolveBatch& batch, const Row* rows) {
         const std::uint32_t sliding = bitsOf(row.sliding);
         const std::uint32_t carrying = bitsOf(row.normal > Real(0.0));
         for (int slot = 0; slot < batch.filled; ++slot) {
-            Memory& memory = herd.memory[batch.lanes[slot]];
+            WarmStartCache& memory = group.warmStarts[batch.lanes[slot]];
             if (r >= memory.count) continue;
             memory.normal[r] = normal[slot];
             memory.along[r] = along[slot];
@@ -153,9 +154,9 @@ inline void remember(Herd& herd, const SolveBatch& batch, const Row* rows) {
 }
 
 /// Keeps what the contacts of the batch's first lane gave.
-inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, const Row* rows) {
+inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, const ContactConstraint* rows) {
     for (int r = 0; r < batch.rows; ++r) {
-        const Row& row = rows[r];
+        const ContactConstraint& row = rows[r];
         const Triple impulse =
             row.normal * row.axis[0] + row.tangential.x * row.axis[1] + row.tangential.y * row.axis[2];
         alignas(64) float values[4][kWidestVector];
@@ -170,65 +171,65 @@ inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, co
 }
 
 /// Solves all lanes of a batch and empties it.
-inline void solveBatch(Herd& herd, SolveBatch& batch) {
+inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
     // Slots that are left over do what the first one does, without its contacts.
     for (int slot = batch.filled; slot < static_cast<int>(hn::Lanes(Tag())); ++slot) {
         batch.lanes[slot] = batch.lanes[0];
         for (int row = 0; row < batch.rows; ++row) {
-            for (int f = 0; f < kTouchFields; ++f)
+            for (int f = 0; f < kContactFields; ++f)
                 batch.touch(row, f)[slot] = f == kGap ? 1.0F : 0.0F;
         }
     }
     const Index lanes = hn::LoadU(hn::RebindToSigned<Tag>(), batch.lanes.data());
-    const Scaling scaling{{{gatherThree(herd, kAxes, lanes), gatherThree(herd, kAxes + 3, lanes),
-                            gatherThree(herd, kAxes + 6, lanes)}},
-                          &herd.model()};
-    const Motion before = {gatherThree(herd, kVelocityX, lanes),
-                           scaling.scale(gatherThree(herd, kSpinX, lanes))};
-    const Motion free = {gatherThree(herd, kAfterX, lanes),
-                         scaling.scale(gatherThree(herd, kAfterSpinX, lanes))};
-    const Law law = {gather(herd, kStaticFriction, lanes), gather(herd, kKineticFriction, lanes),
-                     gather(herd, kRestitution, lanes)};
-    const TrackMotion track = gatherTrackMotion(herd, lanes);
+    const Scaling scaling{{{gatherThree(group, kAxes, lanes), gatherThree(group, kAxes + 3, lanes),
+                            gatherThree(group, kAxes + 6, lanes)}},
+                          &group.model()};
+    const Motion before = {gatherThree(group, kVelocityX, lanes),
+                           scaling.scale(gatherThree(group, kSpinX, lanes))};
+    const Motion free = {gatherThree(group, kAfterX, lanes),
+                         scaling.scale(gatherThree(group, kAfterSpinX, lanes))};
+    const Law law = {gather(group, kStaticFriction, lanes), gather(group, kKineticFriction, lanes),
+                     gather(group, kRestitution, lanes)};
+    const TrackMotion track = gatherTrackMotion(group, lanes);
     const Matrix turns = scaling.turns();
-    const Real dt = herd.model().dt;
-    Row rows[Memory::kMost];
+    const Real dt = group.model().dt;
+    ContactConstraint rows[WarmStartCache::kMost];
     for (int row = 0; row < batch.rows; ++row)
-        prepareRow(rows[row], loadContact(herd, batch, row, track), turns, before, free, law, dt);
+        prepareConstraint(rows[row], loadContact(group, batch, row, track), turns, before, free, law, dt);
     const Motion after = solve(rows, batch.rows, free);
     const Motion advance = advancePose(rows, batch.rows, free, after, dt);
 
-    scatterThree(herd, batch, kAfterX, after.velocity);
-    scatterThree(herd, batch, kAfterSpinX, scaling.unscale(after.spin));
-    scatterThree(herd, batch, kAdvanceX, advance.velocity);
-    scatterThree(herd, batch, kAdvanceSpinX, scaling.unscale(advance.spin));
-    remember(herd, batch, rows);
-    if (herd.recorded != nullptr) record(*herd.recorded, batch, rows);
+    scatterThree(group, batch, kAfterX, after.velocity);
+    scatterThree(group, batch, kAfterSpinX, scaling.unscale(after.spin));
+    scatterThree(group, batch, kAdvanceX, advance.velocity);
+    scatterThree(group, batch, kAdvanceSpinX, scaling.unscale(advance.spin));
+    remember(group, batch, rows);
+    if (group.recorded != nullptr) record(*group.recorded, batch, rows);
     batch.filled = 0;
 }
 
-/// Puts the contacts of one lane, herd.found, into the batch that they fit into.
-inline void enqueue(Herd& herd, int lane) {
-    const int count = static_cast<int>(herd.found.size());
+/// Puts the contacts of one lane, group.found, into the batch that they fit into.
+inline void enqueue(TrialLanes& group, int lane) {
+    const int count = static_cast<int>(group.found.size());
     std::size_t size = 0;
     while (kSolveRows[size] < count)
         ++size;
-    SolveBatch& batch = herd.solveBatches[size];
+    SolveBatch& batch = group.solveBatches[size];
     const int slot = batch.filled++;
     batch.lanes[slot] = lane;
 
-    Memory& memory = herd.memory[lane];
-    const Memory old = memory;
+    WarmStartCache& memory = group.warmStarts[lane];
+    const WarmStartCache old = memory;
     memory.count = count;
     for (int row = 0; row < batch.rows; ++row) {
         float* touch = batch.touch(row, 0) + slot;
         const auto set = [touch](int field, float value) { touch[field * kWidestVector] = value; };
         if (row >= count) {
-            for (int f = 0; f < kTouchFields; ++f)
+            for (int f = 0; f < kContactFields; ++f)
                 set(f, f == kGap ? 1.0F : 0.0F);
             continue;
         }
-        const FoundContact& contact = herd.found[static_cast<std::size_t>(row)];
+        const Contact& contact = group.found[static_cast<std::size_t>(row)];
         for (int k = 0; k < 3; ++k) {
             set(kArmX + k, contact.arm[k]);
             set(kNormalX + k, contact.normal[k]);
@@ -244,16 +245,16 @@ inline void enqueue(Herd& herd, int lane) {
         set(kState, found ? (old.slid[known] ? 2.0F : 1.0F) : 0.0F);
         memory.feature[row] = contact.feature;
     }
-    if (batch.filled == static_cast<int>(hn::Lanes(Tag()))) solveBatch(herd, batch);
+    if (batch.filled == static_cast<int>(hn::Lanes(Tag()))) solveBatch(group, batch);
 }
 
 /// Remembers contacts that touch but carry nothing.
-inline void rememberIdle(Herd& herd, int lane) {
-    Memory& memory = herd.memory[lane];
-    memory.count = std::min(static_cast<int>(herd.found.size()), Memory::kMost);
+inline void rememberIdle(TrialLanes& group, int lane) {
+    WarmStartCache& memory = group.warmStarts[lane];
+    memory.count = std::min(static_cast<int>(group.found.size()), WarmStartCache::kMost);
     memory.carrying = 0;
     for (int i = 0; i < memory.count; ++i) {
-        memory.feature[i] = herd.found[static_cast<std::size_t>(i)].feature;
+        memory.feature[i] = group.found[static_cast<std::size_t>(i)].feature;
         memory.normal[i] = 0.0F;
         memory.along[i] = 0.0F;
         memory.across[i] = 0.0F;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/trial/progress.h"
+#include "core/trial/termination_monitor.h"
 #include "sim/simbody/certifying_trial.h"
 #include "sim/simbody/trial_lane.h"
 
@@ -25,7 +25,7 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
                              batch.gravity, lawOf(batch, spec)},
                             placement.toRoom(spec.start.pose),
                             {spec.start.velocity, spec.start.angularVelocity});
-    trial::Progress progress(*batch.track, batch.termination);
+    trial::TerminationMonitor progress(*batch.track, batch.termination);
     trial::Trajectory trajectory;
     long checks = 0;
     double time = 0.0;

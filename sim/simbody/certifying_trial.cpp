@@ -55,7 +55,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
         const SimTK::MobilizedBody& part = matter_.getMobilizedBody(part_);
         const SimTK::Transform& trackInRoom = track.getBodyTransform(state);
         pressing_.clear();
-        for (const contact::ContactPoint& point : findContacts(state)) {
+        for (const contact::Contact& point : findContacts(state)) {
             if (point.gap >= 0.0) continue;
             const SimTK::Vec3 place = trackInRoom * toSimbody(point.point);
             const SimTK::Vec3 normal = trackInRoom.R() * toSimbody(point.normal);
@@ -85,7 +85,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
         const SimTK::MobilizedBody& part = matter_.getMobilizedBody(part_);
         const SimTK::Transform& trackInRoom = track.getBodyTransform(state);
         std::map<std::uint64_t, double> approach;
-        for (const contact::ContactPoint& point : findContacts(state)) {
+        for (const contact::Contact& point : findContacts(state)) {
             const auto known = approach_.find(point.feature);
             if (point.gap < 0.0 && known != approach_.end()) {
                 approach.insert(*known);
@@ -109,7 +109,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
     }
 
  private:
-    const std::vector<contact::ContactPoint>& findContacts(const SimTK::State& state) const {
+    const std::vector<contact::Contact>& findContacts(const SimTK::State& state) const {
         const base::Pose pose = poseInTrack(state);
         const double moved = (pose.position - lastPose_.position).norm() +
                              pose.rotation.angularDistance(lastPose_.rotation) * bodyRadius_;
@@ -118,7 +118,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
         return points_;
     }
 
-    contact::SurfaceLaw law_;
+    trial::ContactParameters law_;
     double damping_;
     double bodyRadius_;
     SimTK::MobilizedBodyIndex track_, part_;
@@ -127,7 +127,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
     // Scratch of one trial on one thread.
     mutable contact::Detector detector_;
     mutable base::Pose lastPose_;
-    mutable std::vector<contact::ContactPoint> points_;
+    mutable std::vector<contact::Contact> points_;
     mutable std::vector<trial::ContactForce> pressing_;
 };
 

@@ -5,7 +5,7 @@
 #include "core/base/math.h"
 #include "core/track/feeder_shape.h"
 #include "core/trial/contact_force.h"
-#include "core/trial/drive.h"
+#include "core/trial/vibration.h"
 #include "sim/contact/contact_body.h"
 #include "sim/contact/contact_track.h"
 #include "sim/contact/impulse_solver.h"
@@ -17,12 +17,12 @@ struct CertifyingScene {
     const contact::ContactTrack* track;
     const contact::ContactBody* body;
     track::FeederShape shape;
-    trial::Drive drive;
+    trial::Vibration drive;
     double phase;        // of the drive at time 0 [rad]
     double mass;         // [kg]
     base::Mat3 inertia;  // about the centre of mass, part axes [kg m^2]
     double gravity;      // [m/s^2]
-    contact::SurfaceLaw law;
+    trial::ContactParameters law;
 };
 
 /// One part on one track with the continuous form of the contact law as a Force::Custom, the drive as a

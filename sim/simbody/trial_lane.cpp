@@ -12,7 +12,7 @@ constexpr double kCheckInterval = 2e-3;
 
 }  // namespace
 
-contact::SurfaceLaw lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+trial::ContactParameters lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
     return {batch.contact.staticFriction * spec.frictionScale,
             batch.contact.kineticFriction * spec.frictionScale,
             batch.contact.restitution * spec.restitutionScale};

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/trial/batch.h"
-#include "core/trial/progress.h"
+#include "core/trial/termination_monitor.h"
 #include "sim/contact/part_contact.h"
 #include "sim/simbody/free_bodies.h"
 
@@ -20,7 +20,7 @@ struct Scene {
 };
 
 /// The material pair of one trial of a batch.
-contact::SurfaceLaw lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec);
+trial::ContactParameters lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec);
 
 /// One running trial in one body of a FreeBodies.
 class TrialLane {
@@ -45,7 +45,7 @@ class TrialLane {
     long stepsPerCheck_;
     contact::DriveMotion drive_;
     contact::PartContact contact_;
-    trial::Progress progress_;
+    trial::TerminationMonitor progress_;
     int carrying_ = 0;
 };
 

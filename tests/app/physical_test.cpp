@@ -2,7 +2,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "core/work/part_source.h"
+#include "core/workflow/part_source.h"
 #include "tests/app/program.h"
 #include "tests/core/store/sample_study.h"
 
@@ -130,7 +130,7 @@ class PhysicalTest : public QObject {
  private:
     /// Of the cuboid: tables are by groups of its poses.
     void makeStudy(const QString& name) {
-        const auto part = work::importPart({"cuboid"});
+        const auto part = workflow::importPart({"cuboid"});
         QVERIFY(part.ok());
         auto study = store::StudyFile::create(folder_->filePath(name).toStdString(), sample::settings(),
                                               part->stored, sample::kProgram);

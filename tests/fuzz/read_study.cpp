@@ -37,7 +37,6 @@ void readGenerations(const store::StudyFile& study) {
 void readWholeStudy(const std::filesystem::path& path) {
     const auto study = store::StudyFile::openReadOnly(path);
     if (!check(study)) return;
-    check(study->loadOrigin());
     if (const auto settings = study->loadSettings(); check(settings)) study::findProblems(*settings);
     if (const auto part = study->loadPart(); check(part)) {
         for (const geometry::Triangle& triangle : part->mesh.triangles) {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/base/parallel.h"
-#include "core/trial/progress.h"
+#include "core/trial/termination_monitor.h"
 #include "sim/contact/drive_motion.h"
 
 namespace trapwright::peers {
@@ -26,7 +26,7 @@ struct Running {
 std::optional<trial::Trajectory> simulate(const Running& running, std::size_t index, double interval,
                                           trial::CostLaps& laps) {
     const auto trial = running.scene.start(index);
-    trial::Progress progress(*running.batch.track, running.batch.termination);
+    trial::TerminationMonitor progress(*running.batch.track, running.batch.termination);
     const contact::DriveMotion drive(running.batch.drive, running.batch.track->shape,
                                      running.batch.trials[index].start.phase);
     const long stepsPerCheck = std::max(1L, std::lround(kCheckInterval / running.dt));

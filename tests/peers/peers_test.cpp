@@ -24,7 +24,7 @@ bool agrees(const QString& engine, double step, const std::string& filter) {
         if (options.step == 0.0) options.step = step;
         return makeEngine(engine, options);
     };
-    return verify::runCases(factory, filter, {}, [](const verify::Row& row) {
+    return verify::runCases(factory, filter, {}, [](const verify::ContactConstraint& row) {
         if (!row.passed)
             qWarning("%s: expected %s, got %s", row.name.c_str(), row.expected.c_str(), row.got.c_str());
     });

@@ -195,7 +195,7 @@ void DriveMatch::changeEvent(QEvent* event) {
 
 DriveMatch::Seen DriveMatch::now() const {
     if (!session_) return {};
-    const trial::Drive& simulated = session_->settings().simulation.drive;
+    const trial::Vibration& simulated = session_->settings().simulation.drive;
     return {QString::fromStdString(link_.profile().title), link_.target(), simulated.halfStroke,
             simulated.frequency};
 }
@@ -210,7 +210,7 @@ void DriveMatch::refresh() {
     if (!shown) return;
     const calibration::DriveSetting setting = link_.setting();
     const DriveComparison comparison = link_.comparison();
-    const trial::Drive& simulated = session_->settings().simulation.drive;
+    const trial::Vibration& simulated = session_->settings().simulation.drive;
     numbers_[0][0]->setText(setting.halfStroke ? strokeText(*setting.halfStroke) : kNothing);
     numbers_[0][1]->setText(strokeText(simulated.halfStroke));
     numbers_[0][2]->setText(differenceCell(comparison.halfStroke));

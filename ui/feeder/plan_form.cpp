@@ -112,14 +112,14 @@ void PlanForm::listTracks() {
     const bool first = track_->currentIndex() <= 0;
     track_->clear();
     if (!session_) return showTotal();
-    const auto add = [this](const study::Winner& winner, const QString& text) {
+    const auto add = [this](const study::Individual& winner, const QString& text) {
         track_->addItem(text.arg(winner.generation).arg(winner.individual), winner.generation);
         track_->setItemData(track_->count() - 1, winner.individual, kIndividualRole);
     };
     if (const auto final = session_->chosen()) add(*final, tr("Final: generation %1, individual %2"));
-    const std::vector<study::Winner>& winners = session_->winners();
+    const std::vector<study::Individual>& winners = session_->winners();
     std::for_each(winners.rbegin(), winners.rend(),
-                  [&](const study::Winner& winner) { add(winner, tr("Generation %1, individual %2")); });
+                  [&](const study::Individual& winner) { add(winner, tr("Generation %1, individual %2")); });
     // What was picked stays picked.
     for (int i = 0; !first && i < track_->count(); ++i) {
         if (track_->itemData(i) == generation && track_->itemData(i, kIndividualRole) == individual)

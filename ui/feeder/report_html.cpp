@@ -133,7 +133,7 @@ QString driveText(const study::PhysicalValidation& physical) {
 
 /// The drive of the trials beside the simulated one, in words.
 QString driveDifference(const Report& report) {
-    const trial::Drive& simulated = report.settings.simulation.drive;
+    const trial::Vibration& simulated = report.settings.simulation.drive;
     const Range strokes = rangeOf(report.physical, &study::PhysicalTrial::halfStroke);
     const Range frequencies = rangeOf(report.physical, &study::PhysicalTrial::frequency);
     calibration::DriveComparison comparison;
@@ -223,7 +223,7 @@ QString picturesPiece(const Report& report) {
 
 QString settingsPiece(const Report& report) {
     const study::PhysicalValidation& physical = report.physical;
-    const trial::Drive& drive = report.settings.simulation.drive;
+    const trial::Vibration& drive = report.settings.simulation.drive;
     const trial::ContactParameters& contact = report.settings.simulation.contact;
     const Rows real = {
         {Texts::tr("Half-stroke"),

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/csv.h"
+
 namespace trapwright::look {
 
 namespace {
@@ -49,10 +51,8 @@ QString numberText(double value, int digits) {
     return text;
 }
 
-QString csvField(QString text) {
-    if (!text.contains(u',') && !text.contains(u'"') && !text.contains(u'\n')) return text;
-    text.replace(u'"', QStringLiteral("\"\""));
-    return u'"' + text + u'"';
+QString csvField(const QString& text) {
+    return QString::fromStdString(base::csvField(text.toStdString()));
 }
 
 QString csvNumber(double value) {

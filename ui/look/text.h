@@ -15,7 +15,7 @@ QString roughDurationText(double seconds);
 QString numberText(double value, int digits = 3);
 
 /// A field of a CSV line, with quotes if it needs them (RFC 4180), and a number in full with a decimal point.
-QString csvField(QString text);
+QString csvField(const QString& text);
 QString csvNumber(double value);
 
 /// A path for people: the home folder is "~".

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/stats/binomial.h"
-#include "core/work/study_trials.h"
+#include "core/workflow/study_trials.h"
 #include "ui/look/icon.h"
 #include "ui/models/numbers.h"
 
@@ -83,11 +83,11 @@ QVariant transparentIcon() {
 int verdictOf(int column) {
     switch (column) {
         case ValidationModel::WrongOrientation:
-            return static_cast<int>(work::TrialVerdict::wrongOrientation);
+            return static_cast<int>(workflow::TrialVerdict::wrongOrientation);
         case ValidationModel::Stuck:
-            return static_cast<int>(work::TrialVerdict::stuck);
+            return static_cast<int>(workflow::TrialVerdict::stuck);
         case ValidationModel::FellOff:
-            return static_cast<int>(work::TrialVerdict::fellOff);
+            return static_cast<int>(workflow::TrialVerdict::fellOff);
         default:
             return -1;
     }

@@ -11,7 +11,7 @@ namespace trapwright::models {
 
 namespace {
 
-using work::TrialVerdict;
+using workflow::TrialVerdict;
 
 struct Text {
     Q_DECLARE_TR_FUNCTIONS(VerdictLook)

@@ -9,14 +9,14 @@ namespace trapwright::models {
 
 WinnerModel::WinnerModel(QObject* parent) : QAbstractListModel(parent) {}
 
-void WinnerModel::setWinners(std::vector<study::Winner> winners) {
+void WinnerModel::setWinners(std::vector<study::Individual> winners) {
     beginResetModel();
     winners_ = std::move(winners);
     pictures_.clear();
     endResetModel();
 }
 
-void WinnerModel::append(study::Winner winner) {
+void WinnerModel::append(study::Individual winner) {
     const int at = rowCount();
     beginInsertRows({}, at, at);
     winners_.push_back(std::move(winner));
@@ -30,14 +30,14 @@ void WinnerModel::setPicture(int generation, const QPixmap& picture) {
     emit dataChanged(index(row), index(row), {Qt::DecorationRole});
 }
 
-const study::Winner* WinnerModel::winnerAt(int row) const {
+const study::Individual* WinnerModel::winnerAt(int row) const {
     return row >= 0 && row < rowCount() ? &winners_[static_cast<std::size_t>(row)] : nullptr;
 }
 
 int WinnerModel::rowOf(int generation) const {
-    const auto found =
-        std::lower_bound(winners_.begin(), winners_.end(), generation,
-                         [](const study::Winner& winner, int wanted) { return winner.generation < wanted; });
+    const auto found = std::lower_bound(
+        winners_.begin(), winners_.end(), generation,
+        [](const study::Individual& winner, int wanted) { return winner.generation < wanted; });
     if (found == winners_.end() || found->generation != generation) return -1;
     return static_cast<int>(found - winners_.begin());
 }
@@ -48,7 +48,7 @@ int WinnerModel::rowCount(const QModelIndex& parent) const {
 
 QVariant WinnerModel::data(const QModelIndex& index, int role) const {
     if (!checkIndex(index, CheckIndexOption::IndexIsValid)) return {};
-    const study::Winner& winner = winners_[static_cast<std::size_t>(index.row())];
+    const study::Individual& winner = winners_[static_cast<std::size_t>(index.row())];
     const study::IndividualRecord& record = winner.record;
     switch (role) {
         case Qt::DisplayRole:

@@ -18,15 +18,15 @@ class WinnerModel : public QAbstractListModel {
 
     explicit WinnerModel(QObject* parent = nullptr);
 
-    void setWinners(std::vector<study::Winner> winners);
-    void append(study::Winner winner);
+    void setWinners(std::vector<study::Individual> winners);
+    void append(study::Individual winner);
     /// Shown as decoration. Forgotten by setWinners.
     void setPicture(int generation, const QPixmap& picture);
     [[nodiscard]] bool hasPicture(int generation) const { return pictures_.contains(generation); }
 
-    [[nodiscard]] const std::vector<study::Winner>& winners() const { return winners_; }
+    [[nodiscard]] const std::vector<study::Individual>& winners() const { return winners_; }
     /// Null if there is none in this row.
-    [[nodiscard]] const study::Winner* winnerAt(int row) const;
+    [[nodiscard]] const study::Individual* winnerAt(int row) const;
     /// The row of a generation; -1 if it is not there.
     [[nodiscard]] int rowOf(int generation) const;
 
@@ -34,7 +34,7 @@ class WinnerModel : public QAbstractListModel {
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
  private:
-    std::vector<study::Winner> winners_;
+    std::vector<study::Individual> winners_;
     QCache<int, QPixmap> pictures_{kMostPictures};
 };
 

@@ -86,7 +86,7 @@ DriveCard::DriveCard(QWidget* parent)
 }
 
 void DriveCard::show(const study::Settings& settings) {
-    const trial::Drive drive = settings.simulation.drive;
+    const trial::Vibration drive = settings.simulation.drive;
     const trial::ContactParameters contact = settings.simulation.contact;
     const double gravity = settings.simulation.gravity;
     task_.start([this, drive, contact, gravity]() -> session::NewestTask::Deliver {

@@ -248,29 +248,29 @@ void EvolvePage::follow() {
     showPicked();
 }
 
-void EvolvePage::pick(const study::Winner& individual) {
+void EvolvePage::pick(const study::Individual& individual) {
     picked_ = individual;
     showPicked();
 }
 
 void EvolvePage::pickWinner(int generation) {
     if (!session_) return;
-    const std::vector<study::Winner>& winners = session_->winners();
+    const std::vector<study::Individual>& winners = session_->winners();
     if (generation >= 0 && generation < static_cast<int>(winners.size()))
         pick(winners[static_cast<std::size_t>(generation)]);
 }
 
 void EvolvePage::stepWinner(int step) {
-    if (const study::Winner* winner = shown()) pickWinner(winner->generation + step);
+    if (const study::Individual* winner = shown()) pickWinner(winner->generation + step);
 }
 
-const study::Winner* EvolvePage::shown() const {
+const study::Individual* EvolvePage::shown() const {
     if (picked_) return &*picked_;
     return session_ ? study::findBestWinner(session_->winners()) : nullptr;
 }
 
 void EvolvePage::showPicked() {
-    const study::Winner* individual = shown();
+    const study::Individual* individual = shown();
     const int generation = individual != nullptr ? individual->generation : -1;
     const QString caption = individual != nullptr ? captionOf(*individual) : QString();
     followAction_->setEnabled(picked_.has_value());
@@ -287,7 +287,7 @@ void EvolvePage::showPicked() {
     if (session_ && scene_ != nullptr) buildTrack(individual);
 }
 
-void EvolvePage::buildTrack(const study::Winner* individual) {
+void EvolvePage::buildTrack(const study::Individual* individual) {
     const study::TrackSettings& settings = session_->settings().track;
     Design design{settings, individual != nullptr ? individual->record.chromosome : evolution::Chromosome()};
     if (design_ && *design_ == design) return showScene();
@@ -299,12 +299,12 @@ void EvolvePage::buildTrack(const study::Winner* individual) {
     }
 }
 
-QString EvolvePage::captionOf(const study::Winner& individual) const {
+QString EvolvePage::captionOf(const study::Individual& individual) const {
     const auto& winners = session_->winners();
     const auto generation = static_cast<std::size_t>(individual.generation);
     const bool winner =
         generation < winners.size() && winners[generation].individual == individual.individual;
-    const study::Winner* best = study::findBestWinner(winners);
+    const study::Individual* best = study::findBestWinner(winners);
     if (winner && best != nullptr && best->generation == individual.generation)
         return tr("Generation %1, best so far").arg(individual.generation);
     return winner ? tr("Generation %1, winner").arg(individual.generation)

@@ -63,18 +63,18 @@ class EvolvePage : public Page {
 
     /// Shows the best winner (study::findBestWinner), now and whenever there is a better one.
     void follow();
-    void pick(const study::Winner& individual);
+    void pick(const study::Individual& individual);
     void pickWinner(int generation);
     void stepWinner(int step);
     void showPicked();
-    void buildTrack(const study::Winner* individual);
+    void buildTrack(const study::Individual* individual);
     void showScene();
-    [[nodiscard]] const study::Winner* shown() const;
-    [[nodiscard]] QString captionOf(const study::Winner& individual) const;
+    [[nodiscard]] const study::Individual* shown() const;
+    [[nodiscard]] QString captionOf(const study::Individual& individual) const;
 
     QPointer<session::StudySession> session_;
-    scene::SceneView* scene_ = nullptr;    // while the page is shown
-    std::optional<study::Winner> picked_;  // none: the best winner is followed
+    scene::SceneView* scene_ = nullptr;        // while the page is shown
+    std::optional<study::Individual> picked_;  // none: the best winner is followed
     session::TrackBuild build_;
     std::optional<Design> design_;  // what track_ is built from, or being built from
     std::shared_ptr<const track::Track> track_;

@@ -21,7 +21,7 @@ QString millimetres(double metres) {
 Facts factsOf(const study::Settings& settings) {
     const study::TrackSettings& track = settings.track;
     const study::EvolutionSettings& evolution = settings.evolution;
-    const trial::Drive& drive = settings.simulation.drive;
+    const trial::Vibration& drive = settings.simulation.drive;
     const trial::ContactParameters& contact = settings.simulation.contact;
     const QString feeder =
         track.shape.type == track::FeederType::bowl

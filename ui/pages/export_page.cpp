@@ -251,8 +251,8 @@ void ExportPage::fillTracks() {
                 entry.generation, entry.individual);
         }
     }
-    const std::vector<study::Winner>& winners = session_->winners();
-    for (const study::Winner& winner : study::rankWinners(winners, static_cast<int>(winners.size()))) {
+    const std::vector<study::Individual>& winners = session_->winners();
+    for (const study::Individual& winner : study::rankWinners(winners, static_cast<int>(winners.size()))) {
         add(tr("Generation %1, individual %2: %3")
                 .arg(winner.generation)
                 .arg(winner.individual)
@@ -363,9 +363,9 @@ void ExportPage::askForPath(const QString& format,
     });
 }
 
-void ExportPage::tellWritten(const std::vector<work::ExportedFile>& files) {
+void ExportPage::tellWritten(const std::vector<workflow::ExportedFile>& files) {
     enableExport();
-    const work::ExportedFile& first = files.front();
+    const workflow::ExportedFile& first = files.front();
     if (files.size() > 1) {
         return setState(
             tr("Wrote %1 and the other pieces, %2 files in all. Read back: each closed and manifold.")

@@ -43,7 +43,7 @@ class ExportPage : public Page {
     void enableExport();
     void exportAs(const QString& format);
     void askForPath(const QString& format, const std::shared_ptr<const session::PrintedTrack>& printed);
-    void tellWritten(const std::vector<work::ExportedFile>& files);
+    void tellWritten(const std::vector<workflow::ExportedFile>& files);
     [[nodiscard]] std::optional<study::TrackSuccess> successOfTrack() const;
     [[nodiscard]] std::vector<scene::Highlight> highlights() const;
     void showScene();

@@ -93,7 +93,7 @@ QWidget* FilmStrip::makeControls() {
     slider_->setAccessibleName(tr("Generation whose winner is shown"));
     slider_->setPageStep(10);
     connect(slider_, &QSlider::valueChanged, this, [this](int row) {
-        if (const study::Winner* winner = model_.winnerAt(row); !setting_ && winner != nullptr)
+        if (const study::Individual* winner = model_.winnerAt(row); !setting_ && winner != nullptr)
             emit picked(winner->generation);
     });
     caption_ = new QLabel(controls);
@@ -174,7 +174,7 @@ void FilmStrip::refresh() {
     const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
     pictures_->setTracks(session_ ? session_->settings().track : study::TrackSettings());
     pictures_->setLook(dark, devicePixelRatioF());
-    model_.setWinners(session_ ? session_->winners() : std::vector<study::Winner>());
+    model_.setWinners(session_ ? session_->winners() : std::vector<study::Individual>());
     slider_->setRange(0, std::max(model_.rowCount() - 1, 0));
     stack_->setCurrentIndex(model_.rowCount() > 0 ? 1 : 0);
     seen_->start();

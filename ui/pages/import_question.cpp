@@ -13,7 +13,7 @@ namespace trapwright::pages {
 
 namespace {
 
-QString fileName(const work::PartRequest& request) {
+QString fileName(const workflow::PartRequest& request) {
     return look::toText(std::filesystem::path(request.part).filename());
 }
 
@@ -37,31 +37,31 @@ ImportQuestion::ImportQuestion(QWidget* parent)
     hide();
 }
 
-void ImportQuestion::askUnit(const work::PartRequest& request,
-                             const std::vector<work::UnitCandidate>& candidates) {
+void ImportQuestion::askUnit(const workflow::PartRequest& request,
+                             const std::vector<workflow::UnitCandidate>& candidates) {
     begin(tr("In which unit is %1?").arg(fileName(request)),
           tr("The file does not say. The part would be this large:"));
     // What a feeder can feed comes first.
-    std::vector<work::UnitCandidate> ordered = candidates;
-    std::stable_partition(ordered.begin(), ordered.end(), [](const work::UnitCandidate& candidate) {
+    std::vector<workflow::UnitCandidate> ordered = candidates;
+    std::stable_partition(ordered.begin(), ordered.end(), [](const workflow::UnitCandidate& candidate) {
         constexpr double kSmallest = 0.5e-3;
         constexpr double kLargest = 0.2;
         const double extent = candidate.size.maxCoeff();
         return extent >= kSmallest && extent <= kLargest;
     });
-    for (const work::UnitCandidate& candidate : ordered) {
+    for (const workflow::UnitCandidate& candidate : ordered) {
         const QString unit = QString::fromStdString(candidate.name);
-        work::PartRequest answer = request;
+        workflow::PartRequest answer = request;
         answer.units = candidate.name;
         addAnswer("unit." + unit, QString("%1:  %2").arg(unit, sizeText(candidate.size)), answer);
     }
     end();
 }
 
-void ImportQuestion::askRepair(const work::PartRequest& request, const geometry::MeshReport& found,
+void ImportQuestion::askRepair(const workflow::PartRequest& request, const geometry::MeshReport& found,
                                const QString& message) {
     begin(tr("Close the holes of %1?").arg(fileName(request)), message);
-    work::PartRequest answer = request;
+    workflow::PartRequest answer = request;
     answer.closeLargeHoles = true;
     addAnswer("repair",
               found.holes.size() == 1 ? tr("Close the hole and import it")
@@ -76,7 +76,7 @@ void ImportQuestion::begin(const QString& question, const QString& text) {
 }
 
 QPushButton* ImportQuestion::addAnswer(const QString& name, const QString& text,
-                                       const work::PartRequest& answer) {
+                                       const workflow::PartRequest& answer) {
     auto* button = new QPushButton(text, buttons_);
     button->setObjectName(name);
     button->setStyleSheet("text-align: left; padding: 5px 10px;");

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/geometry/mesh_check.h"
-#include "core/work/part_source.h"
+#include "core/workflow/part_source.h"
 
 class QLabel;
 class QPushButton;
@@ -19,19 +19,20 @@ class ImportQuestion : public QFrame {
     explicit ImportQuestion(QWidget* parent);
 
     /// One button for each unit, with the size that it means.
-    void askUnit(const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates);
+    void askUnit(const workflow::PartRequest& request,
+                 const std::vector<workflow::UnitCandidate>& candidates);
     /// What is wrong with the mesh, and the offer to mend it.
-    void askRepair(const work::PartRequest& request, const geometry::MeshReport& found,
+    void askRepair(const workflow::PartRequest& request, const geometry::MeshReport& found,
                    const QString& message);
 
  signals:
     /// The same request with the answer in it.
-    void answered(const trapwright::work::PartRequest& request);
+    void answered(const trapwright::workflow::PartRequest& request);
     void cancelled();
 
  private:
     void begin(const QString& question, const QString& text);
-    QPushButton* addAnswer(const QString& name, const QString& text, const work::PartRequest& answer);
+    QPushButton* addAnswer(const QString& name, const QString& text, const workflow::PartRequest& answer);
     void end();
 
     QLabel* text_;

@@ -61,7 +61,7 @@ void IndividualCard::clear() {
     contents_->hide();
 }
 
-void IndividualCard::show(const study::Settings& settings, const study::Winner& individual) {
+void IndividualCard::show(const study::Settings& settings, const study::Individual& individual) {
     const study::IndividualRecord& record = individual.record;
     const trial::Fitness& fitness = record.fitness;
     success_->show({{tr("Success"), models::shareText(record.success())},

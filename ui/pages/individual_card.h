@@ -24,7 +24,7 @@ class IndividualCard : public QWidget {
  public:
     explicit IndividualCard(QWidget* parent);
 
-    void show(const study::Settings& settings, const study::Winner& individual);
+    void show(const study::Settings& settings, const study::Individual& individual);
     /// Its track, as soon as it is built.
     void showTrack(const track::Track& track);
     /// No individual yet.

@@ -27,7 +27,7 @@ class IndividualTable : public QWidget {
     void setCurrent(int generation, int individual);
 
  signals:
-    void picked(const trapwright::study::Winner& individual);
+    void picked(const trapwright::study::Individual& individual);
     /// The generation's best is to be shown.
     void generationPicked(int generation);
     void failed(const QString& what, const QString& message);

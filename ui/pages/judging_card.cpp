@@ -105,7 +105,7 @@ void JudgingCard::setSession(StudySession* session) {
     update();
 }
 
-void JudgingCard::setWinner(const std::optional<study::Winner>& winner) {
+void JudgingCard::setWinner(const std::optional<study::Individual>& winner) {
     winner_ = winner;
     update();
 }

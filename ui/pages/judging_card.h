@@ -26,7 +26,7 @@ class JudgingCard : public QWidget {
 
     void setSession(session::StudySession* session);
     /// The track that would be validated; none if there is none.
-    void setWinner(const std::optional<study::Winner>& winner);
+    void setWinner(const std::optional<study::Individual>& winner);
 
     [[nodiscard]] QAction* compareAction() { return compare_; }
     [[nodiscard]] QAction* validateAction() { return validate_; }
@@ -38,7 +38,7 @@ class JudgingCard : public QWidget {
     void showProgress();
 
     QPointer<session::StudySession> session_;
-    std::optional<study::Winner> winner_;
+    std::optional<study::Individual> winner_;
     QAction* compare_;
     QAction* validate_;
     QLabel* compareText_;

@@ -11,7 +11,7 @@ class SceneView;
 namespace trapwright::session {
 class StudySession;
 }
-namespace trapwright::work {
+namespace trapwright::workflow {
 struct LoadedPart;
 }
 
@@ -81,7 +81,7 @@ class Page : public QWidget {
     /// One of the page's own panels has what the user waited for; its name. Comes to the front if it is open.
     void panelWanted(const QString& name);
     /// A new study of this part shall be opened in place of the one that is open, if any.
-    void studyWanted(const trapwright::work::LoadedPart& part);
+    void studyWanted(const trapwright::workflow::LoadedPart& part);
     /// A new study with the settings and the part of the open one, and no generations, shall be opened in its
     /// place.
     void forkWanted();

@@ -27,8 +27,8 @@ look::FileQuestion partQuestion() {
             {},           {}};
 }
 
-work::PartRequest partRequest(const std::string& part) {
-    work::PartRequest request;
+workflow::PartRequest partRequest(const std::string& part) {
+    workflow::PartRequest request;
     request.part = part;
     return request;
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/math.h"
-#include "core/work/part_source.h"
+#include "core/workflow/part_source.h"
 #include "ui/look/file_dialog.h"
 
 namespace trapwright::pages {
@@ -13,7 +13,7 @@ namespace trapwright::pages {
 look::FileQuestion partQuestion();
 
 /// The import of a file or a bundled part as a new study begins with it.
-work::PartRequest partRequest(const std::string& part);
+workflow::PartRequest partRequest(const std::string& part);
 
 /// "4 × 8 × 12 mm", from a box in metres.
 QString sizeText(const base::Vec3& size);

@@ -70,20 +70,21 @@ PartPage::PartPage(QWidget* parent)
         if (import_.busy()) busyText_->setText(tr("%1: %2 ...").arg(importing_, stage));
     });
     connect(&import_, &session::PartImport::finished, this, &PartPage::take);
-    connect(&import_, &session::PartImport::unitNeeded, this,
-            [this](const work::PartRequest& request, const std::vector<work::UnitCandidate>& candidates) {
+    connect(
+        &import_, &session::PartImport::unitNeeded, this,
+        [this](const workflow::PartRequest& request, const std::vector<workflow::UnitCandidate>& candidates) {
+            setBusy({});
+            question_->askUnit(request, candidates);
+        });
+    connect(&import_, &session::PartImport::repairNeeded, this,
+            [this](const workflow::PartRequest& request, const geometry::MeshReport& found,
+                   const QString& message) {
                 setBusy({});
-                question_->askUnit(request, candidates);
+                question_->askRepair(request, found, message);
             });
     connect(
-        &import_, &session::PartImport::repairNeeded, this,
-        [this](const work::PartRequest& request, const geometry::MeshReport& found, const QString& message) {
-            setBusy({});
-            question_->askRepair(request, found, message);
-        });
-    connect(
         &import_, &session::PartImport::failed, this,
-        [this](const work::PartRequest& request, const QString& message) {
+        [this](const workflow::PartRequest& request, const QString& message) {
             leave();
             showUnits();
             emit failed(
@@ -137,7 +138,7 @@ void PartPage::addHead() {
     busy_->hide();
 
     question_ = new ImportQuestion(this);
-    connect(question_, &ImportQuestion::answered, this, [this](const work::PartRequest& request) {
+    connect(question_, &ImportQuestion::answered, this, [this](const workflow::PartRequest& request) {
         question_->hide();
         import(request);
     });
@@ -271,7 +272,7 @@ void PartPage::askForFile() {
     look::askForFile(this, partQuestion(), [this](const std::filesystem::path& file) { takeFile(file); });
 }
 
-void PartPage::import(const work::PartRequest& request) {
+void PartPage::import(const workflow::PartRequest& request) {
     question_->hide();
     importing_ = look::toText(std::filesystem::path(request.part).filename());
     setBusy(tr("Reading %1 ...").arg(importing_));
@@ -280,7 +281,7 @@ void PartPage::import(const work::PartRequest& request) {
     import_.start(request);
 }
 
-void PartPage::take(const work::LoadedPart& part) {
+void PartPage::take(const workflow::LoadedPart& part) {
     setBusy({});
     imported_ = part;
     // The scores of a study belong to its part.
@@ -373,7 +374,7 @@ void PartPage::showUnits() {
     if (!session_) return;
     const QString present = QString::fromStdString(session_->settings().part.units);
     if (knowsImport()) {
-        for (const work::UnitCandidate& candidate : imported_->candidates) {
+        for (const workflow::UnitCandidate& candidate : imported_->candidates) {
             const QString name = QString::fromStdString(candidate.name);
             unit_->addItem(name, name);
             unit_->setItemData(unit_->count() - 1, sizeText(candidate.size), Qt::ToolTipRole);
@@ -438,7 +439,7 @@ void PartPage::showProposal() {
 void PartPage::changeUnits(int index) {
     const study::PartSettings& settings = session_->settings().part;
     if (unit_->itemData(index).toString().toStdString() == settings.units) return;
-    work::PartRequest request;
+    workflow::PartRequest request;
     request.part = settings.file;
     request.units = unit_->itemData(index).toString().toStdString();
     request.density = settings.density;

@@ -39,8 +39,8 @@ class PartPage : public Page {
     void addHead();
     void addForm();
     void askForFile();
-    void import(const work::PartRequest& request);
-    void take(const work::LoadedPart& part);
+    void import(const workflow::PartRequest& request);
+    void take(const workflow::LoadedPart& part);
     /// Ends an import that came to nothing.
     void leave();
     void setBusy(const QString& what);
@@ -66,8 +66,8 @@ class PartPage : public Page {
     session::PartImport import_;
     QString importing_;  // the file's name
     session::NewestTask meshCheck_;
-    std::optional<work::LoadedPart> imported_;     // the last one, for its report
-    std::shared_ptr<const part::Part> shownMesh_;  // whose mesh was checked
+    std::optional<workflow::LoadedPart> imported_;  // the last one, for its report
+    std::shared_ptr<const part::Part> shownMesh_;   // whose mesh was checked
 
     QLabel* name_;
     QLabel* size_;

@@ -6,7 +6,7 @@
 #include "core/part/part.h"
 #include "core/track/track.h"
 #include "core/trial/recorded_motion.h"
-#include "core/work/study_trials.h"
+#include "core/workflow/study_trials.h"
 
 namespace trapwright::scene {
 class SceneView;
@@ -17,7 +17,7 @@ namespace trapwright::pages {
 /// A trial that is shown, and how it is counted.
 struct ReplayedTrial {
     int trial = 0;
-    work::TrialVerdict verdict = work::TrialVerdict::success;
+    workflow::TrialVerdict verdict = workflow::TrialVerdict::success;
     std::shared_ptr<const trial::RecordedMotion> motion;
 };
 

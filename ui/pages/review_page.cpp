@@ -12,17 +12,17 @@
 #include "ui/look/text.h"
 #include "ui/pages/details_button.h"
 #include "ui/pages/judging_card.h"
+#include "ui/pages/playback_bar.h"
 #include "ui/pages/replay_files.h"
 #include "ui/pages/result_table.h"
 #include "ui/pages/track_choice.h"
-#include "ui/pages/transport_bar.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
 
 using models::ValidationModel;
 using session::StudySession;
-using work::TrialVerdict;
+using workflow::TrialVerdict;
 
 namespace {
 
@@ -185,7 +185,7 @@ void ReviewPage::showSelection() {
 
 void ReviewPage::showValidation() {
     if (!shownValidation_) return;
-    const std::optional<study::Winner>& winner = choice_->winner();
+    const std::optional<study::Individual>& winner = choice_->winner();
     shownValidation_->setEmptyText(
         winner ? tr("This track was not validated yet. Validate it to see how often it fails.")
                : tr("Learn a track first: then it can be validated."));

@@ -130,7 +130,7 @@ void RunCard::update() {
 }
 
 void RunCard::showSuccess() {
-    const study::Winner* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
+    const study::Individual* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
     success_->setVisible(best != nullptr);
     if (best == nullptr) return;
     const auto success = best->record.success();

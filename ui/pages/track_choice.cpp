@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kIndividualRole = Qt::UserRole + 1;
 
-bool isSame(const study::Winner& a, const study::Winner& b) {
+bool isSame(const study::Individual& a, const study::Individual& b) {
     return a.generation == b.generation && a.individual == b.individual;
 }
 
@@ -126,7 +126,7 @@ void TrackChoice::listWinners() {
     const QSignalBlocker blocker(list_);
     list_->clear();
     if (!session_) return;
-    const auto add = [this](const study::Winner& winner) {
+    const auto add = [this](const study::Individual& winner) {
         const Success success = session_->findSuccess(winner);
         list_->addItem(
             tr("%1: %2").arg(nameOf(winner.generation, winner.individual),
@@ -136,7 +136,7 @@ void TrackChoice::listWinners() {
         if (winner_ && isSame(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
     };
     list_->setCurrentIndex(-1);
-    const std::vector<study::Winner>& winners = session_->winners();
+    const std::vector<study::Individual>& winners = session_->winners();
     std::for_each(winners.rbegin(), winners.rend(), add);
     if (winner_ && list_->currentIndex() < 0) add(*winner_);
 }

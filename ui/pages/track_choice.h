@@ -27,7 +27,7 @@ class TrackChoice : public QWidget {
     explicit TrackChoice(QWidget* parent);
 
     void setSession(session::StudySession* session);
-    [[nodiscard]] const std::optional<study::Winner>& winner() const { return winner_; }
+    [[nodiscard]] const std::optional<study::Individual>& winner() const { return winner_; }
     /// Any individual of the study.
     void setWinner(int generation, int individual);
     /// What is known of the track may have changed.
@@ -46,7 +46,7 @@ class TrackChoice : public QWidget {
     [[nodiscard]] bool isFinal() const;
 
     QPointer<session::StudySession> session_;
-    std::optional<study::Winner> winner_;
+    std::optional<study::Individual> winner_;
     QComboBox* list_;
     SuccessCard* success_;
     FactList* facts_;

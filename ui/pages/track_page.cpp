@@ -12,7 +12,7 @@
 #include <QVBoxLayout>
 
 #include "core/study/presets.h"
-#include "core/work/estimate.h"
+#include "core/workflow/estimate.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
@@ -367,7 +367,7 @@ void TrackPage::useDraft() {
 void TrackPage::useFullLearning() {
     if (!session_) return;
     study::Settings settings = session_->settings();
-    settings.evolution = work::fullEvolution(settings.evolution);
+    settings.evolution = workflow::fullEvolution(settings.evolution);
     edit(settings, tr("Full learning"));
 }
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "core/work/study_trials.h"
+#include "core/workflow/study_trials.h"
 #include "ui/models/trial_model.h"
 
 class QComboBox;
@@ -22,7 +22,7 @@ namespace trapwright::pages {
 /// Trials of one individual that a study holds the results of.
 struct TrialSource {
     QString name;  // "Validation, pose 2"
-    work::TrialsRequest request;
+    workflow::TrialsRequest request;
     int count = 0;
 };
 
@@ -42,7 +42,7 @@ class TrialList : public QWidget {
     [[nodiscard]] const models::TrialModel& trials() const { return model_; }
     [[nodiscard]] const models::TrialFilter& filter() const { return filter_; }
 
-    void setVerdicts(const std::set<work::TrialVerdict>& verdicts);
+    void setVerdicts(const std::set<workflow::TrialVerdict>& verdicts);
     /// Of trials that began in poses which look the same only those of this one; none: of all.
     void setPose(std::optional<int> pose);
     /// Selects this trial alone.

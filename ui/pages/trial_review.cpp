@@ -7,19 +7,19 @@
 #include "core/trial/fitness.h"
 #include "ui/charts/orientation_chart.h"
 #include "ui/models/numbers.h"
-#include "ui/pages/transport_bar.h"
+#include "ui/pages/playback_bar.h"
 
 namespace trapwright::pages {
 
 using session::SimulatedTrials;
 using session::StudySession;
-using work::TrialKind;
+using workflow::TrialKind;
 
 namespace {
 
 constexpr double kInterval = 1e-3;  // between the samples of a replay [s]
 
-bool isSame(const work::TrialsRequest& a, const work::TrialsRequest& b) {
+bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
     return a.kind == b.kind && a.poses == b.poses && a.winner.generation == b.winner.generation &&
            a.winner.individual == b.winner.individual;
 }
@@ -50,7 +50,7 @@ TrialReview::TrialReview(QObject* parent)
     : QObject(parent),
       player_(this),
       list_(new TrialList),
-      bar_(new TransportBar(player_)),
+      bar_(new PlaybackBar(player_)),
       orientation_(new charts::OrientationChart) {
     connect(list_, &TrialList::sourceChosen, this, &TrialReview::setSource);
     connect(list_, &TrialList::stopWanted, this, [this] {
@@ -63,7 +63,7 @@ TrialReview::TrialReview(QObject* parent)
         player_.setTime(0.0);
         player_.play();
     });
-    connect(bar_, &TransportBar::viewChanged, this, [this](const ReplayView& view) { scene_.setView(view); });
+    connect(bar_, &PlaybackBar::viewChanged, this, [this](const ReplayView& view) { scene_.setView(view); });
     connect(&player_, &ReplayPlayer::timeChanged, this, [this](double time) { scene_.showTime(time); });
     connect(orientation_, &charts::ChartPanel::failed, this, &TrialReview::failed);
     connect(&build_, &session::TrackBuild::built, this,
@@ -88,7 +88,7 @@ TrialList* TrialReview::list() const {
     return list_;
 }
 
-TransportBar* TrialReview::bar() const {
+PlaybackBar* TrialReview::bar() const {
     return bar_;
 }
 
@@ -109,7 +109,7 @@ void TrialReview::setSession(StudySession* session) {
     connect(session_, &StudySession::failed, this, [this] { list_->setTrials(list_->trials().rows(), 0); });
 }
 
-void TrialReview::setWinner(const std::optional<study::Winner>& winner) {
+void TrialReview::setWinner(const std::optional<study::Individual>& winner) {
     winner_ = winner;
     track_.reset();
     build_.cancel();
@@ -146,7 +146,8 @@ void TrialReview::setScene(scene::SceneView* scene) {
     wantTrials();
 }
 
-void TrialReview::goToTrials(const std::vector<int>& poses, const std::set<work::TrialVerdict>& verdicts) {
+void TrialReview::goToTrials(const std::vector<int>& poses,
+                             const std::set<workflow::TrialVerdict>& verdicts) {
     const auto wanted = std::find_if(sources_.begin(), sources_.end(), [&](const TrialSource& source) {
         const std::vector<int>& own = source.request.poses;
         return source.request.kind == TrialKind::validation && !poses.empty() &&
@@ -229,7 +230,7 @@ void TrialReview::wantTrials() {
     session_->simulateTrials(source.request);
 }
 
-bool TrialReview::isShown(const work::TrialsRequest& request) const {
+bool TrialReview::isShown(const workflow::TrialsRequest& request) const {
     return simulated_ && isSame(request, sources_[static_cast<std::size_t>(source_)].request);
 }
 
@@ -283,14 +284,14 @@ void TrialReview::wantReplays() {
     showReplays();
 }
 
-void TrialReview::takeReplay(const work::TrialsRequest& request, int trial,
+void TrialReview::takeReplay(const workflow::TrialsRequest& request, int trial,
                              const std::shared_ptr<const trial::Trajectory>& trajectory) {
     if (!isShown(request) || !track_) return;
     std::erase(requested_, trial);
     if (std::find(wanted_.begin(), wanted_.end(), trial) == wanted_.end()) return;
     const auto& rows = list_->trials().rows();
     const auto row = static_cast<std::size_t>(trial);
-    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : work::TrialVerdict::success,
+    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : workflow::TrialVerdict::success,
                         std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape)});
     showReplays();
     if (playWanted_ && trial == wanted_.front()) {

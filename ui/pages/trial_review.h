@@ -21,7 +21,7 @@ class OrientationChart;
 
 namespace trapwright::pages {
 
-class TransportBar;
+class PlaybackBar;
 
 /// The trials of one individual of a study: listed, replayed in the scene, and their orientations as a chart.
 /// Trials are simulated when they are to be seen.
@@ -33,13 +33,13 @@ class TrialReview : public QObject {
 
     /// Widgets for their places in the window, which owns them from then on.
     [[nodiscard]] TrialList* list() const;
-    [[nodiscard]] TransportBar* bar() const;
+    [[nodiscard]] PlaybackBar* bar() const;
     [[nodiscard]] charts::OrientationChart* orientation() const;
     [[nodiscard]] ReplayPlayer& player() { return player_; }
     [[nodiscard]] const ReplayScene& scene() const { return scene_; }
 
     void setSession(session::StudySession* session);
-    void setWinner(const std::optional<study::Winner>& winner);
+    void setWinner(const std::optional<study::Individual>& winner);
     /// Lists its trials anew, after a selection or validation added some.
     void refreshSources();
     /// Where replays are seen; null while they are not.
@@ -47,7 +47,7 @@ class TrialReview : public QObject {
 
     /// Lists the validation's trials of these poses that ended so, and plays the first of them as soon as it
     /// is known. One pose of several that look the same is listed alone.
-    void goToTrials(const std::vector<int>& poses, const std::set<work::TrialVerdict>& verdicts);
+    void goToTrials(const std::vector<int>& poses, const std::set<workflow::TrialVerdict>& verdicts);
 
  signals:
     void failed(const QString& what, const QString& message);
@@ -63,14 +63,14 @@ class TrialReview : public QObject {
                     double tolerance);
     void playFirstShown();
     void wantReplays();
-    void takeReplay(const work::TrialsRequest& request, int trial,
+    void takeReplay(const workflow::TrialsRequest& request, int trial,
                     const std::shared_ptr<const trial::Trajectory>& trajectory);
     void showReplays();
     void forgetTrials();
-    [[nodiscard]] bool isShown(const work::TrialsRequest& request) const;
+    [[nodiscard]] bool isShown(const workflow::TrialsRequest& request) const;
 
     QPointer<session::StudySession> session_;
-    std::optional<study::Winner> winner_;
+    std::optional<study::Individual> winner_;
     std::vector<TrialSource> sources_;
     int source_ = 0;
     bool visible_ = false;
@@ -86,7 +86,7 @@ class TrialReview : public QObject {
     ReplayPlayer player_;
     ReplayScene scene_;
     QPointer<TrialList> list_;
-    QPointer<TransportBar> bar_;
+    QPointer<PlaybackBar> bar_;
     QPointer<charts::OrientationChart> orientation_;
 };
 

@@ -42,7 +42,7 @@ void WinnerPictures::next() {
     while (generation_ < 0 && !wanted_.empty()) {
         const int generation = wanted_.front();
         wanted_.pop_front();
-        const study::Winner* winner = model_.winnerAt(model_.rowOf(generation));
+        const study::Individual* winner = model_.winnerAt(model_.rowOf(generation));
         if (winner == nullptr || model_.hasPicture(generation)) continue;
         generation_ = generation;
         build_.buildIndividual(settings_, winner->record.chromosome);

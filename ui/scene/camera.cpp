@@ -69,14 +69,6 @@ std::optional<QPointF> Camera::project(const Vec3& point, const QSizeF& screen) 
                    0.5 * screen.height() - seen.dot(up()) * pixelsPerMetre);
 }
 
-Ray rayThrough(const Camera& camera, const QPointF& place, const QSizeF& screen) {
-    const double scale = camera.metresPerPixel(screen);
-    const Vec3 offset = (place.x() - 0.5 * screen.width()) * scale * camera.right() -
-                        (place.y() - 0.5 * screen.height()) * scale * camera.up();
-    if (camera.parallel) return {camera.eye() + offset, camera.forward()};
-    return {camera.eye(), (camera.focus + offset - camera.eye()).normalized()};
-}
-
 Camera orbited(Camera camera, const QPointF& drag) {
     camera.azimuth = std::remainder(camera.azimuth - drag.x() * kTurnPerPixel, 2.0 * base::kPi);
     camera.elevation = std::clamp(camera.elevation + drag.y() * kTurnPerPixel, -kRightAngle, kRightAngle);

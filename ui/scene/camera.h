@@ -33,14 +33,6 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-/// A line of sight through the room.
-struct Ray {
-    base::Vec3 origin;
-    base::Vec3 direction;  // unit
-};
-
-Ray rayThrough(const Camera& camera, const QPointF& place, const QSizeF& screen);
-
 /// The camera turned by a drag of this many pixels; in perspective from then on.
 Camera orbited(Camera camera, const QPointF& drag);
 /// The camera moved so that what lies at the focus follows the drag.

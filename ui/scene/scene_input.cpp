@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "ui/scene/orbit_cube.h"
-#include "ui/scene/picking.h"
-#include "ui/scene/pose_row.h"
 #include "ui/scene/scene_view_state.h"
 
 namespace trapwright::scene {
@@ -56,37 +54,6 @@ void SceneView::State::makeActions() {
         addSwitch(SceneView::tr("Follow the part"), Qt::Key_C, [this](bool on) { view.setFollow(on); });
 }
 
-void SceneView::State::pick(const QPointF& place) {
-    const Ray ray = rayThrough(camera, place, screen());
-    double nearest = 1e300;
-    const auto isNearer = [&](const std::optional<Hit>& hit) {
-        if (!hit || hit->distance >= nearest) return false;
-        nearest = hit->distance;
-        return true;
-    };
-    int picked = -1;
-    if (contents.stablePoses) {
-        const PoseRow row = makePoseRow(*contents.stablePoses);
-        for (std::size_t i = 0; i < row.poses.size(); ++i) {
-            if (isNearer(findHit(contents.stablePoses->mesh, row.poses[i], ray)))
-                picked = row.groups[i].poses.front();
-        }
-        if (picked >= 0) emit view.stablePosePicked(picked);
-        return;
-    }
-    for (std::size_t i = 0; contents.part && i < contents.partPoses.size(); ++i) {
-        if (isNearer(findHit(contents.part->mesh, contents.partPoses[i], ray))) picked = static_cast<int>(i);
-    }
-    if (contents.track) {
-        const auto hit = findHit(contents.track->solid, base::Pose(), ray);
-        if (isNearer(hit)) {
-            emit view.trackPicked(hit->triangle, ray.origin + hit->distance * ray.direction);
-            return;
-        }
-    }
-    if (picked >= 0) emit view.partPicked(picked);
-}
-
 void SceneView::mousePressEvent(QMouseEvent* event) {
     state_->pressedAt = event->position();
     state_->lastMouse = event->position();
@@ -115,11 +82,7 @@ void SceneView::mouseMoveEvent(QMouseEvent* event) {
 void SceneView::mouseReleaseEvent(QMouseEvent* event) {
     State& state = *state_;
     if (state.dragged || event->button() != Qt::LeftButton) return;
-    if (const auto face = orbitCubeFaceAt(state.camera, state.screen(), event->position())) {
-        setView(*face);
-    } else {
-        state.pick(event->position());
-    }
+    if (const auto face = orbitCubeFaceAt(state.camera, state.screen(), event->position())) setView(*face);
 }
 
 void SceneView::mouseDoubleClickEvent(QMouseEvent* event) {

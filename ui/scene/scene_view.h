@@ -18,7 +18,7 @@ namespace trapwright::scene {
 /// The 3D scene: tracks, parts and what is known of their motion. Everything in it is a value set from
 /// outside; VTK stays behind it. Pictures are drawn in the background (SceneRenderer): the newest contents
 /// are seen as soon as they are drawn, and nothing waits for them. GUI thread only. Left drag turns, right or
-/// middle drag moves, the wheel zooms at the cursor; a click picks.
+/// middle drag moves, the wheel zooms at the cursor.
 class SceneView : public QWidget {
     Q_OBJECT
 
@@ -68,10 +68,6 @@ class SceneView : public QWidget {
     [[nodiscard]] QFuture<QImage> picture(QSize pixels, double pixelRatio = 1.0);
 
  signals:
-    void trackPicked(int triangle,
-                     trapwright::base::Vec3 point);  // triangle of the solid; point in the room [m]
-    void partPicked(int index);                      // of the pose
-    void stablePosePicked(int index);
     void failed(const QString& message);  // no OpenGL to draw with
 
  protected:

@@ -48,7 +48,6 @@ struct SceneView::State {
     /// A camera that the user chose.
     void moveTo(const Camera& wanted);
     void makeActions();
-    void pick(const QPointF& place);
 };
 
 }  // namespace trapwright::scene

@@ -9,7 +9,7 @@
 #include "core/drive/address.h"
 #include "core/drive/drive.h"
 #include "core/drive/profile.h"
-#include "core/work/study_engines.h"
+#include "core/workflow/study_engines.h"
 
 namespace trapwright::session {
 
@@ -32,8 +32,8 @@ struct DriveAccess {
 
 /// What the program hands to every study.
 struct Environment {
-    work::EngineMaker makeEngine;  // called on the threads that work
-    std::string program;           // name and version, noted in the study's file
+    workflow::EngineMaker makeEngine;  // called on the threads that work
+    std::string program;               // name and version, noted in the study's file
     /// Where a RecoveryNote is kept while a study learns; empty: none is.
     std::filesystem::path stateFolder{};
     DriveAccess drives{};

@@ -6,19 +6,19 @@ namespace trapwright::session {
 
 namespace {
 
-base::Result<std::optional<study::Winner>> readChosen(const store::StudyFile& file) {
+base::Result<std::optional<study::Individual>> readChosen(const store::StudyFile& file) {
     const auto place = file.loadChosenWinner();
     if (!place) return place.error();
-    if (!*place) return std::optional<study::Winner>();
+    if (!*place) return std::optional<study::Individual>();
     auto record = file.loadIndividual((*place)->generation, (*place)->individual);
     if (!record) return record.error();
-    return std::optional(study::Winner{(*place)->generation, (*place)->individual, std::move(*record)});
+    return std::optional(study::Individual{(*place)->generation, (*place)->individual, std::move(*record)});
 }
 
 }  // namespace
 
 base::Result<OpenedStudy> readStudy(store::StudyFile file) {
-    auto design = work::loadDesign(file);
+    auto design = workflow::loadDesign(file);
     if (!design) return design.error();
     auto summaries = file.loadSummaries();
     if (!summaries) return summaries.error();
@@ -52,7 +52,7 @@ base::Result<OpenedStudy> readStudy(store::StudyFile file) {
     return study;
 }
 
-base::Result<OpenedStudy> readNewStudy(store::StudyFile file, work::StudyDesign design) {
+base::Result<OpenedStudy> readNewStudy(store::StudyFile file, workflow::StudyDesign design) {
     auto reader = store::StudyFile::openReadOnly(file.path());
     if (!reader) return reader.error();
     auto ledger = file.openBeside();

@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "core/store/study_file.h"
 #include "core/study/records.h"
-#include "core/work/study_design.h"
+#include "core/workflow/study_design.h"
 
 namespace trapwright::session {
 
@@ -16,22 +16,22 @@ struct OpenedStudy {
     store::StudyFile file;    // open for writing
     store::StudyFile reader;  // the same study
     store::StudyFile ledger;  // likewise, opened beside `file`
-    work::StudyDesign design;
+    workflow::StudyDesign design;
     std::vector<study::GenerationSummary> summaries;
-    std::vector<study::Winner> winners;
+    std::vector<study::Individual> winners;
     std::vector<study::CheckRecord> checks;
     std::vector<study::SelectionRecord> selections;
     std::vector<study::ValidationRecord> validations;
     std::vector<study::PhysicalValidation> physicalValidations;
     std::vector<calibration::Calibration> calibrations;
     std::vector<study::DropRecord> dropTests;
-    std::optional<study::Winner> chosen;  // by the user
+    std::optional<study::Individual> chosen;  // by the user
 };
 
 /// Reads a study that is open for writing. May be called on any thread.
 base::Result<OpenedStudy> readStudy(store::StudyFile file);
 
 /// The same of a study that was just made of this design, whose part need not be built once more.
-base::Result<OpenedStudy> readNewStudy(store::StudyFile file, work::StudyDesign design);
+base::Result<OpenedStudy> readNewStudy(store::StudyFile file, workflow::StudyDesign design);
 
 }  // namespace trapwright::session

@@ -1,6 +1,6 @@
 #include "ui/session/part_import.h"
 
-#include "core/work/part_process.h"
+#include "core/workflow/part_process.h"
 
 namespace trapwright::session {
 
@@ -10,7 +10,7 @@ PartImport::~PartImport() {
     control_.cancel();
 }
 
-void PartImport::start(const work::PartRequest& request) {
+void PartImport::start(const workflow::PartRequest& request) {
     control_.cancel();
     control_ = {};
     task_.start([this, request, control = control_]() -> NewestTask::Deliver {
@@ -23,7 +23,7 @@ void PartImport::start(const work::PartRequest& request) {
                 },
                 Qt::QueuedConnection);
         };
-        auto loaded = work::importPartApart(request, control, tellStage);
+        auto loaded = workflow::importPartApart(request, control, tellStage);
         if (loaded) return [this, part = std::move(*loaded)] { emit finished(part); };
         return [this, request, why = loaded.error()] {
             if (!why.candidates.empty()) {

@@ -93,7 +93,7 @@ void PrintBuild::write(const std::shared_ptr<const PrintedTrack>& track, const s
         std::vector<geometry::TriangleMesh> solids;
         for (const track::PrintPiece& piece : track->pieces)
             solids.push_back(piece.solid);
-        const auto files = work::exportTrack(track->design, solids, path);
+        const auto files = workflow::exportTrack(track->design, solids, path);
         if (!files)
             return
                 [this, message = files.error().message] { emit notWritten(QString::fromStdString(message)); };

@@ -14,7 +14,7 @@
 #include "core/study/settings.h"
 #include "core/track/print_pieces.h"
 #include "core/track/track_file.h"
-#include "core/work/track_export.h"
+#include "core/workflow/track_export.h"
 #include "ui/session/newest_task.h"
 
 namespace trapwright::session {
@@ -67,7 +67,7 @@ class PrintBuild : public QObject {
     /// Nothing is heard any more of what build() was asked for.
     void cancel();
     /// Writes its pieces as STL, 3MF or STEP by the name, reads them back and checks them
-    /// (work::exportTrack).
+    /// (workflow::exportTrack).
     void write(const std::shared_ptr<const PrintedTrack>& track, const std::filesystem::path& path);
     [[nodiscard]] bool writing() const;
 
@@ -75,7 +75,7 @@ class PrintBuild : public QObject {
     void built(const std::shared_ptr<const trapwright::session::PrintedTrack>& track);
     /// `option` as in track::PrintProblem.
     void failed(const QString& option, const QString& message);
-    void written(const std::vector<trapwright::work::ExportedFile>& files);
+    void written(const std::vector<trapwright::workflow::ExportedFile>& files);
     void notWritten(const QString& message);
 
  private:

@@ -1,14 +1,14 @@
 #include "ui/session/study_curves.h"
 
 #include "core/trial/fitness.h"
-#include "core/work/study_design.h"
+#include "core/workflow/study_design.h"
 
 namespace trapwright::session {
 
 base::Result<StoredCurves> loadCurves(const std::filesystem::path& study) {
     const auto file = store::StudyFile::openReadOnly(study);
     if (!file) return file.error();
-    const auto design = work::loadDesign(*file);
+    const auto design = workflow::loadDesign(*file);
     if (!design) return design.error();
     auto summaries = file->loadSummaries();
     if (!summaries) return summaries.error();

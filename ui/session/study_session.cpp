@@ -65,9 +65,9 @@ base::Error StudySession::State::cannotRead() const {
 base::Result<study::StudyInputs> StudySession::State::makeInputs(const Environment& environment,
                                                                  const study::Settings& settings,
                                                                  std::shared_ptr<const part::Part> part,
-                                                                 work::EngineUse use, unsigned threads) {
+                                                                 workflow::EngineUse use, unsigned threads) {
     const unsigned count = threads == 0 ? base::availableThreads() : threads;
-    auto engine = environment.makeEngine(work::engineFor(settings.simulation.engine, use), {count, 0.0});
+    auto engine = environment.makeEngine(workflow::engineFor(settings.simulation.engine, use), {count, 0.0});
     if (!engine) return engine.error();
     return study::StudyInputs{settings, std::move(part), std::move(*engine), count};
 }
@@ -154,7 +154,7 @@ const std::vector<study::GenerationSummary>& StudySession::summaries() const {
     return state_->summaries;
 }
 
-const std::vector<study::Winner>& StudySession::winners() const {
+const std::vector<study::Individual>& StudySession::winners() const {
     return state_->winners;
 }
 
@@ -174,7 +174,7 @@ bool StudySession::isInPlace() const {
     return state_->reader && state_->reader->checkInPlace().ok();
 }
 
-std::optional<study::TrackSuccess> StudySession::findSuccess(const study::Winner& individual) const {
+std::optional<study::TrackSuccess> StudySession::findSuccess(const study::Individual& individual) const {
     std::vector<part::PoseGroup> groups;
     if (part() && !validations().empty()) groups = study::weighPoseGroups(*part(), settings());
     return study::findSuccess(selections(), validations(), individual, groups);
@@ -187,15 +187,15 @@ base::Result<study::GenerationRecord> StudySession::loadGeneration(int index) co
     return state_->reader->loadGeneration(index);
 }
 
-base::Result<study::Winner> StudySession::loadWinner(int generation, int individual) const {
+base::Result<study::Individual> StudySession::loadWinner(int generation, int individual) const {
     if (generation >= 0 && generation < static_cast<int>(state_->winners.size())) {
-        const study::Winner& winner = state_->winners[static_cast<std::size_t>(generation)];
+        const study::Individual& winner = state_->winners[static_cast<std::size_t>(generation)];
         if (winner.individual == individual) return winner;
     }
     if (!state_->reader) return state_->cannotRead();
     auto record = state_->reader->loadIndividual(generation, individual);
     if (!record) return record.error();
-    return study::Winner{generation, individual, std::move(*record)};
+    return study::Individual{generation, individual, std::move(*record)};
 }
 
 const std::vector<std::string>& StudySession::problems() const {

@@ -23,8 +23,8 @@
 #include "core/study/selection.h"
 #include "core/study/settings.h"
 #include "core/trial/outcome.h"
-#include "core/work/failure.h"
-#include "core/work/study_trials.h"
+#include "core/workflow/failure.h"
+#include "core/workflow/study_trials.h"
 #include "ui/session/environment.h"
 #include "ui/session/part_import.h"
 #include "ui/session/run_state.h"
@@ -37,10 +37,10 @@ struct PartVersion;
 
 /// Trials that were simulated again, and how each is counted.
 struct SimulatedTrials {
-    work::TrialsRequest request;
+    workflow::TrialsRequest request;
     int wanted = 0;                        // in the end
     std::vector<trial::Outcome> outcomes;  // slot i for trial i
-    work::JudgedTrials judged;             // likewise
+    workflow::JudgedTrials judged;         // likewise
 };
 
 /// Learning cut down to what a user waits for.
@@ -92,23 +92,23 @@ class StudySession : public QObject {
 
     /// Of all generations that are saved, in their order.
     [[nodiscard]] const std::vector<study::GenerationSummary>& summaries() const;
-    [[nodiscard]] const std::vector<study::Winner>& winners() const;
+    [[nodiscard]] const std::vector<study::Individual>& winners() const;
     /// In the order in which they were made.
     [[nodiscard]] const std::vector<study::CheckRecord>& checks() const;
     /// Oldest first.
     [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
     [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
     /// What is known of the success of an individual (study::findSuccess).
-    [[nodiscard]] std::optional<study::TrackSuccess> findSuccess(const study::Winner& individual) const;
+    [[nodiscard]] std::optional<study::TrackSuccess> findSuccess(const study::Individual& individual) const;
     /// Read from the file, unless it is the newest generation or a winner.
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
-    [[nodiscard]] base::Result<study::Winner> loadWinner(int generation, int individual) const;
+    [[nodiscard]] base::Result<study::Individual> loadWinner(int generation, int individual) const;
 
     /// The track that is exported and printed in the end: the user's choice, which is kept in the study, else
     /// the best of the last selection, else the best winner (study::findBestWinner). None without
     /// generations.
-    [[nodiscard]] std::optional<study::Winner> chosen() const;
-    void choose(const study::Winner& individual);
+    [[nodiscard]] std::optional<study::Individual> chosen() const;
+    void choose(const study::Individual& individual);
 
     /// Validations on the real feeder, oldest first; number = place in the list. What is added here and below
     /// is saved at once by a thread of its own, also while the study learns. What cannot be saved is told by
@@ -179,7 +179,7 @@ class StudySession : public QObject {
     void startSelection();
     /// The table of one individual, into validations(). `expected`: the orientation that counts as success,
     /// if not the most frequent one.
-    void startValidation(const study::Winner& winner,
+    void startValidation(const study::Individual& winner,
                          const std::optional<base::Quaternion>& expected = std::nullopt);
     /// Drops the part (study::simulateDrops) with the engine that judges. Others have their turn meanwhile,
     /// and it goes on while the study learns. Ends with dropsChanged(), after which the test is in dropTest()
@@ -195,9 +195,9 @@ class StudySession : public QObject {
     [[nodiscard]] std::optional<study::DropRecord> dropTest() const;
     /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed(); until
     /// then trialsArrived() tells the first ones. A replay need not wait for the last one.
-    void simulateTrials(const work::TrialsRequest& request);
+    void simulateTrials(const workflow::TrialsRequest& request);
     /// Poses of one of these trials every `interval` seconds. Ends with replayed() or failed().
-    void replay(const work::TrialsRequest& request, int trial, double interval);
+    void replay(const workflow::TrialsRequest& request, int trial, double interval);
     /// Nothing is heard of what simulateTrials() and replay() were asked for so far.
     void cancelSimulations();
     /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
@@ -206,8 +206,8 @@ class StudySession : public QObject {
     void requestEstimate();
     /// The last estimate [s]; 0 if there is none for the present settings, or nothing is left.
     [[nodiscard]] double estimatedSeconds() const;
-    /// What can be learned in less than ten minutes (work::draftEvolution). None before the estimate, once
-    /// there are generations, or where nothing useful fits.
+    /// What can be learned in less than ten minutes (workflow::draftEvolution). None before the estimate,
+    /// once there are generations, or where nothing useful fits.
     [[nodiscard]] std::optional<LearningDraft> draft() const;
 
     /// Whether the study's file is where it was. If it was deleted or replaced, nothing more can be saved in
@@ -239,7 +239,7 @@ class StudySession : public QObject {
     /// The first trials of those that are being simulated, and what they count as by what is known so far.
     void trialsArrived(const trapwright::session::SimulatedTrials& trials);
     void trialsSimulated(const trapwright::session::SimulatedTrials& trials);
-    void replayed(const trapwright::work::TrialsRequest& request, int trial,
+    void replayed(const trapwright::workflow::TrialsRequest& request, int trial,
                   const std::shared_ptr<const trapwright::trial::Trajectory>& trajectory);
     /// 0: the estimate before does not hold any more.
     void estimated(double seconds);
@@ -261,10 +261,11 @@ class StudySession : public QObject {
     void note(StudyLedger::Note note);
     void tellNotNoted(const std::string& message);
 
-    void startRun(RunState kind, const QString& what, std::function<std::optional<work::Failure>(Run&)> work);
-    void endRun(const std::optional<work::Failure>& failure);
-    std::optional<work::Failure> learn(Run& run, const study::Settings& settings,
-                                       const std::shared_ptr<const part::Part>& part, unsigned threads);
+    void startRun(RunState kind, const QString& what,
+                  std::function<std::optional<workflow::Failure>(Run&)> work);
+    void endRun(const std::optional<workflow::Failure>& failure);
+    std::optional<workflow::Failure> learn(Run& run, const study::Settings& settings,
+                                           const std::shared_ptr<const part::Part>& part, unsigned threads);
     void goOn();
     void setActivity(RunState activity);
     void tellState();
@@ -272,7 +273,7 @@ class StudySession : public QObject {
     struct Simulation;
     using Deliver = base::Result<std::function<void()>>;  // to be called in the GUI thread
     using Simulate = std::function<Deliver(const std::shared_ptr<const Simulation>&)>;
-    void makeAgain(const QString& what, const work::TrialsRequest& request, unsigned threads,
+    void makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
                    Simulate simulate);
     Deliver simulateSome(const std::shared_ptr<const Simulation>& simulation, SimulatedTrials trials);
     void postSimulation(const QString& what, const base::RunControl& control,

@@ -3,17 +3,17 @@
 
 namespace trapwright::session {
 
-std::optional<study::Winner> StudySession::chosen() const {
+std::optional<study::Individual> StudySession::chosen() const {
     if (state_->chosen) return state_->chosen;
     if (!state_->selections.empty() && !state_->selections.back().entries.empty()) {
         const study::SelectionEntry& best = state_->selections.back().entries.front();
         if (auto winner = loadWinner(best.generation, best.individual)) return *winner;
     }
-    if (const study::Winner* best = study::findBestWinner(state_->winners)) return *best;
+    if (const study::Individual* best = study::findBestWinner(state_->winners)) return *best;
     return std::nullopt;
 }
 
-void StudySession::choose(const study::Winner& individual) {
+void StudySession::choose(const study::Individual& individual) {
     state_->chosen = individual;
     const store::IndividualPlace place{individual.generation, individual.individual};
     note([place](store::StudyFile& file) { return file.chooseWinner(place); });

@@ -1,4 +1,4 @@
-#include "core/work/estimate.h"
+#include "core/workflow/estimate.h"
 #include "ui/session/study_session_state.h"
 
 namespace trapwright::session {
@@ -66,7 +66,7 @@ void StudySession::applySettings(const study::Settings& settings) {
     state_->settings.part = before.part;
     study::takePoseWeights(state_->settings.part, settings.part);
     state_->part.settings = state_->settings.part;
-    if (!work::costTheSame(before, state_->settings)) state_->forgetCost();
+    if (!workflow::costTheSame(before, state_->settings)) state_->forgetCost();
     if (state_->run) state_->run->learning.setGenerations(settings.evolution.generations);
     saveDesign(nullptr);
     emit settingsChanged();

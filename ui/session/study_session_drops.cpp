@@ -38,8 +38,8 @@ void StudySession::startDrops(const study::DropSettings& settings) {
     const unsigned threads = state_->threads == 0 ? base::availableThreads() : state_->threads;
     dropSome(std::make_shared<const Dropping>(
         Dropping{settings, state_->part.part,
-                 work::engineFor(state_->settings.simulation.engine, work::EngineUse::judging), threads,
-                 state_->dropping}));
+                 workflow::engineFor(state_->settings.simulation.engine, workflow::EngineUse::judging),
+                 threads, state_->dropping}));
     emit dropsChanged();
 }
 

@@ -104,7 +104,8 @@ void StudySession::requestSpeedTable() {
         tr("The conveying speeds could not be simulated"), state_->speedTable,
         [this, settings = calibratedSettings(calibrationChanges(0.0)), part = state_->part.part,
          control = state_->speedTable]() -> Deliver {
-            const std::string name = work::engineFor(settings.simulation.engine, work::EngineUse::learning);
+            const std::string name =
+                workflow::engineFor(settings.simulation.engine, workflow::EngineUse::learning);
             auto engine = state_->environment.makeEngine(name, {1, 0.0});
             if (!engine) return engine.error();
             verify::ConveyingScene scene;

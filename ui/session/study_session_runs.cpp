@@ -1,5 +1,5 @@
-#include "core/work/judging.h"
-#include "core/work/learning.h"
+#include "core/workflow/judging.h"
+#include "core/workflow/learning.h"
 #include "ui/session/recovery_note.h"
 #include "ui/session/study_session_state.h"
 
@@ -7,10 +7,10 @@ namespace trapwright::session {
 
 namespace {
 
-using Failed = std::optional<work::Failure>;
+using Failed = std::optional<workflow::Failure>;
 
 Failed settingsFailure(const base::Error& error) {
-    return work::Failure{work::FailureKind::settings, error.message};
+    return workflow::Failure{workflow::FailureKind::settings, error.message};
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ void StudySession::endRun(const Failed& failure) {
     const std::shared_ptr<Run> run = std::exchange(state_->run, nullptr);
     state_->tick.stop();
     // Before the state: that a run failed is told while the study is at work.
-    if (failure && failure->kind != work::FailureKind::cancelled)
+    if (failure && failure->kind != workflow::FailureKind::cancelled)
         emit failed(run->what, QString::fromStdString(failure->message));
     setActivity(RunState::idle);
 }
@@ -105,23 +105,23 @@ void StudySession::startLearning() {
               threads = state_->threads](Run& run) { return learn(run, settings, part, threads); });
 }
 
-std::optional<work::Failure> StudySession::learn(Run& run, const study::Settings& settings,
-                                                 const std::shared_ptr<const part::Part>& part,
-                                                 unsigned threads) {
+std::optional<workflow::Failure> StudySession::learn(Run& run, const study::Settings& settings,
+                                                     const std::shared_ptr<const part::Part>& part,
+                                                     unsigned threads) {
     const RecoveryNote note(state_->environment.stateFolder, state_->writer.file().path());
-    const work::EngineMaker& makeEngine = state_->environment.makeEngine;
+    const workflow::EngineMaker& makeEngine = state_->environment.makeEngine;
     const auto inputs =
-        State::makeInputs(state_->environment, settings, part, work::EngineUse::learning, threads);
+        State::makeInputs(state_->environment, settings, part, workflow::EngineUse::learning, threads);
     if (!inputs) return settingsFailure(inputs.error());
 
-    work::LearnEvents events;
+    workflow::LearnEvents events;
     events.planned = [this](const study::GenerationPlan& plan) {
         tell(this, [this, plan] { state_->run->plan = plan; });
     };
     events.saved = [this](const study::GenerationRecord& record) {
         const study::GenerationSummary summary = study::summarize(record);
-        const study::Winner winner{record.index, record.winner,
-                                   record.individuals[static_cast<std::size_t>(record.winner)]};
+        const study::Individual winner{record.index, record.winner,
+                                       record.individuals[static_cast<std::size_t>(record.winner)]};
         tell(this, [this, summary, winner, kept = std::make_shared<const study::GenerationRecord>(record)] {
             state_->summaries.push_back(summary);
             state_->winners.push_back(winner);
@@ -136,16 +136,16 @@ std::optional<work::Failure> StudySession::learn(Run& run, const study::Settings
             emit checkSaved(check.generation);
         });
     };
-    const auto report = work::learn(state_->writer.file(), *inputs, makeEngine, events, run.learning);
+    const auto report = workflow::learn(state_->writer.file(), *inputs, makeEngine, events, run.learning);
     if (!report) return report.error();
     // Who asked to stop did not ask for the checks that are left.
     if (report->end != study::LearningEnd::completed || run.learning.stopRequested()) return std::nullopt;
-    tell(this, [this, total = work::countCheckTrials(report->unchecked)] {
+    tell(this, [this, total = workflow::countCheckTrials(report->unchecked)] {
         state_->run->plan.reset();
         state_->run->total = total;
     });
-    const auto checked = work::checkWinners(state_->writer.file(), *inputs, makeEngine, report->unchecked,
-                                            events.checked, run.trials);
+    const auto checked = workflow::checkWinners(state_->writer.file(), *inputs, makeEngine, report->unchecked,
+                                                events.checked, run.trials);
     if (!checked) return checked.error();
     return std::nullopt;
 }
@@ -154,13 +154,14 @@ void StudySession::startSelection() {
     const auto work = [this, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            State::makeInputs(state_->environment, settings, part, work::EngineUse::judging, threads);
+            State::makeInputs(state_->environment, settings, part, workflow::EngineUse::judging, threads);
         if (!inputs) return settingsFailure(inputs.error());
-        auto candidates = work::findCandidates(state_->writer.file(), *inputs);
+        auto candidates = workflow::findCandidates(state_->writer.file(), *inputs);
         if (!candidates) return candidates.error();
         tell(this, [this, count = static_cast<std::int64_t>(candidates->size()),
                     each = settings.validation.selectionTrials] { state_->run->total = count * each; });
-        auto record = work::selectAndSave(state_->writer.file(), *inputs, std::move(*candidates), run.trials);
+        auto record =
+            workflow::selectAndSave(state_->writer.file(), *inputs, std::move(*candidates), run.trials);
         if (!record) return record.error();
         tell(this, [this, record = std::move(*record)] {
             state_->selections.push_back(record);
@@ -171,15 +172,15 @@ void StudySession::startSelection() {
     startRun(RunState::selecting, tr("The winners could not be compared"), work);
 }
 
-void StudySession::startValidation(const study::Winner& winner,
+void StudySession::startValidation(const study::Individual& winner,
                                    const std::optional<base::Quaternion>& expected) {
     const auto work = [this, winner, expected, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            State::makeInputs(state_->environment, settings, part, work::EngineUse::judging, threads);
+            State::makeInputs(state_->environment, settings, part, workflow::EngineUse::judging, threads);
         if (!inputs) return settingsFailure(inputs.error());
-        tell(this, [this, total = work::countValidationTrials(*inputs)] { state_->run->total = total; });
-        auto record = work::validateAndSave(state_->writer.file(), *inputs, winner, expected, run.trials);
+        tell(this, [this, total = workflow::countValidationTrials(*inputs)] { state_->run->total = total; });
+        auto record = workflow::validateAndSave(state_->writer.file(), *inputs, winner, expected, run.trials);
         if (!record) return record.error();
         tell(this, [this, record = std::move(*record)] {
             state_->validations.push_back(record);

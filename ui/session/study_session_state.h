@@ -13,7 +13,7 @@
 #include "core/base/run_control.h"
 #include "core/study/evaluator.h"
 #include "core/study/learning_control.h"
-#include "core/work/study_engines.h"
+#include "core/workflow/study_engines.h"
 #include "ui/session/design_commands.h"
 #include "ui/session/opened_study.h"
 #include "ui/session/study_session.h"
@@ -50,7 +50,7 @@ struct StudySession::Run {
 struct StudySession::Simulation {
     study::Settings settings;
     std::shared_ptr<const part::Part> part;
-    work::StoredTrials stored;
+    workflow::StoredTrials stored;
     trial::TrialBatch batch;
     std::shared_ptr<const trial::Engine> engine;
     base::RunControl control;
@@ -65,7 +65,7 @@ struct StudySession::State {
     study::Settings settings;
     PartVersion part;
     std::vector<study::GenerationSummary> summaries;
-    std::vector<study::Winner> winners;
+    std::vector<study::Individual> winners;
     std::shared_ptr<const study::GenerationRecord> newest;  // that was saved since the study was opened
     std::vector<study::CheckRecord> checks;
     std::vector<study::SelectionRecord> selections;
@@ -73,7 +73,7 @@ struct StudySession::State {
     std::vector<study::PhysicalValidation> physicalValidations;
     std::vector<calibration::Calibration> calibrations;
     std::vector<study::DropRecord> dropTests;
-    std::optional<study::Winner> chosen;  // by the user
+    std::optional<study::Individual> chosen;  // by the user
     std::vector<std::string> problems;
     std::vector<std::string> recommendations;
     std::optional<store::StudyFile> reader;
@@ -110,7 +110,8 @@ struct StudySession::State {
     [[nodiscard]] static base::Result<study::StudyInputs> makeInputs(const Environment& environment,
                                                                      const study::Settings& settings,
                                                                      std::shared_ptr<const part::Part> part,
-                                                                     work::EngineUse use, unsigned threads);
+                                                                     workflow::EngineUse use,
+                                                                     unsigned threads);
 };
 
 /// Has the GUI thread call `act`, unless the session is gone by then.

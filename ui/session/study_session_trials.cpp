@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "core/work/estimate.h"
+#include "core/workflow/estimate.h"
 #include "ui/session/study_session_state.h"
 
 namespace trapwright::session {
@@ -21,25 +21,26 @@ QString trialsFailed() {
 }  // namespace
 
 /// Finds the trials and has `simulate` called on the thread that makes them again.
-void StudySession::makeAgain(const QString& what, const work::TrialsRequest& request, unsigned threads,
+void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
                              Simulate simulate) {
     if (!state_->reader) {
         emit failed(what, QString::fromStdString(state_->cannotRead().message));
         return;
     }
-    auto stored = work::findStoredTrials(*state_->reader, state_->settings, request);
+    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, request);
     if (!stored || (stored->count == 0 && request.count == 0)) {
         emit failed(what, stored ? noTrials() : QString::fromStdString(stored.error().message));
         return;
     }
     if (stored->engine.empty())
-        stored->engine = work::engineFor(state_->settings.simulation.engine, work::EngineUse::judging);
+        stored->engine =
+            workflow::engineFor(state_->settings.simulation.engine, workflow::EngineUse::judging);
     if (!request.engine.empty()) stored->engine = request.engine;
     postSimulation(
         what, state_->simulated,
         [this, request, threads, stored = std::move(*stored), simulate = std::move(simulate),
          settings = state_->settings, part = state_->part.part, control = state_->simulated]() -> Deliver {
-            auto batch = work::makeTrials(settings, part, request, stored);
+            auto batch = workflow::makeTrials(settings, part, request, stored);
             if (!batch) return batch.error();
             auto engine = state_->environment.makeEngine(stored.engine, {threads, 0.0});
             if (!engine) return engine.error();
@@ -69,7 +70,7 @@ void StudySession::postSimulation(const QString& what, const base::RunControl& c
     });
 }
 
-void StudySession::simulateTrials(const work::TrialsRequest& request) {
+void StudySession::simulateTrials(const workflow::TrialsRequest& request) {
     makeAgain(trialsFailed(), request, state_->threads,
               [this, request](const std::shared_ptr<const Simulation>& simulation) {
                   SimulatedTrials trials;
@@ -90,8 +91,9 @@ StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Sim
     const auto outcomes = study::runTrials(*simulation->engine, {&batch, 1}, simulation->control);
     if (!outcomes) return outcomes.error();
     trials.outcomes.insert(trials.outcomes.end(), outcomes->front().begin(), outcomes->front().end());
-    trials.judged = work::judgeTrials(trials.outcomes, simulation->part->symmetry,
-                                      simulation->stored.expected, simulation->settings.validation.tolerance);
+    trials.judged =
+        workflow::judgeTrials(trials.outcomes, simulation->part->symmetry, simulation->stored.expected,
+                              simulation->settings.validation.tolerance);
     return std::function([this, simulation, trials = std::move(trials)] {
         if (static_cast<int>(trials.outcomes.size()) == trials.wanted) {
             emit trialsSimulated(trials);
@@ -105,7 +107,7 @@ StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Sim
     });
 }
 
-void StudySession::replay(const work::TrialsRequest& request, int trial, double interval) {
+void StudySession::replay(const workflow::TrialsRequest& request, int trial, double interval) {
     makeAgain(
         tr("The trial could not be replayed"), request, 1,
         [this, request, trial, interval](const std::shared_ptr<const Simulation>& simulation) -> Deliver {
@@ -138,9 +140,9 @@ void StudySession::requestEstimate() {
                               part = state_->part.part, threads = state_->threads] {
         if (control.cancelled()) return;
         const auto inputs =
-            State::makeInputs(state_->environment, settings, part, work::EngineUse::learning, threads);
+            State::makeInputs(state_->environment, settings, part, workflow::EngineUse::learning, threads);
         if (!inputs) return;
-        const auto seconds = work::timeTrial(*inputs, kEstimateBudget, control);
+        const auto seconds = workflow::timeTrial(*inputs, kEstimateBudget, control);
         if (!seconds) return;
         tell(this, [this, control, seconds = *seconds] {
             if (control.cancelled()) return;
@@ -153,15 +155,15 @@ void StudySession::requestEstimate() {
 double StudySession::estimatedSeconds() const {
     const study::EvolutionSettings& evolution = state_->settings.evolution;
     const int left = evolution.generations - static_cast<int>(state_->summaries.size());
-    return work::learningTime(evolution, std::max(left, 0), state_->secondsPerTrial);
+    return workflow::learningTime(evolution, std::max(left, 0), state_->secondsPerTrial);
 }
 
 std::optional<LearningDraft> StudySession::draft() const {
     if (state_->secondsPerTrial <= 0.0 || !state_->summaries.empty()) return std::nullopt;
-    const auto evolution = work::draftEvolution(state_->settings.evolution, state_->secondsPerTrial);
+    const auto evolution = workflow::draftEvolution(state_->settings.evolution, state_->secondsPerTrial);
     if (!evolution) return std::nullopt;
     return LearningDraft{*evolution,
-                         work::learningTime(*evolution, evolution->generations, state_->secondsPerTrial)};
+                         workflow::learningTime(*evolution, evolution->generations, state_->secondsPerTrial)};
 }
 
 }  // namespace trapwright::session

@@ -172,7 +172,7 @@ void MainWindow::connectPage(pages::Page& page) {
     connect(&page, &pages::Page::pageWanted, this, &MainWindow::showPage);
     connect(&page, &pages::Page::panelWanted, this,
             [this, &page](const QString& panel) { docks_->bringToFront(page, panel); });
-    connect(&page, &pages::Page::studyWanted, this, [this](const work::LoadedPart& part) {
+    connect(&page, &pages::Page::studyWanted, this, [this](const workflow::LoadedPart& part) {
         whenClosable([this, part] {
             report(tr("No study can be made"), desk_.createDraft(part));
             showPage(std::exchange(pageAfterImport_, kFirstPage));

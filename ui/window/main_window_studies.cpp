@@ -121,12 +121,12 @@ void MainWindow::openExample(const QString& name, bool learn, const std::functio
     whenClosable([this, name, learn, afterwards] {
         auto* import = new session::PartImport(this);
         connect(import, &session::PartImport::failed, this,
-                [this, import](const work::PartRequest&, const QString& message) {
+                [this, import](const workflow::PartRequest&, const QString& message) {
                     import->deleteLater();
                     fail(tr("The example cannot be opened"), message);
                 });
         connect(import, &session::PartImport::finished, this,
-                [this, import, learn, afterwards](const work::LoadedPart& part) {
+                [this, import, learn, afterwards](const workflow::LoadedPart& part) {
                     import->deleteLater();
                     const base::Status created = desk_.createDraft(part);
                     report(tr("The example cannot be opened"), created);

@@ -168,9 +168,9 @@ void StatusLine::update() {
 
 /// Of the final track: until one is chosen that is the best winner.
 void StatusLine::updateSuccess() {
-    const study::Winner* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
+    const study::Individual* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
     const auto chosen = session_ ? session_->chosen() : std::nullopt;
-    const study::Winner* shown = chosen ? &*chosen : best;
+    const study::Individual* shown = chosen ? &*chosen : best;
     const auto success = shown != nullptr ? session_->findSuccess(*shown) : std::nullopt;
     success_->setVisible(success.has_value());
     if (!success) return;

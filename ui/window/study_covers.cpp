@@ -13,7 +13,7 @@
 
 #include "core/study/pose_weights.h"
 #include "core/study/selection.h"
-#include "core/work/study_design.h"
+#include "core/workflow/study_design.h"
 #include "ui/look/text.h"
 #include "ui/scene/picture_maker.h"
 #include "ui/scene/when_ready.h"
@@ -36,8 +36,8 @@ QString cacheFolder() {
 }
 
 /// The final track: chosen, else the best of the last comparison, else the best winner.
-std::optional<study::Winner> findTrack(const store::StudyFile& file,
-                                       const std::vector<study::SelectionRecord>& selections) {
+std::optional<study::Individual> findTrack(const store::StudyFile& file,
+                                           const std::vector<study::SelectionRecord>& selections) {
     std::optional<store::IndividualPlace> place;
     if (!selections.empty() && !selections.back().entries.empty()) {
         const study::SelectionEntry& best = selections.back().entries.front();
@@ -46,22 +46,22 @@ std::optional<study::Winner> findTrack(const store::StudyFile& file,
     if (const auto chosen = file.loadChosenWinner(); chosen && *chosen) place = **chosen;
     if (place) {
         const auto record = file.loadIndividual(place->generation, place->individual);
-        if (record) return study::Winner{place->generation, place->individual, *record};
+        if (record) return study::Individual{place->generation, place->individual, *record};
     }
     const auto winners = file.loadWinners();
     if (!winners) return std::nullopt;
-    const study::Winner* best = study::findBestWinner(*winners);
+    const study::Individual* best = study::findBestWinner(*winners);
     return best != nullptr ? std::optional(*best) : std::nullopt;
 }
 
 std::optional<StudyCover::Success> readSuccess(const store::StudyFile& file,
                                                std::span<const study::SelectionRecord> selections,
                                                std::span<const study::ValidationRecord> validations,
-                                               const study::Winner& track) {
+                                               const study::Individual& track) {
     std::vector<part::PoseGroup> groups;
     // The part is made anew for its poses, which only a validation needs.
     if (!validations.empty()) {
-        if (const auto design = work::loadDesign(file))
+        if (const auto design = workflow::loadDesign(file))
             groups = study::weighPoseGroups(*design->part, design->settings);
     }
     const auto success = study::findSuccess(selections, validations, track, groups);

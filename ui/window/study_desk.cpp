@@ -24,7 +24,7 @@ bool isInDrafts(const std::filesystem::path& file) {
 }
 
 /// What a new study of this part begins with: Table 1, of the column that is the part's own if it has one.
-base::Result<study::Settings> firstSettings(const work::LoadedPart& part) {
+base::Result<study::Settings> firstSettings(const workflow::LoadedPart& part) {
     auto settings = study::presetSettings(part.settings.file == "cone" ? "cone" : "cuboid");
     if (settings) settings->part = part.settings;
     return settings;
@@ -72,7 +72,7 @@ QStringList StudyDesk::forgottenDrafts() const {
     return drafts;
 }
 
-base::Status StudyDesk::createDraft(const work::LoadedPart& part) {
+base::Status StudyDesk::createDraft(const workflow::LoadedPart& part) {
     auto settings = firstSettings(part);
     if (!settings) return settings.error();
     const auto path = newDraftPath(part.part->name);

@@ -43,7 +43,7 @@ class StudyDesk : public QObject {
 
     /// Opens it in the background, then tells whether that went well.
     void open(const std::filesystem::path& file, const std::function<void(const base::Status&)>& opened);
-    base::Status createDraft(const work::LoadedPart& part);
+    base::Status createDraft(const workflow::LoadedPart& part);
     base::Status forkToDraft();
     /// Deletes a draft's file if `keepDraft` is false.
     void close(bool keepDraft);

@@ -31,7 +31,7 @@ inline Motion select(Mask mask, const Motion& yes, const Motion& no) {
 }
 
 /// A contact at the begin of a step. Zeros with a positive gap are a contact that does nothing.
-struct Touch {
+struct MovingContact {
     Triple arm;                  // from the centre of mass to the point [m]
     Triple normal;               // unit, track -> part
     Real gap;                    // [m]
@@ -45,7 +45,7 @@ struct Touch {
 };
 
 /// A contact's constraint: Jacobian rows and what is to be solved for.
-struct Row {
+struct ContactConstraint {
     Triple axis[3];  // normal and two tangents
     Triple turn[3];  // scaled arm x axis
     Real track[3];   // velocity of the track along the axes, mean over the step
@@ -64,7 +64,7 @@ struct Row {
     Mask sliding;
 };
 
-inline Real velocityAlong(const Row& row, const Motion& motion, int k) {
+inline Real velocityAlong(const ContactConstraint& row, const Motion& motion, int k) {
     const Real moving = mulAdd(
         row.axis[k].x, motion.velocity.x,
         mulAdd(row.axis[k].y, motion.velocity.y, mulAdd(row.axis[k].z, motion.velocity.z, -row.track[k])));
@@ -72,15 +72,15 @@ inline Real velocityAlong(const Row& row, const Motion& motion, int k) {
                   mulAdd(row.turn[k].y, motion.spin.y, mulAdd(row.turn[k].z, motion.spin.z, moving)));
 }
 
-inline void push(const Row& row, Motion& motion, int k, Real impulse) {
+inline void applyImpulse(const ContactConstraint& row, Motion& motion, int k, Real impulse) {
     motion.velocity = mulAdd(impulse, row.axis[k], motion.velocity);
     motion.spin = mulAdd(impulse, row.turn[k], motion.spin);
 }
 
 /// `scale`: S^T in the axes of the contacts. before: motion in the step before. free: before plus what
 /// gravity and gyroscopic torque add in this step. dt [s].
-inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const Motion& before,
-                       const Motion& free, const Law& law, Real dt) {
+inline void prepareConstraint(ContactConstraint& row, const MovingContact& touch, const Matrix& scale,
+                              const Motion& before, const Motion& free, const Law& law, Real dt) {
     row.gap = touch.gap;
     row.axis[0] = touch.normal;
     // Any tangents will do, as long as the same normal always gives the same ones.
@@ -137,12 +137,12 @@ inline void prepareRow(Row& row, const Touch& touch, const Matrix& scale, const 
 
 /// Changes the rows' impulses until all targets are met; returns the motion that they lead to from
 /// `freeMotion`. Lanes of `frozen` keep their impulses.
-inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask frozen) {
+inline Motion iterate(ContactConstraint* rows, int count, const Motion& freeMotion, Mask frozen) {
     Motion motion = freeMotion;
     for (int i = 0; i < count; ++i) {
-        push(rows[i], motion, 0, rows[i].normal);
-        push(rows[i], motion, 1, rows[i].tangential.x);
-        push(rows[i], motion, 2, rows[i].tangential.y);
+        applyImpulse(rows[i], motion, 0, rows[i].normal);
+        applyImpulse(rows[i], motion, 1, rows[i].tangential.x);
+        applyImpulse(rows[i], motion, 2, rows[i].tangential.y);
     }
     const Real tolerance =
         Real(kVelocityTolerance * kVelocityTolerance) +
@@ -151,12 +151,12 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
     for (int iteration = 0; iteration < kMaxIterations && !all(done); ++iteration) {
         Real change = Real(0.0);  // of velocity, squared
         for (int i = 0; i < count; ++i) {
-            Row& row = rows[iteration % 2 == 0 ? i : count - 1 - i];
+            ContactConstraint& row = rows[iteration % 2 == 0 ? i : count - 1 - i];
             const Real normal =
                 max(Real(0.0), row.normal + (row.target - velocityAlong(row, motion, 0)) * row.normalMass);
             const Real step = select(done, Real(0.0), normal - row.normal);
             row.normal = row.normal + step;
-            push(row, motion, 0, step);
+            applyImpulse(row, motion, 0, step);
             const Real normalChange = step * row.normalInverse;
             change = max(change, normalChange * normalChange);
 
@@ -173,8 +173,8 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
                 select(done, Pair{Real(0.0), Real(0.0)}, row.tangentMass * friction.change - row.tangential);
             row.sliding = (done && row.sliding) || (!done && friction.sliding);
             row.tangential = row.tangential + tangentialStep;
-            push(row, motion, 1, tangentialStep.x);
-            push(row, motion, 2, tangentialStep.y);
+            applyImpulse(row, motion, 1, tangentialStep.x);
+            applyImpulse(row, motion, 2, tangentialStep.y);
             const Pair slipChange = row.tangentInverse * tangentialStep;
             change = max(change, dot(slipChange, slipChange));
         }
@@ -184,14 +184,14 @@ inline Motion iterate(Row* rows, int count, const Motion& freeMotion, Mask froze
 }
 
 /// Solves for the impulses of all rows.
-inline Motion solve(Row* rows, int count, const Motion& free) {
+inline Motion solve(ContactConstraint* rows, int count, const Motion& free) {
     Motion motion = iterate(rows, count, free, Real(0.0) > Real(1.0));
 
     // Newton's restitution at several places at once may create energy: such an impact is taken as plastic.
     Mask impact = Real(0.0) > Real(1.0);
     Real work = Real(0.0);
     for (int i = 0; i < count; ++i) {
-        const Row& row = rows[i];
+        const ContactConstraint& row = rows[i];
         impact = impact || row.target > Real(0.0);
         const Real impulse[3] = {row.normal, row.tangential.x, row.tangential.y};
         for (int k = 0; k < 3; ++k)
@@ -200,7 +200,7 @@ inline Motion solve(Row* rows, int count, const Motion& free) {
     const Mask again = impact && work > Real(0.0);
     if (any(again)) {
         for (int i = 0; i < count; ++i) {
-            Row& row = rows[i];
+            ContactConstraint& row = rows[i];
             row.target = select(again, min(row.target, Real(0.0)), row.target);
             row.normal = select(again, Real(0.0), row.normal);
             row.tangential = select(again, Pair{Real(0.0), Real(0.0)}, row.tangential);
@@ -213,7 +213,8 @@ inline Motion solve(Row* rows, int count, const Motion& free) {
 /// What moves the pose over the step: the free motion up to the earliest impact, the solved one from there
 /// on, and whatever keeps the pose that this leads to from overlapping more than before, without giving the
 /// part speed.
-inline Motion advancePose(const Row* rows, int count, const Motion& free, const Motion& after, Real dt) {
+inline Motion advancePose(const ContactConstraint* rows, int count, const Motion& free, const Motion& after,
+                          Real dt) {
     Real impactTime = Real(kNoImpact);
     for (int i = 0; i < count; ++i)
         impactTime = select(rows[i].target > Real(0.0), min(impactTime, rows[i].impactTime), impactTime);
@@ -223,11 +224,11 @@ inline Motion advancePose(const Row* rows, int count, const Motion& free, const 
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
         Mask overlapping = Real(0.0) > Real(1.0);
         for (int i = 0; i < count; ++i) {
-            const Row& row = rows[i];
+            const ContactConstraint& row = rows[i];
             const Real allowed = min(row.gap, Real(0.0)) * Real(1.0 - kRecovery);
             const Real overlap = allowed - (row.gap + dt * velocityAlong(row, advance, 0));
             const Mask deep = overlap > Real(kOverlapTolerance);
-            push(row, advance, 0, select(deep, overlap / dt * row.normalMass, Real(0.0)));
+            applyImpulse(row, advance, 0, select(deep, overlap / dt * row.normalMass, Real(0.0)));
             overlapping = overlapping || deep;
         }
         if (!any(overlapping)) break;

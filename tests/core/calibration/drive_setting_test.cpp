@@ -77,7 +77,7 @@ class DriveSettingTest : public QObject {
         state.setPoint = setPoint;
         state.fullHalfStroke = 1e-3;
         if (frequency > 0.0) state.frequency = frequency;
-        const trial::Drive simulated{50.0, 0.8e-3, 0.2};
+        const trial::Vibration simulated{50.0, 0.8e-3, 0.2};
         const DriveSetting setting = findDriveSetting(state, {});
         const DriveComparison comparison = compareDrive(setting, simulated);
         QCOMPARE(comparison.differs(), differs);

@@ -101,11 +101,11 @@ class HalfStrokeTest : public QObject {
 
     // What is predicted for a half-stroke gives that half-stroke back.
     void predictionIsInverted() {
-        const trial::Drive drive;
+        const trial::Vibration drive;
         const trial::ContactParameters contact{0.4, 0.4, 0.0};
         SpeedTable predicted;
         for (int row = 1; row <= 32; ++row) {
-            trial::Drive one = drive;
+            trial::Vibration one = drive;
             one.halfStroke = 0.05e-3 * row;
             predicted.halfStrokes.push_back(one.halfStroke);
             predicted.speeds.push_back(verify::predictConveying(one, contact, base::kStandardGravity).speed);
@@ -114,7 +114,7 @@ class HalfStrokeTest : public QObject {
         QVERIFY(table.speeds.size() >= 8);
         QVERIFY(table.halfStrokes.back() > 0.7e-3);
         for (const double halfStroke : {0.25e-3, 0.4e-3, 0.6e-3}) {
-            trial::Drive one;
+            trial::Vibration one;
             one.halfStroke = halfStroke;
             const double speed = verify::predictConveying(one, contact, base::kStandardGravity).speed;
             const auto found = calibration::findHalfStroke(table, speed);

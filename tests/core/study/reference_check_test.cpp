@@ -13,7 +13,7 @@ using namespace trapwright;
 using study::BackgroundChecks;
 using study::CheckRecord;
 using study::GenerationRecord;
-using study::Winner;
+using study::Individual;
 
 namespace {
 
@@ -56,7 +56,7 @@ std::vector<GenerationRecord> learn(const study::StudyInputs& inputs, Background
     return saved;
 }
 
-Winner winnerOf(const GenerationRecord& record) {
+Individual winnerOf(const GenerationRecord& record) {
     return {record.index, record.winner, record.individuals[static_cast<std::size_t>(record.winner)]};
 }
 
@@ -83,7 +83,7 @@ class ReferenceCheckTest : public QObject {
         study::StudyInputs inputs = fake::waveInputs();
         inputs.settings.evolution.trialsPerEvaluation = 130;
         inputs.settings.evolution.generations = 1;
-        const Winner winner = winnerOf(learn(inputs, nullptr).front());
+        const Individual winner = winnerOf(learn(inputs, nullptr).front());
         std::vector<trial::TrialSpec> given;
         const auto keep = [&](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
             given.push_back(spec);
@@ -109,7 +109,7 @@ class ReferenceCheckTest : public QObject {
         inputs.settings.evolution.trialsPerEvaluation = 40;
         inputs.settings.evolution.generations = 1;
         inputs.engine = engineOf(perfectLaw, "quick");
-        const Winner winner = winnerOf(learn(inputs, nullptr).front());
+        const Individual winner = winnerOf(learn(inputs, nullptr).front());
         const auto worse = [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
             trial::Outcome outcome = perfectLaw(batch, spec);
             if (spec.stream.trial % 4 == 0)
@@ -153,7 +153,7 @@ class ReferenceCheckTest : public QObject {
         QCOMPARE(finished.size(), std::size_t{5});
         QVERIFY(checks.stop().empty());
         for (const CheckRecord& record : finished) {
-            const Winner winner = winnerOf(with[static_cast<std::size_t>(record.generation)]);
+            const Individual winner = winnerOf(with[static_cast<std::size_t>(record.generation)]);
             QVERIFY(record == study::checkWinner(aside, *engineOf(otherLaw, "slow"), winner, {}).value());
         }
     }
@@ -207,7 +207,7 @@ class ReferenceCheckTest : public QObject {
         auto left = std::async(std::launch::async, [&] { return checks.stop(); });
         released.set_value();
         std::vector<int> generations;
-        for (const Winner& winner : left.get())
+        for (const Individual& winner : left.get())
             generations.push_back(winner.generation);
         // Generation 0 was cancelled, or ended just before it heard of that.
         for (const CheckRecord& record : checks.takeFinished())

@@ -12,7 +12,7 @@ class SelectionTest : public QObject {
 
  private slots:
     void successIsThatOfTheNewestWord() {
-        study::Winner winner{4, 2, {}};
+        study::Individual winner{4, 2, {}};
         QVERIFY(!findSuccess({}, {}, winner, {}));
         winner.record.trials = 100;
         winner.record.oriented = 70;
@@ -42,7 +42,7 @@ class SelectionTest : public QObject {
 
     // 6 of 10 in a pose in which 90 % land, 20 of 20 in the other: 0.9 0.6 + 0.1 = 0.64, not 26 of 30.
     void aValidationCountsAsPartsLand() {
-        const study::Winner winner{4, 2, {}};
+        const study::Individual winner{4, 2, {}};
         const study::ValidationRecord record{4, 2, "native", {}, 0.0, {{0, 10, 4}, {1, 20, 0}}};
         const std::vector<part::PoseGroup> groups = {{{0}, 0.9}, {{1}, 0.1}};
         const auto success = findSuccess({}, {&record, 1}, winner, groups);

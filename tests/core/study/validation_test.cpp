@@ -26,10 +26,10 @@ trial::Outcome ended(trial::Ending ending, const base::Quaternion& rotation = ba
     return outcome;
 }
 
-study::Winner winnerOf(const study::StudyInputs& inputs, int generation, std::uint64_t genes,
-                       double fitness) {
+study::Individual winnerOf(const study::StudyInputs& inputs, int generation, std::uint64_t genes,
+                           double fitness) {
     base::Random random({.seed = genes});
-    study::Winner winner;
+    study::Individual winner;
     winner.generation = generation;
     winner.individual = generation % 5;
     winner.record.chromosome =
@@ -46,7 +46,7 @@ class ValidationTest : public QObject {
  private slots:
     void winnersAreRankedWithoutTwins() {
         const study::StudyInputs inputs = fake::waveInputs();
-        const std::vector<study::Winner> ranked = study::rankWinners(
+        const std::vector<study::Individual> ranked = study::rankWinners(
             {winnerOf(inputs, 0, 1, -3.0), winnerOf(inputs, 1, 2, -1.0), winnerOf(inputs, 2, 3, -2.0),
              winnerOf(inputs, 3, 2, -1.5), winnerOf(inputs, 4, 4, -2.0)},
             3);
@@ -59,13 +59,13 @@ class ValidationTest : public QObject {
     void bestWinnerIsTheOneWithTheGreatestSuccess() {
         const study::StudyInputs inputs = fake::waveInputs();
         const auto winner = [&](int generation, std::optional<int> oriented, int trials, double fitness) {
-            study::Winner made = winnerOf(inputs, generation, 1, fitness);
+            study::Individual made = winnerOf(inputs, generation, 1, fitness);
             made.record.oriented = oriented;
             made.record.trials = trials;
             return made;
         };
         QVERIFY(study::findBestWinner({}) == nullptr);
-        const auto bestOf = [](const std::vector<study::Winner>& winners) {
+        const auto bestOf = [](const std::vector<study::Individual>& winners) {
             return study::findBestWinner(winners)->generation;
         };
         // The share counts, not the number; then fitness; then who was first.
@@ -82,7 +82,7 @@ class ValidationTest : public QObject {
         study::StudyInputs inputs = fake::waveInputs();
         inputs.settings.validation.selectionWinners = 3;
         inputs.settings.validation.selectionTrials = 50;
-        std::vector<study::Winner> winners;
+        std::vector<study::Individual> winners;
         winners.reserve(5);
         for (int g = 0; g < 5; ++g)
             winners.push_back(winnerOf(inputs, g, 100 + static_cast<std::uint64_t>(g), -g));
@@ -152,7 +152,7 @@ class ValidationTest : public QObject {
                 return ended(trial::Ending::finished,
                              i % 2 == 0 ? about(base::Vec3::UnitZ(), 20) : about(base::Vec3::UnitZ(), 200));
             });
-        const study::Winner winner = winnerOf(inputs, 6, 5, 0.0);
+        const study::Individual winner = winnerOf(inputs, 6, 5, 0.0);
         const auto expected = given ? std::optional(about(base::Vec3::UnitX(), 90)) : std::nullopt;
         const auto record = study::validate(inputs, winner, expected, {});
         VERIFY_OK(record);
@@ -331,7 +331,7 @@ class ValidationTest : public QObject {
         study::StudyInputs inputs = fake::waveInputs(2);
         inputs.settings.evolution.generations = 12;
         inputs.settings.validation = {4, 60, 30, 25.0 * base::kDegree};
-        std::vector<study::Winner> winners;
+        std::vector<study::Individual> winners;
         study::LearningEvents events;
         events.save = [&](const study::GenerationRecord& record) {
             winners.push_back(
@@ -342,7 +342,7 @@ class ValidationTest : public QObject {
         const auto selection = study::selectWinners(inputs, winners, {});
         VERIFY_OK(selection);
         QCOMPARE(selection->entries.size(), std::size_t{4});
-        const auto best = std::find_if(winners.begin(), winners.end(), [&](const study::Winner& w) {
+        const auto best = std::find_if(winners.begin(), winners.end(), [&](const study::Individual& w) {
             return w.generation == selection->entries[0].generation;
         });
         QVERIFY(best != winners.end());

@@ -44,55 +44,6 @@ class EncodingTest : public QObject {
         }
     }
 
-    void roundTrip_data() {
-        QTest::addColumn<Encoding>("encoding");
-        QTest::newRow("strip") << Encoding{};
-        QTest::newRow("free") << Encoding{5, 8, 15e-3, 36e-3, 60e-3, 30e-3, PointEncoding::free};
-        QTest::newRow("one section, two points")
-            << Encoding{1, 2, 20e-3, 30e-3, 40e-3, 10e-3, PointEncoding::strip};
-    }
-    void roundTrip() {
-        QFETCH(Encoding, encoding);
-        for (std::uint64_t seed = 0; seed < 20; ++seed) {
-            const auto sections = testing::drawTrap(encoding, seed);
-            const auto encoded = track::encodeTrap(encoding, sections);
-            QVERIFY2(encoded.ok(), encoded.ok() ? "" : encoded.error().message.c_str());
-            const auto again = track::decodeTrap(encoding, encoded->points, encoded->lengths);
-            for (std::size_t i = 0; i < sections.size(); ++i) {
-                QVERIFY(std::abs(again[i].x - sections[i].x) < 1e-15);
-                for (std::size_t j = 0; j < sections[i].points.size(); ++j) {
-                    QVERIFY((again[i].points[j] - sections[i].points[j]).norm() < 1e-15);
-                }
-            }
-        }
-    }
-
-    void equalLengthsEncode() {
-        Encoding encoding;
-        encoding.minLength = encoding.maxLength = 30e-3;
-        const auto encoded = track::encodeTrap(encoding, testing::drawTrap(encoding, 3));
-        QVERIFY(encoded.ok());
-        QCOMPARE(encoded->lengths, std::vector<double>(5, 0.0));
-    }
-
-    void refusesWhatItCannotExpress() {
-        const Encoding encoding;
-        auto trap = testing::drawTrap(encoding, 1);
-        std::swap(trap[2].points[3], trap[2].points[4]);
-        const auto outside = track::encodeTrap(encoding, trap);
-        QVERIFY(!outside.ok());
-        QVERIFY(outside.error().message.find("Point 4 of cross-section 3") != std::string::npos);
-
-        trap = testing::drawTrap(encoding, 1);
-        for (std::size_t i = 1; i < trap.size(); ++i)
-            trap[i].x += 50e-3;
-        const auto tooLong = track::encodeTrap(encoding, trap);
-        QVERIFY(!tooLong.ok());
-        QVERIFY(tooLong.error().message.find("Cross-section 2 is") != std::string::npos);
-        trap.pop_back();
-        QVERIFY(!track::encodeTrap(encoding, trap).ok());
-    }
-
     void checkNamesTheParameter_data() {
         QTest::addColumn<Encoding>("encoding");
         QTest::addColumn<QString>("named");

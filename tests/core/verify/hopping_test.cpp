@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kGravity = base::kStandardGravity;
 
-trial::Drive makeDrive(double halfStroke, double degrees) {
-    trial::Drive drive;
+trial::Vibration makeDrive(double halfStroke, double degrees) {
+    trial::Vibration drive;
     drive.halfStroke = halfStroke;
     drive.angle = degrees * base::kDegree;
     return drive;
@@ -21,7 +21,7 @@ trial::Drive makeDrive(double halfStroke, double degrees) {
 
 /// The plastic case by many small steps: in flight a parabola, on the plane friction at most friction x the
 /// plane's push, at a landing at most friction x the speed that it takes away.
-double stepPlasticHopping(const trial::Drive& drive, double friction, int periods) {
+double stepPlasticHopping(const trial::Vibration& drive, double friction, int periods) {
     constexpr int kSteps = 20000;  // per period
     const double h = drive.period() / kSteps;
     const double w = drive.angularFrequency();
@@ -69,7 +69,7 @@ class HoppingTest : public QObject {
     void belowLiftOffItIsStickSlip() {
         QFETCH(double, halfStroke);
         QFETCH(double, friction);
-        const trial::Drive drive = makeDrive(halfStroke, 12.0);
+        const trial::Vibration drive = makeDrive(halfStroke, 12.0);
         const double expected = verify::calcStickSlipSpeed(drive, friction, kGravity);
         const double got = verify::calcHoppingSpeed(drive, friction, 0.3, kGravity, 100);
         QVERIFY2(std::abs(got / expected - 1.0) < 2e-3,
@@ -86,7 +86,7 @@ class HoppingTest : public QObject {
     void plasticHopsAgreeWithSmallSteps() {
         QFETCH(double, halfStroke);
         QFETCH(double, degrees);
-        const trial::Drive drive = makeDrive(halfStroke, degrees);
+        const trial::Vibration drive = makeDrive(halfStroke, degrees);
         const double expected = stepPlasticHopping(drive, 0.4, 40);
         const double got = verify::calcHoppingSpeed(drive, 0.4, 0.0, kGravity, 40);
         QVERIFY(expected > 0.02);

@@ -10,7 +10,7 @@ namespace {
 constexpr double kGravity = base::kStandardGravity;
 
 verify::ConveyingPrediction predict(double halfStroke, double friction = 0.5) {
-    trial::Drive drive;
+    trial::Vibration drive;
     drive.halfStroke = halfStroke;
     return verify::predictConveying(drive, {friction, friction, 0.0}, kGravity);
 }
@@ -38,7 +38,7 @@ class PredictedSpeedTest : public QObject {
     // No part is conveyed faster than the track moves along itself at its quickest.
     void noPartOvertakesTheTrack() {
         for (const double halfStroke : {0.2e-3, 0.45e-3, 0.8e-3, 1.5e-3}) {
-            trial::Drive drive;
+            trial::Vibration drive;
             const double limit = halfStroke * std::cos(drive.angle) * drive.angularFrequency();
             const double speed = predict(halfStroke).speed;
             QVERIFY2(speed > 0.0 && speed < limit, qPrintable(QString::number(speed)));

@@ -13,7 +13,7 @@ constexpr double kGravity = base::kStandardGravity;
 
 /// The same by many small implicit steps: the point is pulled to the plane's speed by no more than friction
 /// can. Started far from the periodic motion, measured over the last of many periods.
-double stepStickSlip(const trial::Drive& drive, double friction, double start) {
+double stepStickSlip(const trial::Vibration& drive, double friction, double start) {
     constexpr int kPeriods = 300;
     constexpr int kSteps = 40000;  // per period
     const double h = drive.period() / kSteps;
@@ -38,8 +38,8 @@ double stepStickSlip(const trial::Drive& drive, double friction, double start) {
     return last / drive.period();
 }
 
-trial::Drive makeDrive(double halfStroke, double degrees) {
-    trial::Drive drive;
+trial::Vibration makeDrive(double halfStroke, double degrees) {
+    trial::Vibration drive;
     drive.halfStroke = halfStroke;
     drive.angle = degrees * base::kDegree;
     return drive;
@@ -65,7 +65,7 @@ class StickSlipTest : public QObject {
         QFETCH(double, halfStroke);
         QFETCH(double, degrees);
         QFETCH(double, friction);
-        const trial::Drive drive = makeDrive(halfStroke, degrees);
+        const trial::Vibration drive = makeDrive(halfStroke, degrees);
         const double got = verify::calcStickSlipSpeed(drive, friction, kGravity);
         QVERIFY(got > 1e-3);
         for (const double start : {-0.05, 0.2}) {
@@ -85,7 +85,7 @@ class StickSlipTest : public QObject {
     }
     void nothingMovesBelowTheSlipLimit() {
         QFETCH(double, friction);
-        const double w = trial::Drive{}.angularFrequency();
+        const double w = trial::Vibration{}.angularFrequency();
         const double angle = 12.0 * base::kDegree;
         const double limit = friction * kGravity / (w * w * (std::cos(angle) + friction * std::sin(angle)));
         const auto speed = [&](double halfStroke) {
@@ -111,8 +111,8 @@ class StickSlipTest : public QObject {
 
     // At the same accelerations in half the period speeds are half as large.
     void speedScalesWithThePeriod() {
-        trial::Drive slow = makeDrive(0.4e-3, 12.0);
-        trial::Drive quick = makeDrive(0.1e-3, 12.0);
+        trial::Vibration slow = makeDrive(0.4e-3, 12.0);
+        trial::Vibration quick = makeDrive(0.1e-3, 12.0);
         quick.frequency = 2.0 * slow.frequency;
         const double ratio = verify::calcStickSlipSpeed(slow, 0.5, kGravity) /
                              verify::calcStickSlipSpeed(quick, 0.5, kGravity);

@@ -8,18 +8,18 @@
 using namespace trapwright;
 using base::Quaternion;
 using base::Vec3;
-using contact::ContactPoint;
+using contact::Contact;
 using testing::DetectorScene;
 
 namespace {
 
-std::vector<ContactPoint> sorted(std::vector<ContactPoint> contacts) {
+std::vector<Contact> sorted(std::vector<Contact> contacts) {
     std::sort(contacts.begin(), contacts.end(),
-              [](const ContactPoint& a, const ContactPoint& b) { return a.feature < b.feature; });
+              [](const Contact& a, const Contact& b) { return a.feature < b.feature; });
     return contacts;
 }
 
-bool isSame(const ContactPoint& a, const ContactPoint& b) {
+bool isSame(const Contact& a, const Contact& b) {
     return a.feature == b.feature && a.gap == b.gap && a.point == b.point && a.normal == b.normal;
 }
 
@@ -66,7 +66,7 @@ class DetectorHistoryTest : public QObject {
         for (int path = 0; path < 8; ++path) {
             base::Pose pose = testing::drawPose(scene, random, 1e-4);
             contact::Detector detector(scene.contactTrack, scene.contactBody);
-            std::vector<ContactPoint> contacts;
+            std::vector<Contact> contacts;
             double moved = 0.0;
             for (int step = 0; step < 150; ++step) {
                 const double margin = step % 7 == 0 ? random.uniform(0.0, 1e-3) : 10e-6;

@@ -22,9 +22,9 @@ struct DetectorScene {
           contactBody(contact::prepareBody(part->pieces)) {}
 
     /// By a detector that has seen nothing before.
-    [[nodiscard]] std::vector<contact::ContactPoint> findAfresh(const base::Pose& pose, double margin) const {
+    [[nodiscard]] std::vector<contact::Contact> findAfresh(const base::Pose& pose, double margin) const {
         contact::Detector detector(contactTrack, contactBody);
-        std::vector<contact::ContactPoint> contacts;
+        std::vector<contact::Contact> contacts;
         detector.findContacts(pose, 0.0, margin, contacts);
         return contacts;
     }

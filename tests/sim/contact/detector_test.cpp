@@ -12,7 +12,7 @@ using namespace trapwright;
 using base::kMillimetre;
 using base::Quaternion;
 using base::Vec3;
-using contact::ContactPoint;
+using contact::Contact;
 using testing::DetectorScene;
 
 namespace {
@@ -54,11 +54,11 @@ class DetectorTest : public QObject {
                 for (const double y : {-4e-3, 4e-3}) {
                     const Vec3 corner = pose.position + Vec3(x, y, -2e-3);
                     QCOMPARE(std::count_if(contacts.begin(), contacts.end(),
-                                           [&](const ContactPoint& c) { return isNear(c.point, corner); }),
+                                           [&](const Contact& c) { return isNear(c.point, corner); }),
                              1);
                 }
             }
-            for (const ContactPoint& contact : contacts) {
+            for (const Contact& contact : contacts) {
                 QVERIFY(isNear(contact.normal, Vec3::UnitZ()));
                 QVERIFY(std::abs(contact.gap - gap) < 1e-12);
             }
@@ -110,7 +110,7 @@ class DetectorTest : public QObject {
                               Vec3(0.1, 0.001, 20.0 * kMillimetre) + (2.0 * kMillimetre + gap) * up};
         const auto contacts = scene.findAfresh(pose, kMargin);
         QCOMPARE(contacts.size(), 2U);
-        for (const ContactPoint& contact : contacts) {
+        for (const Contact& contact : contacts) {
             QVERIFY(isNear(contact.normal, up));
             QVERIFY(std::abs(contact.gap - gap) < 1e-12);
             QVERIFY(std::abs(contact.point.x() - 0.1) < 1e-6 + std::abs(gap));
@@ -164,7 +164,7 @@ class DetectorTest : public QObject {
             QVERIFY(lowest > 15.5e-3);
             const auto contacts = scene.findAfresh(pose, kMargin);
             QVERIFY(!contacts.empty());
-            for (const ContactPoint& contact : contacts)
+            for (const Contact& contact : contacts)
                 QVERIFY2(contact.normal.dot(outward) > 0.5, qPrintable(QString("at height %1 mm, gap %2 um")
                                                                            .arg(contact.point.z() * 1e3)
                                                                            .arg(contact.gap * 1e6)));
@@ -192,7 +192,7 @@ class DetectorTest : public QObject {
                 Eigen::AngleAxisd(i % 4 == 0 ? 0.0 : random.uniform(0.0, 2.0 * base::kPi), Vec3::UnitZ()));
             const base::Pose pose{heading * lyingAlong(), Vec3(random.uniform(0.079, 0.121),
                                                                random.uniform(-0.028, 0.028), 17e-3 + gap)};
-            for (const ContactPoint& contact : scene.findAfresh(pose, 100e-6)) {
+            for (const Contact& contact : scene.findAfresh(pose, 100e-6)) {
                 QVERIFY2(contact.normal.z() > 0.98, qPrintable(QString("pose %1 %2, kind %3, gap %4 um")
                                                                    .arg(pose.position.x())
                                                                    .arg(pose.position.y())
@@ -221,7 +221,7 @@ class DetectorTest : public QObject {
             if (distance - wanted >= 1e-7) continue;
             const auto contacts = scene.findAfresh(pose, 100e-6);
             double nearest = 1e300;
-            for (const ContactPoint& contact : contacts)
+            for (const Contact& contact : contacts)
                 nearest = std::min(nearest, contact.gap);
             ++compared;
             same += std::abs(nearest - distance) < 1e-9 ? 1 : 0;

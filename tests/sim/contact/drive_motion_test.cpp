@@ -34,7 +34,7 @@ class DriveMotionTest : public QObject {
     void movesAlongTheVibrationLine() {
         QFETCH(int, shape);
         const track::FeederShape feeder = shapeOf(shape);
-        trial::Drive drive;
+        trial::Vibration drive;
         drive.frequency = 60.0;
         drive.halfStroke = 0.7e-3;
         drive.angle = 15.0 * base::kDegree;
@@ -61,7 +61,7 @@ class DriveMotionTest : public QObject {
     void movesAsARigidBody_data() { addShapes(); }
     void movesAsARigidBody() {
         QFETCH(int, shape);
-        const contact::DriveMotion motion(trial::Drive{}, shapeOf(shape), 1.0);
+        const contact::DriveMotion motion(trial::Vibration{}, shapeOf(shape), 1.0);
         base::Random random({2, 0, 0, 0, base::Purpose::test});
         for (int i = 0; i < 100; ++i) {
             const contact::TrackPlacement placement = motion.placement(random.uniform(0.0, 0.1));
@@ -75,7 +75,7 @@ class DriveMotionTest : public QObject {
     void roomAndTrackAreInverse_data() { addShapes(); }
     void roomAndTrackAreInverse() {
         QFETCH(int, shape);
-        const contact::DriveMotion motion(trial::Drive{}, shapeOf(shape), 2.0);
+        const contact::DriveMotion motion(trial::Vibration{}, shapeOf(shape), 2.0);
         base::Random random({3, 0, 0, 0, base::Purpose::test});
         for (int i = 0; i < 100; ++i) {
             const contact::TrackPlacement placement = motion.placement(random.uniform(0.0, 0.1));
@@ -94,7 +94,7 @@ class DriveMotionTest : public QObject {
     void standsStillWithoutAStroke_data() { addShapes(); }
     void standsStillWithoutAStroke() {
         QFETCH(int, shape);
-        trial::Drive drive;
+        trial::Vibration drive;
         drive.halfStroke = 0.0;
         const contact::DriveMotion motion(drive, shapeOf(shape), 0.3);
         const Vec3 place(0.1, 0.2, 0.3);

@@ -12,7 +12,7 @@ using base::Vec2;
 using base::Vec3;
 using contact::BodyInertia;
 using contact::BodyMotion;
-using contact::StepContact;
+using contact::MovingContact;
 
 namespace {
 
@@ -35,7 +35,7 @@ struct Body {
     }
 };
 
-StepContact makeContact(const Vec3& arm, const Vec3& normal, double gap, std::uint64_t feature) {
+MovingContact makeContact(const Vec3& arm, const Vec3& normal, double gap, std::uint64_t feature) {
     return {arm, normal, gap, Vec3::Zero(), Vec3::Zero(), feature};
 }
 
@@ -44,8 +44,8 @@ Vec3 drawVector(base::Random& random, double size) {
 }
 
 /// One to six contacts around the part's lower half, leaning up to some 50 degrees.
-std::vector<StepContact> drawContacts(base::Random& random, double gap) {
-    std::vector<StepContact> contacts;
+std::vector<MovingContact> drawContacts(base::Random& random, double gap) {
+    std::vector<MovingContact> contacts;
     const std::uint32_t count = 1 + random.below(6);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vec3 normal = (Vec3::UnitZ() + drawVector(random, 0.7)).normalized();
@@ -56,8 +56,8 @@ std::vector<StepContact> drawContacts(base::Random& random, double gap) {
 }
 
 /// The four corners of a face that is 3 mm below the centre.
-std::vector<StepContact> makeFace(const Vec3& trackVelocity, const Vec3& trackVelocityBefore) {
-    std::vector<StepContact> contacts;
+std::vector<MovingContact> makeFace(const Vec3& trackVelocity, const Vec3& trackVelocityBefore) {
+    std::vector<MovingContact> contacts;
     for (int i = 0; i < 4; ++i) {
         const Vec3 arm((i & 1) != 0 ? 6e-3 : -6e-3, (i & 2) != 0 ? 4e-3 : -4e-3, -2e-3);
         contacts.push_back(
@@ -118,7 +118,7 @@ class ImpulseSolverTest : public QObject {
             const Vec3 arm = central ? Vec3(-3e-3 * normal) : drawVector(random, 4e-3);
             BodyMotion before{drawVector(random, 0.3), drawVector(random, 30.0)};
             before.velocity -= 0.2 * normal;
-            StepContact touch = makeContact(arm, normal, random.uniform(0.0, 5e-6), 1);
+            MovingContact touch = makeContact(arm, normal, random.uniform(0.0, 5e-6), 1);
             touch.trackVelocity = touch.trackVelocityBefore = drawVector(random, 0.1);
             contact::ImpulseSolver solver;
             const BodyMotion after =
@@ -175,7 +175,7 @@ class ImpulseSolverTest : public QObject {
             const double friction = random.uniform(0.0, 1.0);
             const Vec3 wind = i % 2 == 0 ? Vec3::Zero().eval() : drawVector(random, 0.3);
             auto contacts = drawContacts(random, 20e-6);
-            for (StepContact& contact : contacts)
+            for (MovingContact& contact : contacts)
                 contact.trackVelocity = contact.trackVelocityBefore = wind;
             const double pace = std::pow(10.0, random.uniform(-3.0, 0.0));
             BodyMotion before{wind + pace * drawVector(random, 1.0), pace * drawVector(random, 100.0)};
@@ -185,7 +185,7 @@ class ImpulseSolverTest : public QObject {
                 return motion;
             };
             const double energy = body.calcEnergy(relative(before));
-            const contact::SurfaceLaw law{friction, friction, restitution};
+            const trial::ContactParameters law{friction, friction, restitution};
             for (contact::ImpulseSolver* solver : {&fresh, &old}) {
                 const BodyMotion after =
                     solver->solve(body.inverse(), before, before, contacts, law, kStep).motion;
@@ -231,7 +231,7 @@ class ImpulseSolverTest : public QObject {
         double overlap = 40e-6;
         double last = overlap;
         for (int step = 0; step < 60; ++step) {
-            for (StepContact& contact : contacts)
+            for (MovingContact& contact : contacts)
                 contact.gap = -overlap;
             const contact::StepResult result =
                 solver.solve(body.inverse(), {}, {}, contacts, {0.5, 0.5, 0.3}, kStep);
@@ -269,7 +269,7 @@ class ImpulseSolverTest : public QObject {
         BodyMotion free = before;
         free.velocity.z() -= 1e-3;
         const auto contacts = makeFace(Vec3::Zero(), Vec3::Zero());
-        const contact::SurfaceLaw law{0.5, 0.4, 0.3};
+        const trial::ContactParameters law{0.5, 0.4, 0.3};
         contact::ImpulseSolver solver;
         QVERIFY(solver.released());
         const auto first = solver.solve(body.inverse(), before, free, contacts, law, kStep);

@@ -272,7 +272,7 @@ class LawTest : public QObject {
     }
 
     void regularisedFrictionHasCoulombsLimits() {
-        const contact::SurfaceLaw law{0.6, 0.4, 0.3};
+        const trial::ContactParameters law{0.6, 0.4, 0.3};
         const auto friction = [&](double slip) { return slip * contact::calcFrictionRatio(slip, law); };
         QCOMPARE(friction(0.0), 0.0);
         QCOMPARE(friction(0.5 * contact::kSlipScale), 0.3);

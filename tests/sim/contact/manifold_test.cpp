@@ -18,9 +18,9 @@ contact::ManifoldPoint makeContact(const Vec3& arm, const Vec3& normal, double g
     return {arm, normal, gap};
 }
 
-std::vector<int> thinOut(const Points& contacts, int most) {
+std::vector<int> reduceManifold(const Points& contacts, int most) {
     std::vector<int> kept(most);
-    kept.resize(contact::thinOut(contacts, kept));
+    kept.resize(contact::reduceManifold(contacts, kept));
     return kept;
 }
 
@@ -56,7 +56,7 @@ class ManifoldTest : public QObject {
  private slots:
     void fewAreAllKept() {
         for (int count = 0; count <= 12; ++count) {
-            const std::vector<int> kept = thinOut(makeRing(count, 5e-3), 12);
+            const std::vector<int> kept = reduceManifold(makeRing(count, 5e-3), 12);
             QCOMPARE(static_cast<int>(kept.size()), count);
             for (int i = 0; i < count; ++i)
                 QCOMPARE(kept[i], i);
@@ -65,7 +65,7 @@ class ManifoldTest : public QObject {
 
     void aRingIsSpannedAllRound() {
         const auto contacts = makeRing(64, 5e-3);
-        const std::vector<int> kept = thinOut(contacts, 12);
+        const std::vector<int> kept = reduceManifold(contacts, 12);
         QVERIFY(kept.size() <= 12 && kept.size() >= 3);
         QVERIFY(findWidestOpening(contacts, kept) < 0.3 * base::kPi);
         QVERIFY(std::is_sorted(kept.begin(), kept.end()));
@@ -76,7 +76,7 @@ class ManifoldTest : public QObject {
         auto contacts = makeRing(40, 5e-3);
         for (const int lowest : {0, 17, 39}) {
             contacts[lowest].gap = -3e-6;
-            const std::vector<int> kept = thinOut(contacts, 12);
+            const std::vector<int> kept = reduceManifold(contacts, 12);
             QVERIFY(std::find(kept.begin(), kept.end(), lowest) != kept.end());
             contacts[lowest].gap = 1e-6;
         }
@@ -87,7 +87,7 @@ class ManifoldTest : public QObject {
         const Vec3 aslant = Vec3(1.0, 0.0, 1.0).normalized();
         contacts.push_back(makeContact({5e-3, 0.0, 0.0}, aslant, 0.0));
         contacts.push_back(makeContact({5e-3, 2e-3, 0.0}, aslant, 0.0));
-        const std::vector<int> kept = thinOut(contacts, 12);
+        const std::vector<int> kept = reduceManifold(contacts, 12);
         QVERIFY(kept.size() <= 12);
         QVERIFY(std::find(kept.begin(), kept.end(), 30) != kept.end());
         QVERIFY(std::find(kept.begin(), kept.end(), 31) != kept.end());
@@ -106,7 +106,7 @@ class ManifoldTest : public QObject {
                     contacts.push_back(makeContact(random.rotation() * Vec3(5e-3, 0.0, 0.0), normal,
                                                    random.uniform(-1e-5, 1e-5)));
             }
-            const std::vector<int> kept = thinOut(contacts, 12);
+            const std::vector<int> kept = reduceManifold(contacts, 12);
             QVERIFY(kept.size() <= 12);
             QVERIFY(contacts.size() > 12 || kept.size() == contacts.size());
             const auto deepest = std::min_element(contacts.begin(), contacts.end(),
@@ -118,7 +118,7 @@ class ManifoldTest : public QObject {
 
     void contactsAtOnePlaceAreOneContact() {
         Points contacts(20, makeContact({1e-3, 0.0, 0.0}, Vec3::UnitZ(), 0.0));
-        QCOMPARE(thinOut(contacts, 12).size(), 1U);
+        QCOMPARE(reduceManifold(contacts, 12).size(), 1U);
     }
 
     void theLowestOfOnePlaceStandsForIt() {
@@ -126,7 +126,7 @@ class ManifoldTest : public QObject {
                                  makeContact({1.05e-3, 0.0, 0.0}, Vec3::UnitZ(), 1e-6),
                                  makeContact({1e-3, 0.0, 0.0}, Vec3::UnitX(), 3e-6),
                                  makeContact({1.5e-3, 0.0, 0.0}, Vec3::UnitZ(), 4e-6)};
-        QCOMPARE(thinOut(contacts, 12), (std::vector<int>{1, 2, 3}));
+        QCOMPARE(reduceManifold(contacts, 12), (std::vector<int>{1, 2, 3}));
     }
 };
 

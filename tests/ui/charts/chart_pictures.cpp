@@ -60,7 +60,7 @@ Study load(const char* path) {
     for (const study::GenerationSummary& summary : loaded.curves.summaries)
         loaded.curves.trialsPerSecond.push_back(trialsPerSecond(take(file.loadGeneration(summary.index))));
 
-    const std::vector<study::Winner> best = study::rankWinners(take(file.loadWinners()), 1);
+    const std::vector<study::Individual> best = study::rankWinners(take(file.loadWinners()), 1);
     const study::TrialScene scene =
         study::makeScene(settings, part,
                          std::make_shared<const track::Track>(

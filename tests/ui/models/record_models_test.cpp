@@ -6,7 +6,7 @@
 #include "core/evolution/gray.h"
 #include "core/part/part_builder.h"
 #include "core/part/shapes.h"
-#include "core/work/study_trials.h"
+#include "core/workflow/study_trials.h"
 #include "tests/ui/sample_records.h"
 #include "ui/models/csv.h"
 #include "ui/models/generation_model.h"
@@ -248,9 +248,9 @@ class RecordModelsTest : public QObject {
             return model.index(2, column).data(models::VerdictRole).toInt();
         };
         QCOMPARE(verdictAt(ValidationModel::WrongOrientation),
-                 static_cast<int>(work::TrialVerdict::wrongOrientation));
-        QCOMPARE(verdictAt(ValidationModel::Stuck), static_cast<int>(work::TrialVerdict::stuck));
-        QCOMPARE(verdictAt(ValidationModel::FellOff), static_cast<int>(work::TrialVerdict::fellOff));
+                 static_cast<int>(workflow::TrialVerdict::wrongOrientation));
+        QCOMPARE(verdictAt(ValidationModel::Stuck), static_cast<int>(workflow::TrialVerdict::stuck));
+        QCOMPARE(verdictAt(ValidationModel::FellOff), static_cast<int>(workflow::TrialVerdict::fellOff));
         QCOMPARE(verdictAt(ValidationModel::Trials), -1);
         QCOMPARE(model.rows()[2].poses, std::vector<int>{2});
     }

@@ -9,7 +9,7 @@
 using namespace trapwright;
 using models::TrialFilter;
 using models::TrialModel;
-using work::TrialVerdict;
+using workflow::TrialVerdict;
 
 namespace {
 

@@ -11,8 +11,8 @@ using models::WinnerModel;
 
 namespace {
 
-study::Winner winnerOf(int generation) {
-    study::Winner winner;
+study::Individual winnerOf(int generation) {
+    study::Individual winner;
     winner.generation = generation;
     winner.individual = 7;
     winner.record.fitness = {0.0, 0.0, 1.25};
@@ -59,7 +59,7 @@ class WinnerModelTest : public QObject {
     void labelsAreAsShortAsTheyAreExact() {
         QFETCH(int, oriented);
         QFETCH(int, trials);
-        study::Winner winner = winnerOf(0);
+        study::Individual winner = winnerOf(0);
         winner.record.trials = trials;
         winner.record.oriented = oriented < 0 ? std::nullopt : std::optional(oriented);
         WinnerModel model;
@@ -87,7 +87,7 @@ class WinnerModelTest : public QObject {
     // Thousands of generations must not fill the memory with pictures that nobody looks at.
     void onlyPicturesThatWereSeenLastAreKept() {
         constexpr int kMost = WinnerModel::kMostPictures;
-        std::vector<study::Winner> winners;
+        std::vector<study::Individual> winners;
         winners.reserve(kMost + 10);
         for (int i = 0; i < kMost + 10; ++i)
             winners.push_back(winnerOf(i));

@@ -138,7 +138,7 @@ class EvolvePageTest : public QObject {
         // The newest is on top.
         QCOMPARE(user.rows("generations")->index(0, 0).data(models::ValueRole).toInt(), kGenerations - 1);
         QCOMPARE(user.winners(), kGenerations);
-        const study::Winner best = *study::findBestWinner(user.session()->winners());
+        const study::Individual best = *study::findBestWinner(user.session()->winners());
         QCOMPARE(user.text("filmStrip.caption"), QString("Generation %1, best so far").arg(best.generation));
         QVERIFY(waitUntil([&] { return heightSum(*user.track()) != flat; }));
         // Its success is the number of the page, in the largest letters.
@@ -297,7 +297,7 @@ class EvolvePageTest : public QObject {
                          [&] { shown.append(user.text("filmStrip.caption")); });
         user.click("evolve.start");
         QVERIFY(user.waitForGenerations(kGenerations) && user.waitFor(RunState::idle));
-        const std::vector<study::Winner>& winners = user.session()->winners();
+        const std::vector<study::Individual>& winners = user.session()->winners();
         QCOMPARE(shown.size(), kGenerations);
         bool stayed = false;
         for (int last = 0; last < kGenerations; ++last) {

@@ -19,7 +19,7 @@
 #include <fstream>
 
 #include "core/study/presets.h"
-#include "core/work/part_source.h"
+#include "core/workflow/part_source.h"
 #include "sim/native/native_engine.h"
 #include "ui/pages/materials_dialog.h"
 #include "ui/pages/run_actions.h"
@@ -261,7 +261,7 @@ class PartPageTest : public QObject {
  private:
     std::unique_ptr<session::StudySession> create() {
         static int number = 0;
-        const auto part = work::importPart({"cuboid"}).value();
+        const auto part = workflow::importPart({"cuboid"}).value();
         auto made = session::StudySession::create(
             folder_.filePath(QString("study%1.trap").arg(++number)).toStdString(),
             study::presetSettings("cuboid").value(), part, environment(own_));

@@ -16,7 +16,7 @@
 using namespace trapwright;
 using namespace trapwright::pages;
 using models::ValidationModel;
-using work::TrialVerdict;
+using workflow::TrialVerdict;
 
 class ReviewPageTest : public QObject {
     Q_OBJECT
@@ -190,7 +190,7 @@ class ReviewPageTest : public QObject {
 
     void successOfATrackIsItsNumber() {
         ReviewUser user(study_);
-        const study::Winner winner = *user.session()->chosen();
+        const study::Individual winner = *user.session()->chosen();
         const stats::Count learned = winner.record.success().value();
         QCOMPARE(user.text("review.success"), QString("%1 %").arg(100.0 * learned.share(), 0, 'f', 1));
         QVERIFY(user.text("review.successSource").contains("while learning"));
@@ -225,7 +225,7 @@ class ReviewPageTest : public QObject {
             }
         }
         ReviewUser user(bad);
-        const study::Winner before = *user.session()->chosen();
+        const study::Individual before = *user.session()->chosen();
         QCOMPARE(before.generation, 1);
         auto* list = user.find<QComboBox>("review.track");
         const int row = list->findText("Generation 0,", Qt::MatchStartsWith);

@@ -45,19 +45,6 @@ class CameraTest : public QObject {
         QCOMPARE(*place, QPointF(640.0, 360.0));
     }
 
-    void rayLeadsBackToThePixel() {
-        std::mt19937 random(3);
-        for (int i = 0; i < 100; ++i) {
-            const Camera camera = anyCamera(random);
-            const QPointF place(std::uniform_real_distribution<double>(0.0, 1280.0)(random),
-                                std::uniform_real_distribution<double>(0.0, 720.0)(random));
-            const scene::Ray ray = rayThrough(camera, place, screen_);
-            const auto again = camera.project(ray.origin + 1.3 * camera.distance * ray.direction, screen_);
-            QVERIFY(again);
-            QVERIFY(std::hypot(again->x() - place.x(), again->y() - place.y()) < 1e-6);
-        }
-    }
-
     void scaleHoldsAtTheFocus() {
         std::mt19937 random(4);
         for (int i = 0; i < 20; ++i) {

@@ -272,26 +272,6 @@ class SceneViewTest : public QObject {
         QVERIFY((view_->camera().forward() + base::Vec3::UnitZ()).norm() < 1e-9);
     }
 
-    void clicksPick() {
-        view_->showTrack(cuboidTrack_);
-        view_->showPart(cuboid_);
-        view_->setPartPoses(std::vector{poseAt(20e-3), poseAt(200e-3)});
-        QSignalSpy parts(view_.get(), &SceneView::partPicked);
-        QSignalSpy tracks(view_.get(), &SceneView::trackPicked);
-        QTest::mouseClick(view_.get(), Qt::LeftButton, {}, onScreen(poseAt(200e-3).position));
-        QCOMPARE(parts.size(), 1);
-        QCOMPARE(parts.first().first().toInt(), 1);
-        const base::Vec3 place = scene::surfacePoint(*cuboidTrack_, 0.0, 10e-3);
-        QTest::mouseClick(view_.get(), Qt::LeftButton, {}, onScreen(place));
-        QCOMPARE(tracks.size(), 1);
-        QVERIFY((tracks.first().at(1).value<base::Vec3>() - place).norm() < 2e-3);
-        view_->showStablePoses(cuboid_);
-        QSignalSpy poses(view_.get(), &SceneView::stablePosePicked);
-        for (int x = 0; x < view_->width() && poses.isEmpty(); x += 8)
-            QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {x, view_->height() / 2});
-        QCOMPARE(poses.size(), 1);
-    }
-
     void cameraFollowsThePart() {
         view_->showTrack(cuboidTrack_);
         view_->showPart(cuboid_);

@@ -37,7 +37,7 @@ class PartImportTest : public QObject {
         QCOMPARE(part.part->symmetry.name, std::string("D2"));
         QVERIFY(part.found.isSolid());
         QCOMPARE(part.candidates.size(), std::size_t{6});
-        for (const work::UnitCandidate& candidate : part.candidates)
+        for (const workflow::UnitCandidate& candidate : part.candidates)
             if (candidate.name == "inch") QVERIFY(qAbs(candidate.size.maxCoeff() - 12 * 0.0254) < 1e-6);
         QCOMPARE(failed.count(), 0);
     }
@@ -88,9 +88,9 @@ class PartImportTest : public QObject {
         // 3000 of a unit that nobody named: no part of a feeder in millimetres.
         const std::filesystem::path file = write("big.obj", box(3000.0, {}));
         PartImport import;
-        std::vector<work::UnitCandidate> asked;
+        std::vector<workflow::UnitCandidate> asked;
         connect(&import, &PartImport::unitNeeded, this,
-                [&](const work::PartRequest&, const std::vector<work::UnitCandidate>& candidates) {
+                [&](const workflow::PartRequest&, const std::vector<workflow::UnitCandidate>& candidates) {
                     asked = candidates;
                 });
         QSignalSpy failed(&import, &PartImport::failed);
@@ -111,11 +111,11 @@ class PartImportTest : public QObject {
         QSignalSpy offered(&import, &PartImport::repairNeeded);
         geometry::MeshReport found;
         connect(&import, &PartImport::repairNeeded, this,
-                [&](const work::PartRequest&, const geometry::MeshReport& report) { found = report; });
+                [&](const workflow::PartRequest&, const geometry::MeshReport& report) { found = report; });
         std::vector<ImportedPart> parts;
         connect(&import, &PartImport::finished, this,
                 [&](const ImportedPart& part) { parts.push_back(part); });
-        work::PartRequest request{file.string(), "mm"};
+        workflow::PartRequest request{file.string(), "mm"};
         import.start(request);
         QTRY_COMPARE(offered.count(), 1);
         QCOMPARE(found.holes.size(), std::size_t{1});

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "core/work/part_source.h"
+#include "core/workflow/part_source.h"
 #include "tests/core/study/fake_engine.h"
 #include "ui/session/study_session.h"
 
@@ -18,7 +18,7 @@ inline const std::string kProgram = "trapwright 0.0-test";
 
 /// The 4 x 8 x 12 mm cuboid.
 inline const ImportedPart& cuboid() {
-    static const ImportedPart part = work::importPart({"cuboid"}).value();
+    static const ImportedPart part = workflow::importPart({"cuboid"}).value();
     return part;
 }
 

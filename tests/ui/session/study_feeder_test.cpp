@@ -135,8 +135,8 @@ class StudyFeederTest : public QObject {
     void finalTrackIsKept() {
         auto session = fixture_->create("a.trap", smallSettings(3));
         QVERIFY(session && learnToTheEnd(*session));
-        const study::Winner best = session->chosen().value();
-        study::Winner other = session->winners()[best.generation == 0 ? 1 : 0];
+        const study::Individual best = session->chosen().value();
+        study::Individual other = session->winners()[best.generation == 0 ? 1 : 0];
         other = session->loadWinner(other.generation, (other.individual + 1) % 8).value();
         session->choose(session->winners()[2]);
         session->choose(other);

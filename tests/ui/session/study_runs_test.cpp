@@ -209,7 +209,7 @@ class StudyRunsTest : public QObject {
         QSignalSpy checked(session.get(), &StudySession::checkSaved);
         QVERIFY(learnToTheEnd(*session));
         int simulated = 0;
-        for (const study::Winner& winner : session->winners())
+        for (const study::Individual& winner : session->winners())
             simulated += winner.record.trials > 0 ? 1 : 0;
         QCOMPARE(checked.count(), simulated);
         QCOMPARE(session->checks().size(), static_cast<std::size_t>(simulated));
@@ -257,7 +257,7 @@ class StudyRunsTest : public QObject {
         QCOMPARE(selection.entries[0].generation, truth->entries[0].generation);
 
         QSignalSpy validated(session.get(), &StudySession::validationSaved);
-        const study::Winner winner = session->winners().back();
+        const study::Individual winner = session->winners().back();
         session->startValidation(winner);
         QCOMPARE(session->state(), RunState::validating);
         QVERIFY(waitUntil([&] { return validated.count() == 1; }));

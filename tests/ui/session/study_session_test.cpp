@@ -106,7 +106,7 @@ class StudySessionTest : public QObject {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
         QSignalSpy changed(session.get(), &StudySession::partChanged);
-        const ImportedPart cone = work::importPart({"cone"}).value();
+        const ImportedPart cone = workflow::importPart({"cone"}).value();
         session->changePart(cone, "Import cone");
         QCOMPARE(changed.count(), 1);
         QVERIFY(session->part()->symmetry.continuous);
@@ -148,7 +148,7 @@ class StudySessionTest : public QObject {
         study::Settings narrow = session->settings();
         narrow.track.segmentWidth = 40e-3;
         session->changeSettings(narrow, "Segment width");
-        session->changePart(work::importPart({"cone"}).value(), "Import cone");
+        session->changePart(workflow::importPart({"cone"}).value(), "Import cone");
         QCOMPARE(failed.count(), 2);
         QVERIFY(session->settings() == wide);
         study::Settings longer = session->settings();

@@ -42,8 +42,8 @@ class StudyTrialsTest : public QObject {
     void cleanupTestCase() { session_.reset(); }
 
     void learningTrialsEndAsTheyDid() {
-        const study::Winner& winner = session_->winners().back();
-        const std::vector<SimulatedTrials> told = simulate({work::TrialKind::learning, winner});
+        const study::Individual& winner = session_->winners().back();
+        const std::vector<SimulatedTrials> told = simulate({workflow::TrialKind::learning, winner});
         QCOMPARE(told.size(), std::size_t{1});
         QCOMPARE(static_cast<int>(told[0].outcomes.size()), winner.record.trials);
         int finished = 0;
@@ -53,7 +53,7 @@ class StudyTrialsTest : public QObject {
         // The first ones, and more than there were.
         for (const int count : {2, 7}) {
             const std::vector<SimulatedTrials> others =
-                simulate({work::TrialKind::learning, winner, {0}, count});
+                simulate({workflow::TrialKind::learning, winner, {0}, count});
             QCOMPARE(static_cast<int>(others[0].outcomes.size()), count);
             QVERIFY(others[0].outcomes[1] == told[0].outcomes[1]);
         }
@@ -62,13 +62,15 @@ class StudyTrialsTest : public QObject {
     void validationTrialsAreThoseOfTheTable() {
         const study::ValidationRecord& table = session_->validations().front();
         for (const study::ValidationRow& row : table.rows) {
-            work::TrialsRequest request{work::TrialKind::validation, session_->winners().back(), {row.pose}};
+            workflow::TrialsRequest request{
+                workflow::TrialKind::validation, session_->winners().back(), {row.pose}};
             const std::vector<SimulatedTrials> told = simulate(request);
             QCOMPARE(told[0].outcomes.size(), std::size_t{10});
             const auto& verdicts = told[0].judged.verdicts;
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), work::TrialVerdict::stuck), row.stuck);
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), work::TrialVerdict::fellOff), row.fellOff);
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), work::TrialVerdict::wrongOrientation),
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), workflow::TrialVerdict::stuck), row.stuck);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), workflow::TrialVerdict::fellOff),
+                     row.fellOff);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), workflow::TrialVerdict::wrongOrientation),
                      row.wrongOrientation);
             // Fewer are the first of them, whichever the pose is.
             request.count = 3;
@@ -81,13 +83,13 @@ class StudyTrialsTest : public QObject {
 
     // Poses that look the same are listed together: one pose after the other.
     void trialsOfAlikePosesFollowEachOther() {
-        const study::Winner& winner = session_->winners().back();
+        const study::Individual& winner = session_->winners().back();
         const auto of = [&](std::vector<int> poses) {
-            return simulate({work::TrialKind::validation, winner, std::move(poses)})[0].outcomes;
+            return simulate({workflow::TrialKind::validation, winner, std::move(poses)})[0].outcomes;
         };
         const std::vector<trial::Outcome> first = of({0});
         const std::vector<trial::Outcome> second = of({1});
-        const std::vector<SimulatedTrials> both = simulate({work::TrialKind::validation, winner, {0, 1}});
+        const std::vector<SimulatedTrials> both = simulate({workflow::TrialKind::validation, winner, {0, 1}});
         QCOMPARE(both.back().outcomes.size(), std::size_t{20});
         for (std::size_t i = 0; i < 10; ++i) {
             QVERIFY(both.back().outcomes[i] == first[i]);
@@ -96,11 +98,11 @@ class StudyTrialsTest : public QObject {
     }
 
     void replayEndsLikeTheTrial() {
-        const work::TrialsRequest request{work::TrialKind::learning, session_->winners().back()};
+        const workflow::TrialsRequest request{workflow::TrialKind::learning, session_->winners().back()};
         const std::vector<SimulatedTrials> told = simulate(request);
         std::shared_ptr<const trial::Trajectory> trajectory;
         const auto connection = connect(session_.get(), &StudySession::replayed, this,
-                                        [&](const work::TrialsRequest&, int trial,
+                                        [&](const workflow::TrialsRequest&, int trial,
                                             const std::shared_ptr<const trial::Trajectory>& replayed) {
                                             QCOMPARE(trial, 3);
                                             trajectory = replayed;
@@ -116,13 +118,13 @@ class StudyTrialsTest : public QObject {
 
     void whatThereIsNotIsAMessage() {
         QSignalSpy failed(session_.get(), &StudySession::failed);
-        session_->simulateTrials({work::TrialKind::selection, session_->winners().back()});
+        session_->simulateTrials({workflow::TrialKind::selection, session_->winners().back()});
         QTRY_COMPARE(failed.count(), 1);
-        session_->replay({work::TrialKind::learning, session_->winners().back()}, 4, 0.01);
+        session_->replay({workflow::TrialKind::learning, session_->winners().back()}, 4, 0.01);
         QTRY_COMPARE(failed.count(), 2);
-        study::Winner broken = session_->winners().back();
+        study::Individual broken = session_->winners().back();
         broken.record.chromosome.lengths.pop_back();
-        session_->simulateTrials({work::TrialKind::learning, broken});
+        session_->simulateTrials({workflow::TrialKind::learning, broken});
         QTRY_COMPARE(failed.count(), 3);
         QVERIFY(failed[2][1].toString().contains("bits"));
     }
@@ -131,11 +133,12 @@ class StudyTrialsTest : public QObject {
         QSignalSpy told(session_.get(), &StudySession::trialsSimulated);
         QSignalSpy failed(session_.get(), &StudySession::failed);
         for (int i = 0; i < 5; ++i)
-            session_->simulateTrials({work::TrialKind::learning, session_->winners().back(), {0}, 500});
+            session_->simulateTrials({workflow::TrialKind::learning, session_->winners().back(), {0}, 500});
         session_->cancelSimulations();
         QVERIFY(waitForState(*session_, RunState::idle));
         QCOMPARE(told.count() + failed.count(), 0);
-        QCOMPARE(simulate({work::TrialKind::learning, session_->winners().back()}).size(), std::size_t{1});
+        QCOMPARE(simulate({workflow::TrialKind::learning, session_->winners().back()}).size(),
+                 std::size_t{1});
     }
 
     void estimateIsOfTheOrderOfTheRun() {
@@ -208,7 +211,7 @@ class StudyTrialsTest : public QObject {
     }
 
  private:
-    std::vector<SimulatedTrials> simulate(const work::TrialsRequest& request) {
+    std::vector<SimulatedTrials> simulate(const workflow::TrialsRequest& request) {
         std::vector<SimulatedTrials> told;
         const auto connection = connect(session_.get(), &StudySession::trialsSimulated, this,
                                         [&](const SimulatedTrials& trials) { told.push_back(trials); });

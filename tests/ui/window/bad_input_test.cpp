@@ -10,7 +10,7 @@
 
 #include "app/trapwright/engines.h"
 #include "core/study/presets.h"
-#include "core/work/part_source.h"
+#include "core/workflow/part_source.h"
 #include "tests/ui/window/user.h"
 #include "ui/pages/value_edit.h"
 
@@ -325,9 +325,9 @@ class BadInputTest : public QObject {
 
     void makeStudy(const QString& name) {
         QFile::remove(path(name));
-        work::PartRequest request;
+        workflow::PartRequest request;
         request.part = "cuboid";
-        const auto part = work::importPart(request);
+        const auto part = workflow::importPart(request);
         QVERIFY(part.ok());
         study::Settings settings = study::presetSettings("cuboid").value();
         settings.part = part->settings;

@@ -53,7 +53,7 @@ class RunningTest : public QObject {
         action(window, "run.stopAfterGeneration")->trigger();
         QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
         QVERIFY(window.findChild<QLabel*>("status.generation")->text().endsWith("of 100000 generations"));
-        const study::Winner* best = study::findBestWinner(session->winners());
+        const study::Individual* best = study::findBestWinner(session->winners());
         auto* success = window.findChild<QLabel*>("status.success");
         QVERIFY(success->isVisible());
         QCOMPARE(success->text(), "success " + models::successWord(best->record.success()));
@@ -156,9 +156,10 @@ class RunningTest : public QObject {
  private:
     void makeStudy() {
         session::PartImport import;
-        std::optional<work::LoadedPart> part;
-        connect(&import, &session::PartImport::finished, [&](const work::LoadedPart& one) { part = one; });
-        work::PartRequest request;
+        std::optional<workflow::LoadedPart> part;
+        connect(&import, &session::PartImport::finished,
+                [&](const workflow::LoadedPart& one) { part = one; });
+        workflow::PartRequest request;
         request.part = "cuboid";
         import.start(request);
         QVERIFY(QTest::qWaitFor([&] { return part.has_value(); }, kPatience));

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/base/math.h"
+
+namespace trapwright::trial {
+
+/// The vibration of a feeder: a sinusoid along a line inclined by `angle` to the conveying direction (on a
+/// bowl the helical oscillation that has this line at the bowl radius).
+struct Vibration {
+    double frequency = 50.0;              // mechanical [Hz]
+    double halfStroke = 0.8e-3;           // amplitude along the vibration line [m]
+    double angle = 12.0 * base::kDegree;  // vibration angle [rad]
+
+    [[nodiscard]] double angularFrequency() const { return 2.0 * base::kPi * frequency; }  // [rad/s]
+    [[nodiscard]] double period() const { return 1.0 / frequency; }                        // [s]
+};
+
+/// Peak vertical acceleration over gravity: half-stroke x omega^2 x sin(angle) / g. Parts lift off above 1.
+double calcThrowNumber(const Vibration& drive, double gravity = base::kStandardGravity);
+
+}  // namespace trapwright::trial

@@ -1,0 +1,57 @@
+#include "core/workflow/judging.h"
+
+#include "core/study/selection.h"
+#include "core/study/validation.h"
+
+namespace trapwright::workflow {
+
+namespace {
+
+Failure describeFailure(const base::RunControl& control, const base::Error& error) {
+    if (control.cancelled()) return {FailureKind::cancelled, "Cancelled; nothing of it was kept."};
+    return {FailureKind::simulation, error.message};
+}
+
+}  // namespace
+
+Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& file,
+                                                      const study::StudyInputs& inputs) {
+    if (const auto checked = study::checkInputs(inputs); !checked)
+        return Failure{FailureKind::settings, checked.error().message};
+    auto winners = file.loadWinners();
+    if (!winners) return Failure{FailureKind::reading, winners.error().message};
+    if (winners->empty()) {
+        return Failure{FailureKind::reading,
+                       "The study " + file.path().string() +
+                           " has no generations to select from. Learn some first with evolve."};
+    }
+    return study::rankWinners(std::move(*winners), inputs.settings.validation.selectionWinners);
+}
+
+Result<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                             std::vector<study::Individual> candidates,
+                                             const base::RunControl& control) {
+    auto record = study::selectWinners(inputs, std::move(candidates), control);
+    if (!record) return describeFailure(control, record.error());
+    if (const auto saved = file.saveSelection(*record); !saved) return describeSaving(saved.error());
+    return std::move(*record);
+}
+
+std::int64_t countValidationTrials(const study::StudyInputs& inputs) {
+    return static_cast<std::int64_t>(inputs.part->stablePoses.size()) *
+           inputs.settings.validation.trialsPerPose;
+}
+
+Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                                const study::Individual& individual,
+                                                const std::optional<base::Quaternion>& expected,
+                                                const base::RunControl& control) {
+    if (const auto checked = study::checkInputs(inputs); !checked)
+        return Failure{FailureKind::settings, checked.error().message};
+    auto record = study::validate(inputs, individual, expected, control);
+    if (!record) return describeFailure(control, record.error());
+    if (const auto saved = file.saveValidation(*record); !saved) return describeSaving(saved.error());
+    return std::move(*record);
+}
+
+}  // namespace trapwright::workflow

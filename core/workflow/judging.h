@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_control.h"
+#include "core/store/study_file.h"
+#include "core/study/evaluator.h"
+#include "core/workflow/failure.h"
+
+namespace trapwright::workflow {
+
+/// The winners that a selection simulates again. A failure if settings or part cannot be used, or there are
+/// no generations.
+Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& file,
+                                                      const study::StudyInputs& inputs);
+
+/// Ranks these by many trials each, and saves the result in the file.
+Result<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                             std::vector<study::Individual> candidates,
+                                             const base::RunControl& control);
+
+/// Trials of one validation.
+std::int64_t countValidationTrials(const study::StudyInputs& inputs);
+
+/// Validates one individual and saves the result in the file. `expected`: the orientation that counts as
+/// success, if not the most frequent one.
+Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                                const study::Individual& individual,
+                                                const std::optional<base::Quaternion>& expected,
+                                                const base::RunControl& control);
+
+}  // namespace trapwright::workflow

@@ -1,0 +1,64 @@
+#include "core/workflow/learning.h"
+
+#include <chrono>
+#include <optional>
+
+namespace trapwright::workflow {
+
+namespace {
+
+base::Result<std::optional<study::GenerationRecord>> loadLast(const store::StudyFile& file) {
+    const auto count = file.generationCount();
+    if (!count) return count.error();
+    if (*count == 0) return std::optional<study::GenerationRecord>();
+    auto record = file.loadGeneration(*count - 1);
+    if (!record) return record.error();
+    return std::optional(std::move(*record));
+}
+
+}  // namespace
+
+Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& inputs,
+                             const EngineMaker& makeEngine, const LearnEvents& events,
+                             const study::LearningControl& control) {
+    auto last = loadLast(file);
+    if (!last) return Failure{FailureKind::reading, last.error().message};
+    const auto started = WinnerChecks::start(file, inputs, makeEngine, control.checks);
+    if (!started) return started.error();
+    WinnerChecks* const checks = started->get();
+
+    const auto begin = std::chrono::steady_clock::now();
+    const std::int64_t doneBefore = control.run.done();
+    FailureKind kind = FailureKind::simulation;
+    study::LearningEvents watch;
+    watch.planned = events.planned;
+    watch.save = [&](const study::GenerationRecord& record) -> base::Status {
+        kind = FailureKind::saving;
+        if (auto saved = file.saveGeneration(record); !saved) return saved;
+        if (events.saved) events.saved(record);
+        if (checks != nullptr) {
+            checks->add(record);
+            if (auto saved = checks->save(events.checked); !saved) return saved;
+        }
+        kind = FailureKind::simulation;
+        return base::success();
+    };
+    const auto end = study::evolve(inputs, std::move(*last), watch, control);
+    if (!end) {
+        if (kind == FailureKind::saving) return describeSaving(end.error());
+        return Failure{kind, end.error().message};
+    }
+
+    LearningReport report;
+    report.end = *end;
+    if (checks != nullptr) {
+        auto left = checks->stop(events.checked);
+        if (!left) return describeSaving(left.error());
+        report.unchecked = std::move(*left);
+    }
+    report.trials = control.run.done() - doneBefore;
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return report;
+}
+
+}  // namespace trapwright::workflow

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/part/part.h"
+#include "core/store/study_file.h"
+#include "core/study/records.h"
+#include "core/study/settings.h"
+#include "core/trial/batch.h"
+#include "core/trial/outcome.h"
+
+namespace trapwright::workflow {
+
+enum class TrialKind { learning, selection, validation };
+
+/// Which trials of a study are meant.
+struct TrialsRequest {
+    TrialKind kind = TrialKind::learning;
+    study::Individual winner;  // or any other individual
+    // Of validation trials: indices into the part's stable poses, whose trials follow each other.
+    std::vector<int> poses = {0};
+    int count = 0;         // the first ones; 0: as many as the study holds
+    std::string engine{};  // empty: the one that the study holds them of
+};
+
+/// Trials of an individual whose results a study holds, and the engine that ran them.
+struct StoredTrials {
+    int count = 0;  // 0 if there are none
+    std::string engine;
+    std::optional<base::Quaternion> expected{};  // the orientation that counted as success; none if learning
+    double tolerance = 0.0;                      // of it [rad]
+};
+
+/// Of a selection or validation the last one that the individual was in. `settings` are the study's.
+base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const study::Settings& settings,
+                                            const TrialsRequest& request);
+
+/// These trials, made anew with the same bits. More than are stored only where they are numbered on: not of a
+/// validation. None if there are none. An error if the track cannot be built.
+base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
+                                           std::shared_ptr<const part::Part> part,
+                                           const TrialsRequest& request, const StoredTrials& stored);
+
+/// How a trial is counted. One that ran out of time is stuck.
+enum class TrialVerdict { success, wrongOrientation, stuck, fellOff };
+
+/// Trials and how each is counted.
+struct JudgedTrials {
+    base::Quaternion expected = base::Quaternion::Identity();  // the orientation that counts as success
+    std::vector<TrialVerdict> verdicts;                        // slot i for outcome i
+};
+
+/// `expected`: the orientation that counts; without it the most frequent final one. `tolerance` [rad].
+JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
+                         const std::optional<base::Quaternion>& expected, double tolerance);
+
+}  // namespace trapwright::workflow

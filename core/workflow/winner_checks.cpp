@@ -1,0 +1,78 @@
+#include "core/workflow/winner_checks.h"
+
+#include "core/study/reference_check.h"
+
+namespace trapwright::workflow {
+
+WinnerChecks::WinnerChecks(store::StudyFile& file, std::unique_ptr<study::BackgroundChecks> background)
+    : file_(&file), background_(std::move(background)) {}
+
+Result<std::unique_ptr<WinnerChecks>> WinnerChecks::start(store::StudyFile& file,
+                                                          const study::StudyInputs& inputs,
+                                                          const EngineMaker& makeEngine,
+                                                          const base::RunControl& control) {
+    const std::string& setting = inputs.settings.simulation.engine;
+    const auto reference = referenceFor(setting);
+    if (!reference) return std::unique_ptr<WinnerChecks>();
+    auto unchecked = file.loadUncheckedWinners();
+    if (!unchecked) return Failure{FailureKind::reading, unchecked.error().message};
+    auto judging = makeEngine(*reference, {1, 0.0});
+    if (!judging) return Failure{FailureKind::settings, judging.error().message};
+    auto learning = makeEngine(engineFor(setting, EngineUse::learning), {1, 0.0});
+    if (!learning) return Failure{FailureKind::settings, learning.error().message};
+    study::StudyInputs aside = inputs;
+    aside.engine = std::move(*learning);
+
+    auto background =
+        std::make_unique<study::BackgroundChecks>(std::move(aside), std::move(*judging), control);
+    for (study::Individual& winner : *unchecked)
+        background->add(std::move(winner));
+    return std::unique_ptr<WinnerChecks>(new WinnerChecks(file, std::move(background)));
+}
+
+void WinnerChecks::add(const study::GenerationRecord& record) {
+    const study::IndividualRecord& winner = record.individuals[static_cast<std::size_t>(record.winner)];
+    if (winner.trials > 0) background_->add({record.index, record.winner, winner});
+}
+
+base::Status WinnerChecks::save(const CheckSaved& saved) {
+    for (const study::CheckRecord& record : background_->takeFinished()) {
+        if (auto status = file_->saveCheck(record); !status) return status;
+        if (saved) saved(record);
+    }
+    return base::success();
+}
+
+base::Result<std::vector<study::Individual>> WinnerChecks::stop(const CheckSaved& saved) {
+    std::vector<study::Individual> left = background_->stop();
+    if (auto status = save(saved); !status) return status.error();
+    return left;
+}
+
+std::int64_t countCheckTrials(const std::vector<study::Individual>& winners) {
+    std::int64_t trials = 0;
+    for (const study::Individual& winner : winners)
+        trials += std::int64_t{2} * study::countCheckTrials(winner);
+    return trials;
+}
+
+Result<std::monostate> checkWinners(store::StudyFile& file, const study::StudyInputs& inputs,
+                                    const EngineMaker& makeEngine,
+                                    const std::vector<study::Individual>& winners, const CheckSaved& saved,
+                                    const base::RunControl& control) {
+    const auto reference = referenceFor(inputs.settings.simulation.engine);
+    if (!reference || winners.empty()) return std::monostate{};
+    const auto engine = makeEngine(*reference, {inputs.threads, 0.0});
+    if (!engine) return Failure{FailureKind::settings, engine.error().message};
+    for (const study::Individual& winner : winners) {
+        const auto record = study::checkWinner(inputs, **engine, winner, control);
+        if (control.cancelled())
+            return Failure{FailureKind::cancelled, "The checks of winners were cancelled."};
+        if (!record) return Failure{FailureKind::simulation, record.error().message};
+        if (const auto status = file.saveCheck(*record); !status) return describeSaving(status.error());
+        if (saved) saved(*record);
+    }
+    return std::monostate{};
+}
+
+}  // namespace trapwright::workflow

@@ -1,0 +1,169 @@
+#include "sim/native/trial_lanes.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "sim/contact/drive_motion.h"
+#include "sim/contact/manifold.h"
+
+namespace trapwright::native {
+
+using base::Mat3;
+using base::Vec3;
+
+namespace {
+
+void store(const Mat3& from, float (&to)[3][3]) {
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k)
+            to[i][k] = static_cast<float>(from(i, k));
+    }
+}
+
+std::uint32_t toTurns(double turns) {
+    return static_cast<std::uint32_t>(std::llround((turns - std::floor(turns)) * 4294967296.0));
+}
+
+}  // namespace
+
+LaneModel::LaneModel(const part::Part& part, const PackedBody& packedBody, double gravityValue,
+                     double stepTime, bool bowl)
+    : body(&packedBody),
+      step(stepTime),
+      dt(static_cast<float>(stepTime)),
+      gravity(static_cast<float>(gravityValue)),
+      anyBowl(bowl) {
+    const Mat3 perMass = part.massProperties.inertia / part.massProperties.mass;
+    const Mat3 inverse = perMass.inverse();
+    const Mat3 factor = inverse.llt().matrixL();
+    store(perMass, inertia);
+    store(inverse, inverseInertia);
+    store(factor, scale);
+    store(factor.inverse(), unscale);
+}
+
+TrialLanes::TrialLanes(const LaneModel& model, int capacity)
+    : phase(padToVectors(capacity)),
+      cycle(padToVectors(capacity)),
+      track(capacity),
+      candidates(capacity),
+      warmStarts(capacity),
+      model_(&model),
+      // Not a power of two: fields of one lane would fall into the same few lines of the cache.
+      stride_(padToVectors(capacity) + kWidestVector),
+      floats_(static_cast<std::size_t>(stride_) * kFieldCount),
+      positions_(static_cast<std::size_t>(stride_) * 3) {
+    for (const int rows : kSolveRows) {
+        SolveBatch& batch = solveBatches.emplace_back();
+        batch.rows = rows;
+        batch.touches.resize(static_cast<std::size_t>(rows) * kContactFields * kWidestVector);
+    }
+    // Lanes that were never used are stepped along with the others of their vector: give them a rotation.
+    for (int lane = 0; lane < stride_; ++lane)
+        field(kRotationW)[lane] = 1.0F;
+}
+
+void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& batch,
+                     const trial::TrialSpec& spec) {
+    const int lane = count_++;
+    for (int f = 0; f < kFieldCount; ++f)
+        field(f)[lane] = 0.0F;
+    const auto set = [&](int f, double value) { field(f)[lane] = static_cast<float>(value); };
+    const auto setThree = [&](int f, const Vec3& value) {
+        for (int k = 0; k < 3; ++k)
+            set(f + k, value[k]);
+    };
+
+    // At rest in the room, where the track is at the drive's phase.
+    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.start.phase);
+    const base::Pose pose = drive.placement(0.0).toRoom(spec.start.pose);
+    for (int k = 0; k < 3; ++k)
+        position(k)[lane] = pose.position[k];
+    set(kPositionX, pose.position.x());
+    set(kPositionY, pose.position.y());
+    set(kRotationW, pose.rotation.w());
+    setThree(kRotationX, pose.rotation.vec());
+
+    // Velocities belong to the middles of steps: go back by half of one.
+    const double dt = model_->step;
+    const Mat3 rotation = pose.rotation.toRotationMatrix();
+    const Mat3 inertia = rotation * batch.part->massProperties.inertia * rotation.transpose();
+    const Vec3& w = spec.start.angularVelocity;
+    const Vec3 turn = -inertia.inverse() * w.cross(inertia * w);
+    setThree(kTurnX, turn);
+    setThree(kTurnBeforeX, turn);
+    setThree(kSpinX, w - 0.5 * dt * turn);
+    setThree(kVelocityX, spec.start.velocity + Vec3(0.0, 0.0, 0.5 * dt * batch.gravity));
+
+    const double turns = batch.drive.frequency * dt;
+    const double start = spec.start.phase / (2.0 * base::kPi);
+    const auto sine = [&](int step) { return std::sin(2.0 * base::kPi * (start + step * turns)); };
+    set(kDriveBefore, sine(-1));
+    set(kDriveNow, sine(0));
+    set(kDriveNext, sine(1));
+    phase[lane] = toTurns(start + 2.0 * turns);
+    cycle[lane] = toTurns(turns);
+    const contact::DriveMotion::Amplitudes amplitudes = drive.amplitudes();
+    set(kDriveAlong, amplitudes.along);
+    set(kDriveUp, amplitudes.up);
+    set(kDriveTurn, amplitudes.turn);
+
+    set(kStaticFriction, batch.contact.staticFriction * spec.frictionScale);
+    set(kKineticFriction, batch.contact.kineticFriction * spec.frictionScale);
+    set(kRestitution, batch.contact.restitution * spec.restitutionScale);
+
+    set(kNextLook, -1.0);
+    track[lane] = &packedTrack;
+    candidates[lane].count = 0;
+    candidates[lane].collectAt = -1.0F;
+    warmStarts[lane].count = 0;
+    warmStarts[lane].carrying = 0;
+}
+
+void TrialLanes::remove(int lane) {
+    const int last = --count_;
+    if (lane == last) return;
+    for (int f = 0; f < kFieldCount; ++f)
+        field(f)[lane] = field(f)[last];
+    for (int k = 0; k < 3; ++k)
+        position(k)[lane] = position(k)[last];
+    phase[lane] = phase[last];
+    cycle[lane] = cycle[last];
+    track[lane] = track[last];
+    std::swap(candidates[lane], candidates[last]);
+    warmStarts[lane] = warmStarts[last];
+}
+
+base::Pose TrialLanes::poseInRoom(int lane) const {
+    base::Pose pose;
+    pose.rotation = base::Quaternion(field(kRotationW)[lane], field(kRotationX)[lane],
+                                     field(kRotationY)[lane], field(kRotationZ)[lane]);
+    pose.position = {position(0)[lane], position(1)[lane], position(2)[lane]};
+    return pose;
+}
+
+base::Pose TrialLanes::poseInTrack(int lane) const {
+    const double drive = field(kDriveNow)[lane];
+    base::Pose pose = contact::DriveMotion::calcPlacement(
+                          {field(kDriveAlong)[lane], field(kDriveUp)[lane], field(kDriveTurn)[lane]}, drive)
+                          .toTrack(poseInRoom(lane));
+    pose.rotation.normalize();
+    return pose;
+}
+
+void reduceContacts(ContactList& found) {
+    std::vector<contact::ManifoldPoint> points;
+    points.reserve(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const Contact& f = found[i];
+        points.push_back({{f.arm[0], f.arm[1], f.arm[2]}, {f.normal[0], f.normal[1], f.normal[2]}, f.gap});
+    }
+    std::array<int, WarmStartCache::kMost> kept{};
+    const int count = contact::reduceManifold(points, kept);
+    for (int i = 0; i < count; ++i)
+        found[static_cast<std::size_t>(i)] =
+            found[static_cast<std::size_t>(kept[i])];  // in order: kept[i] >= i
+    found.shrink(static_cast<std::size_t>(count));
+}
+
+}  // namespace trapwright::native

@@ -1,0 +1,33 @@
+#include "core/trial/vibration.h"
+
+#include <QtTest>
+
+#include "core/trial/outcome.h"
+
+using namespace trapwright;
+
+class VibrationTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    // decisions.md#drive: at 50 Hz and 12 degrees parts lift off from 0.478 mm.
+    void liftsOffWhereTheDesignSays() {
+        const trial::Vibration drive{50.0, 0.478e-3, 12.0 * base::kDegree};
+        QVERIFY(std::abs(trial::calcThrowNumber(drive) - 1.0) < 1e-3);
+    }
+    void growsWithTheSquareOfTheFrequency() {
+        const trial::Vibration slow{25.0, 0.8e-3, 12.0 * base::kDegree};
+        const trial::Vibration fast{50.0, 0.8e-3, 12.0 * base::kDegree};
+        QVERIFY(std::abs(trial::calcThrowNumber(fast) / trial::calcThrowNumber(slow) - 4.0) < 1e-12);
+    }
+    void endingsHaveNames() {
+        using trial::Ending;
+        QCOMPARE(trial::endingName(Ending::finished), std::string_view("finished"));
+        QCOMPARE(trial::endingName(Ending::fellOff), std::string_view("fell off"));
+        QCOMPARE(trial::endingName(Ending::stuck), std::string_view("stuck"));
+        QCOMPARE(trial::endingName(Ending::timedOut), std::string_view("timed out"));
+    }
+};
+
+QTEST_APPLESS_MAIN(VibrationTest)
+#include "vibration_test.moc"

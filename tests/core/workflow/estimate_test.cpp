@@ -1,0 +1,83 @@
+#include "core/workflow/estimate.h"
+
+#include <QtTest>
+
+#include "core/study/field_text.h"
+#include "core/study/settings.h"
+#include "tests/core/workflow/workflow_fixture.h"
+
+using namespace trapwright;
+
+class EstimateTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    // Ten minutes, whatever a trial costs; more of everything where it costs less.
+    void aDraftFitsIntoItsTime_data() {
+        QTest::addColumn<double>("secondsPerTrial");
+        QTest::addColumn<int>("population");  // 0: there is no draft
+        QTest::newRow("a fast machine") << 1e-4 << 100;
+        QTest::newRow("the cuboid on two cores") << 2.07e-3 << 80;
+        QTest::newRow("a part of many pieces") << 17.5e-3 << 30;
+        QTest::newRow("a slow one") << 0.1 << 20;
+        QTest::newRow("too slow") << 0.2 << 0;
+        QTest::newRow("not known") << 0.0 << 0;
+    }
+    void aDraftFitsIntoItsTime() {
+        QFETCH(double, secondsPerTrial);
+        QFETCH(int, population);
+        const study::EvolutionSettings full;
+        const auto draft = workflow::draftEvolution(full, secondsPerTrial);
+        QCOMPARE(draft.has_value(), population > 0);
+        if (!draft) return;
+        QCOMPARE(draft->populationSize, population);
+        const double time = workflow::learningTime(*draft, draft->generations, secondsPerTrial);
+        QVERIFY(time > 0.0 && time <= workflow::kDraftLearningTime && time < workflow::kDraftTime);
+        QVERIFY(draft->generations >= 10 && draft->generations <= full.generations);
+        QVERIFY(draft->trialsPerEvaluation <= full.trialsPerEvaluation);
+        // Nothing else changed, and a draft of a draft is itself.
+        study::EvolutionSettings same = *draft;
+        same.populationSize = full.populationSize;
+        same.trialsPerEvaluation = full.trialsPerEvaluation;
+        same.generations = full.generations;
+        QVERIFY(same == full);
+        QVERIFY(workflow::draftEvolution(*draft, secondsPerTrial) == draft);
+        QVERIFY(workflow::fullEvolution(*draft) == full);
+    }
+
+    void aDraftIsNoMoreThanWhatWasSet() {
+        study::EvolutionSettings small;
+        small.populationSize = 12;
+        small.trialsPerEvaluation = 10;
+        small.generations = 5;
+        small.tournamentSize = 3;
+        QVERIFY(workflow::draftEvolution(small, 1e-3) == small);
+    }
+
+    // Tests of the operators that a draft must not break.
+    void aDraftCanBeLearned() {
+        study::Settings settings;
+        settings.evolution.tournamentSize = 50;
+        settings.evolution.racingTrials = 60;
+        for (const double seconds : {1e-4, 1e-3, 1e-2, 0.1}) {
+            study::Settings draft = settings;
+            draft.evolution = workflow::draftEvolution(settings.evolution, seconds).value();
+            QVERIFY(study::findProblems(draft).empty());
+            QVERIFY(draft.evolution.tournamentSize <= draft.evolution.populationSize);
+            QVERIFY(draft.evolution.racingTrials <= draft.evolution.trialsPerEvaluation);
+        }
+    }
+
+    void aTrialIsTimed() {
+        const fake::WaveStudy study("native");
+        const auto seconds = workflow::timeTrial(study.inputs, 0.05, {});
+        QVERIFY2(seconds.ok(), seconds.ok() ? "" : seconds.error().message.c_str());
+        QVERIFY(*seconds > 0.0);
+        base::RunControl cancelled;
+        cancelled.cancel();
+        QVERIFY(!workflow::timeTrial(study.inputs, 0.05, cancelled).ok());
+    }
+};
+
+QTEST_GUILESS_MAIN(EstimateTest)
+#include "estimate_test.moc"

@@ -1,0 +1,132 @@
+#include "core/workflow/learning.h"
+
+#include <QtTest>
+
+#include "core/workflow/judging.h"
+#include "tests/core/workflow/workflow_fixture.h"
+
+using namespace trapwright;
+using workflow::FailureKind;
+
+/// Learning, selection and validation of a study file.
+class LearningTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void learnsWhatEvolveLearns() {
+        fake::WaveStudy study("native", 4);
+        std::vector<study::GenerationRecord> told;
+        workflow::LearnEvents events;
+        events.saved = [&](const study::GenerationRecord& record) {
+            told.push_back(record);
+            QCOMPARE(study.file->generationCount().value(), record.index + 1);
+        };
+        const auto report = workflow::learn(*study.file, study.inputs, fake::engineMaker(), events, {});
+        QVERIFY(report.ok());
+        QCOMPARE(report->end, study::LearningEnd::completed);
+        QVERIFY(report->unchecked.empty());
+        std::vector<study::GenerationRecord> truth;
+        study::LearningEvents watch;
+        watch.planned = [](const study::GenerationPlan&) {};
+        watch.save = [&](const study::GenerationRecord& record) {
+            truth.push_back(record);
+            return base::success();
+        };
+        QVERIFY(study::evolve(study.inputs, std::nullopt, watch, {}).ok());
+        QCOMPARE(told.size(), truth.size());
+        std::int64_t trials = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            QCOMPARE(told[i].individuals, truth[i].individuals);
+            QCOMPARE(study.file->loadGeneration(static_cast<int>(i)).value().individuals,
+                     truth[i].individuals);
+            for (const study::IndividualRecord& individual : truth[i].individuals)
+                trials += individual.trials;
+        }
+        QCOMPARE(report->trials, trials);
+    }
+
+    void goesOnFromTheFile() {
+        fake::WaveStudy whole("native", 5);
+        QVERIFY(workflow::learn(*whole.file, whole.inputs, fake::engineMaker(), {}, {}).ok());
+        fake::WaveStudy broken("native", 5);
+        study::LearningControl control;
+        workflow::LearnEvents events;
+        events.saved = [&](const study::GenerationRecord&) { control.stopAfterGeneration(); };
+        const auto first = workflow::learn(*broken.file, broken.inputs, fake::engineMaker(), events, control);
+        QVERIFY(first.ok());
+        QCOMPARE(first->end, study::LearningEnd::stopped);
+        QCOMPARE(broken.file->generationCount().value(), 1);
+        QVERIFY(workflow::learn(*broken.file, broken.inputs, fake::engineMaker(), {}, {}).ok());
+        QCOMPARE(broken.file->loadGeneration(4).value().individuals,
+                 whole.file->loadGeneration(4).value().individuals);
+    }
+
+    void winnersThatAreLeftAreChecked() {
+        fake::WaveStudy study("hybrid", 3);
+        int checked = 0;
+        workflow::LearnEvents events;
+        events.checked = [&](const study::CheckRecord&) { ++checked; };
+        const auto report = workflow::learn(*study.file, study.inputs, fake::engineMaker(), events, {});
+        QVERIFY(report.ok());
+        int simulated = 0;
+        const std::vector<study::Individual> winners = study.file->loadWinners().value();
+        for (const study::Individual& winner : winners)
+            simulated += winner.record.trials > 0 ? 1 : 0;
+        QCOMPARE(checked + static_cast<int>(report->unchecked.size()), simulated);
+        QCOMPARE(workflow::countCheckTrials(report->unchecked),
+                 static_cast<std::int64_t>(2 * 6 * report->unchecked.size()));
+        QVERIFY(workflow::checkWinners(*study.file, study.inputs, fake::engineMaker(), report->unchecked,
+                                       events.checked, {})
+                    .ok());
+        QCOMPARE(checked, simulated);
+        QVERIFY(study.file->loadUncheckedWinners().value().empty());
+    }
+
+    void failuresTellTheirKind() {
+        fake::WaveStudy study("hybrid", 2);
+        const auto onlyNative = [](const std::string& name, const trial::EngineOptions& options) {
+            return name == "native" ? fake::engineMaker()(name, options)
+                                    : base::Result<std::shared_ptr<const trial::Engine>>(base::Error{"none"});
+        };
+        QCOMPARE(kindOf(workflow::learn(*study.file, study.inputs, onlyNative, {}, {})),
+                 FailureKind::settings);
+        auto reader = store::StudyFile::openReadOnly(study.path);
+        VERIFY_OK(reader);
+        QCOMPARE(kindOf(workflow::learn(*reader, study.inputs, fake::engineMaker(), {}, {})),
+                 FailureKind::saving);
+        study::StudyInputs broken = study.inputs;
+        broken.engine = std::make_shared<fake::FakeEngine>(
+            [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                trial::Outcome outcome = fake::waveLaw(batch, spec);
+                outcome.farthest.position.x() = std::nan("");
+                return outcome;
+            });
+        QCOMPARE(kindOf(workflow::learn(*study.file, broken, fake::engineMaker(), {}, {})),
+                 FailureKind::simulation);
+
+        QCOMPARE(kindOf(workflow::findCandidates(*study.file, study.inputs)), FailureKind::reading);
+        QVERIFY(workflow::learn(*study.file, study.inputs, fake::engineMaker(), {}, {}).ok());
+        auto candidates = workflow::findCandidates(*study.file, study.inputs);
+        QVERIFY(candidates.ok());
+        base::RunControl cancelled;
+        cancelled.cancel();
+        QCOMPARE(kindOf(workflow::selectAndSave(*study.file, study.inputs, *candidates, cancelled)),
+                 FailureKind::cancelled);
+        QCOMPARE(kindOf(workflow::validateAndSave(*study.file, study.inputs, candidates->front(),
+                                                  std::nullopt, cancelled)),
+                 FailureKind::cancelled);
+        QVERIFY(study.file->loadSelections().value().empty());
+        study.inputs.settings.track.segmentWidth = -1.0;
+        QCOMPARE(kindOf(workflow::findCandidates(*study.file, study.inputs)), FailureKind::settings);
+    }
+
+ private:
+    template <class T>
+    static FailureKind kindOf(const workflow::Result<T>& result) {
+        [&] { QVERIFY(!result.ok()); }();
+        return result.error().kind;
+    }
+};
+
+QTEST_GUILESS_MAIN(LearningTest)
+#include "learning_test.moc"

@@ -1,0 +1,120 @@
+#include "core/workflow/study_trials.h"
+
+#include <QtTest>
+
+#include "core/workflow/judging.h"
+#include "core/workflow/learning.h"
+#include "tests/core/workflow/workflow_fixture.h"
+
+using namespace trapwright;
+using workflow::TrialKind;
+using workflow::TrialVerdict;
+
+/// The trials behind a score or a table, made again.
+class StudyTrialsTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void initTestCase() {
+        study_ = std::make_unique<fake::WaveStudy>("hybrid", 2);
+        study::Settings& settings = study_->inputs.settings;
+        settings.validation.selectionTrials = 9;
+        settings.validation.trialsPerPose = 5;
+        QVERIFY(workflow::learn(*study_->file, study_->inputs, fake::engineMaker(), {}, {}).ok());
+        winner_ = study_->file->loadWinners().value().back();
+        QVERIFY(workflow::validateAndSave(*study_->file, study_->inputs, winner_, std::nullopt, {}).ok());
+        QVERIFY(workflow::selectAndSave(*study_->file, study_->inputs, {winner_}, {}).ok());
+    }
+
+    void storedTrialsAreFound() {
+        const auto learned = find({TrialKind::learning, winner_});
+        QCOMPARE(learned.count, 6);
+        QCOMPARE(learned.engine, std::string("native"));
+        QVERIFY(!learned.expected);
+        const auto selected = find({TrialKind::selection, winner_});
+        QCOMPARE(selected.count, 9);
+        QCOMPARE(selected.engine, std::string("fake"));
+        const auto validated = find({TrialKind::validation, winner_, {2}});
+        QCOMPARE(validated.count, 5);
+        QVERIFY(validated.expected);
+        study::Individual other = winner_;
+        other.individual += 1;
+        QCOMPARE(find({TrialKind::selection, other}).count, 0);
+        QCOMPARE(find({TrialKind::validation, other, {2}}).count, 0);
+        QCOMPARE(find({TrialKind::validation, winner_, {7}}).count, 0);
+    }
+
+    void trialsAreTheSameAgain() {
+        // Counted from the table's own definition: trial i of pose p is trial 5 p + i of the stream.
+        const auto all = make({TrialKind::validation, winner_, {2}});
+        QCOMPARE(all.trials.size(), std::size_t{5});
+        const auto few = make({TrialKind::validation, winner_, {2}, 3});
+        QCOMPARE(few.trials.size(), std::size_t{3});
+        for (std::size_t i = 0; i < 3; ++i) {
+            QCOMPARE(few.trials[i].stream.trial, static_cast<std::uint32_t>(10 + i));
+            QVERIFY(few.trials[i].start.pose == all.trials[i].start.pose);
+        }
+        QCOMPARE(make({TrialKind::validation, winner_, {2}, 50}).trials.size(), std::size_t{5});
+        QCOMPARE(make({TrialKind::learning, winner_, {0}, 50}).trials.size(), std::size_t{50});
+        QCOMPARE(make({TrialKind::selection, winner_}).trials.size(), std::size_t{9});
+    }
+
+    void aPoseThatThePartDoesNotHave() {
+        for (const int pose : {-1, 3, 999}) {
+            const auto made = workflow::makeTrials(study_->inputs.settings, study_->inputs.part,
+                                                   {TrialKind::validation, winner_, {pose}}, {});
+            QVERIFY(!made.ok());
+            QVERIFY(
+                QString::fromStdString(made.error().message)
+                    .startsWith(
+                        QString("The study has trials of stable pose %1, but its part has 3").arg(pose + 1)));
+        }
+    }
+
+    void trialsAreCountedByTheirEnd() {
+        const auto outcome = [](trial::Ending ending, double degrees) {
+            trial::Outcome one;
+            one.ending = ending;
+            one.farthest.rotation = Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitZ());
+            return one;
+        };
+        const std::vector<trial::Outcome> outcomes = {
+            outcome(trial::Ending::finished, 3.0),   outcome(trial::Ending::finished, 90.0),
+            outcome(trial::Ending::fellOff, 0.0),    outcome(trial::Ending::stuck, 0.0),
+            outcome(trial::Ending::timedOut, 0.0),   outcome(trial::Ending::finished, 0.0),
+            outcome(trial::Ending::finished, 179.0),
+        };
+        const auto judged =
+            workflow::judgeTrials(outcomes, fake::block()->symmetry, std::nullopt, 25.0 * base::kDegree);
+        // Half a turn about z maps the block onto itself.
+        const std::vector<TrialVerdict> expected = {
+            TrialVerdict::success, TrialVerdict::wrongOrientation, TrialVerdict::fellOff, TrialVerdict::stuck,
+            TrialVerdict::stuck,   TrialVerdict::success,          TrialVerdict::success};
+        QVERIFY(judged.verdicts == expected);
+        const base::Quaternion turned(Eigen::AngleAxisd(base::kPi / 2, base::Vec3::UnitZ()));
+        const auto others =
+            workflow::judgeTrials(outcomes, fake::block()->symmetry, turned, 25.0 * base::kDegree);
+        QCOMPARE(others.verdicts[0], TrialVerdict::wrongOrientation);
+        QCOMPARE(others.verdicts[1], TrialVerdict::success);
+    }
+
+ private:
+    workflow::StoredTrials find(const workflow::TrialsRequest& request) {
+        const auto stored = workflow::findStoredTrials(*study_->file, study_->inputs.settings, request);
+        [&] { VERIFY_OK(stored); }();
+        return *stored;
+    }
+
+    trial::TrialBatch make(const workflow::TrialsRequest& request) {
+        const auto batch =
+            workflow::makeTrials(study_->inputs.settings, study_->inputs.part, request, find(request));
+        [&] { VERIFY_OK(batch); }();
+        return *batch;
+    }
+
+    std::unique_ptr<fake::WaveStudy> study_;
+    study::Individual winner_;
+};
+
+QTEST_GUILESS_MAIN(StudyTrialsTest)
+#include "study_trials_test.moc"
