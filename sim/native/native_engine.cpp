@@ -199,7 +199,7 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
     std::vector<trial::ContactForce> forces;
     trial::Trajectory trajectory;
     while (true) {
-        if (control.cancelled()) return base::Error{"The replay was cancelled."};
+        if (!control.mayGoOn()) return base::Error{"The replay was cancelled."};
         const bool ended = trials.hasEnded(0);
         beginStep(trials.group());
         trial::TrajectorySample sample = sampleOf(trials, drive);

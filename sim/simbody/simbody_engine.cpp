@@ -144,7 +144,7 @@ base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& b
         trial::CostLaps laps(nullptr);
         trial::Trajectory trajectory;
         while (true) {
-            if (control.cancelled()) return base::Error{"The replay was cancelled."};
+            if (!control.mayGoOn()) return base::Error{"The replay was cancelled."};
             bodies.beginStep(step_);
             const trial::TrajectorySample sample = lane.sample(bodies, 0);
             const bool ended = lane.step(bodies, 0, laps).has_value();

@@ -173,6 +173,21 @@ class EngineTest : public QObject {
         QVERIFY(!running.get());
     }
 
+    void aReplayStandsStillWhilePaused() {
+        base::RunControl control;
+        control.pause();
+        const auto engine = testing::makeEngine();
+        auto running =
+            std::async(std::launch::async, [&] { return engine->replay(batch_, 0, 1e-3, control); });
+        QVERIFY(running.wait_for(std::chrono::milliseconds(300)) == std::future_status::timeout);
+        control.resume();
+        const auto paused = running.get();
+        const auto straight = engine->replay(batch_, 0, 1e-3, {});
+        QVERIFY(paused.ok() && straight.ok());
+        QVERIFY(paused->outcome == straight->outcome);
+        QCOMPARE(paused->samples.size(), straight->samples.size());
+    }
+
     void whatCannotBeSimulatedIsRefused() {
         const auto engine = testing::makeEngine();
         const auto message = [&](const trial::TrialBatch& batch) {
