@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -78,24 +77,19 @@ FlatFaces findFlatFaces(const TriangleMesh& mesh) {
         const Triangle& t = mesh.triangles[side.triangle];
         return t[0] + t[1] + t[2] - side.low - side.high;
     };
-    std::vector<std::size_t> parents(mesh.triangles.size());
-    std::iota(parents.begin(), parents.end(), std::size_t{0});
-    const auto findRoot = [&](std::size_t i) {
-        while (parents[i] != i)
-            i = parents[i] = parents[parents[i]];
-        return i;
-    };
+    const std::size_t count = mesh.triangles.size();
+    Groups groups(count);
     const std::vector<EdgeSide> sides = collectSides(mesh);
     forEachEdge(sides, [&](auto first, auto last) {
         if (last - first == 2 && CGAL::coplanar(point(first->low), point(first->high), point(apexOf(*first)),
                                                 point(apexOf(*(first + 1)))))
-            parents[findRoot((first + 1)->triangle)] = findRoot(first->triangle);
+            groups.join((first + 1)->triangle, first->triangle);
     });
     FlatFaces faces;
-    std::vector<std::size_t> numberOf(parents.size(), parents.size());
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-        std::size_t& number = numberOf[findRoot(i)];
-        if (number == parents.size()) {
+    std::vector<std::size_t> numberOf(count, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::size_t& number = numberOf[groups.findRoot(i)];
+        if (number == count) {
             number = faces.borders.size();
             faces.borders.emplace_back();
         }

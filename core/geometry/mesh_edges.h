@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,30 @@ void forEachEdge(const std::vector<EdgeSide>& sides, Visit visit) {
         first = last;
     }
 }
+
+/// What hangs together: numbers from 0 in groups, each alone at first.
+class Groups {
+ public:
+    explicit Groups(std::size_t count) : parents_(count) {
+        std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+    }
+    /// The same number for all of a group.
+    std::size_t findRoot(std::size_t i) {
+        while (parents_[i] != i)
+            i = parents_[i] = parents_[parents_[i]];
+        return i;
+    }
+    /// Makes i's group part of j's. False if they are one already.
+    bool join(std::size_t i, std::size_t j) {
+        const std::size_t root = findRoot(i);
+        const std::size_t other = findRoot(j);
+        parents_[root] = other;
+        return root != other;
+    }
+
+ private:
+    std::vector<std::size_t> parents_;
+};
 
 /// Which triples are the same as one before. Numbers are from 0 to below `limit`.
 std::vector<char> findRepeated(const std::vector<Triangle>& triples, std::size_t limit);

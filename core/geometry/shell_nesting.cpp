@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 #include "core/geometry/mass_properties.h"
@@ -27,13 +26,6 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 const std::array<base::Vec3, 3> kDirections = {base::Vec3(0.5377, 0.1834, -0.8229),
                                                base::Vec3(-0.3188, 0.8622, 0.3937),
                                                base::Vec3(0.4336, -0.3426, 0.8334)};
-
-std::size_t findRoot(std::vector<std::size_t>& parents, std::size_t i) {
-    while (parents[i] != i)
-        i = parents[i] = parents[parents[i]];
-    return i;
-}
-
 Kernel::Point_3 toPoint(const base::Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
@@ -119,18 +111,17 @@ class SearchableShell {
 }  // namespace
 
 std::vector<Shell> findShells(const TriangleMesh& mesh) {
-    std::vector<std::size_t> parents(mesh.triangles.size());
-    std::iota(parents.begin(), parents.end(), std::size_t{0});
+    Groups groups(mesh.triangles.size());
     forEachEdge(collectSides(mesh), [&](auto first, auto last) {
         for (auto side = first + 1; side != last; ++side)
-            parents[findRoot(parents, side->triangle)] = findRoot(parents, first->triangle);
+            groups.join(side->triangle, first->triangle);
     });
 
     std::vector<Shell> shells;
     constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> shellOfRoot(parents.size(), kNone);
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-        std::size_t& shell = shellOfRoot[findRoot(parents, i)];
+    std::vector<std::size_t> shellOfRoot(mesh.triangles.size(), kNone);
+    for (std::size_t i = 0; i < shellOfRoot.size(); ++i) {
+        std::size_t& shell = shellOfRoot[groups.findRoot(i)];
         if (shell == kNone) {
             shell = shells.size();
             shells.emplace_back();

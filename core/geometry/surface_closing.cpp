@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <numeric>
 #include <string>
 
 #include "core/geometry/mesh_edges.h"
@@ -48,36 +47,26 @@ Surface makeOrientedSurface(const TriangleMesh& mesh) {
 /// Whether each edge has one triangle on either side, facing alike, and the triangles at each vertex hang
 /// together around it: then there is nothing to be done.
 bool isClosedManifold(const TriangleMesh& mesh) {
-    std::vector<std::size_t> parents(3 * mesh.triangles.size());
-    std::iota(parents.begin(), parents.end(), std::size_t{0});
-    const auto findRoot = [&](std::size_t i) {
-        while (parents[i] != i)
-            i = parents[i] = parents[parents[i]];
-        return i;
-    };
+    std::size_t count = 3 * mesh.triangles.size();  // of groups of corners that hang together
+    Groups groups(count);
     const auto findCorner = [&](const EdgeSide& side, int vertex) {
         const Triangle& t = mesh.triangles[side.triangle];
         return 3 * side.triangle +
                static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
     };
     bool areEdgesClosed = true;
-    std::size_t groups = parents.size();  // of corners that hang together
     forEachEdge(collectSides(mesh), [&](auto first, auto last) {
         if (last - first != 2 || first->forward == (first + 1)->forward) areEdgesClosed = false;
         if (!areEdgesClosed) return;
-        for (const int vertex : {first->low, first->high}) {
-            const std::size_t a = findRoot(findCorner(*first, vertex));
-            const std::size_t b = findRoot(findCorner(*(first + 1), vertex));
-            if (a != b) --groups;
-            parents[a] = b;
-        }
+        for (const int vertex : {first->low, first->high})
+            if (groups.join(findCorner(*first, vertex), findCorner(*(first + 1), vertex))) --count;
     });
     if (!areEdgesClosed) return false;
     std::vector<char> used(mesh.vertices.size(), 0);
     for (const Triangle& t : mesh.triangles)
         for (const int vertex : t)
             used[static_cast<std::size_t>(vertex)] = 1;
-    return groups == static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+    return count == static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
 }
 
 /// The vertices that triangles use, in the order in which they do so first.
