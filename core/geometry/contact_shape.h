@@ -25,9 +25,8 @@ struct ContactShape {
 /// of the size. Pieces are those of computeConvexPieces if there are not too many of them; otherwise of a
 /// surface simplified to within about 0.1 % of the size (simplifySurface), as hulls of few corners that reach
 /// out of it a little (computeNearConvexPieces, 0.2 % of the size where 192 pieces will do, never more than
-/// 1 %), and by another 0.05 % inside it. `mesh`
-/// must be closed and outward oriented. Errors: it encloses no volume, crosses itself (with the place), is
-/// too involved.
+/// 1 %), and leave corners out that are no more than another 0.05 % outside them. `mesh` must be closed and
+/// outward oriented. Errors: it encloses no volume, crosses itself (with the place), is too involved.
 base::Result<ContactShape> computeContactShape(const TriangleMesh& mesh);
 
 }  // namespace trapwright::geometry

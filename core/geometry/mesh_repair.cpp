@@ -103,7 +103,7 @@ int dropDuplicates(TriangleMesh& mesh) {
     const bool isTouching = eitherWay.triangles.size() > count && eitherWay.triangles.size() < 2 * count;
     const TriangleMesh& best = isTouching && countOdd(eitherWay) <= countOdd(once) ? eitherWay : once;
     if (countOdd(best) > countOdd(mesh)) return 0;  // parts of shells that overlap
-    mesh = TriangleMesh(best);
+    mesh = best;
     return static_cast<int>(before - mesh.triangles.size());
 }
 
