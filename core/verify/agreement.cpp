@@ -116,7 +116,7 @@ Agreement compare(const AgreementScene& scene, const Outcomes& own, const Outcom
     if (!judgedTimes.empty()) result.reference.medianTime = stats::medianOf(judgedTimes);
     if (!ownTimes.empty() && !judgedTimes.empty())
         result.times = stats::testKolmogorovSmirnov(ownTimes, judgedTimes);
-    result.meetsDesign =
+    result.alikeAlone =
         lieInEachOthersIntervals(result.engine.finished, result.reference.finished, result.trials) &&
         lieInEachOthersIntervals(result.engine.oriented, result.reference.oriented, result.trials) &&
         result.times.p > 0.01;

@@ -42,10 +42,10 @@ struct Agreement {
     double orientedP = 1.0;
     stats::KolmogorovSmirnov times;  // of the transit times of those that finished
     double familyP = 1.0;            // the least of the three, adjusted for all tests of the table (Holm)
-    bool meetsDesign = false;        // each rate in the other's 95 % interval, times with p > 0.01
+    bool alikeAlone = false;         // each rate in the other's 95 % interval, times with p > 0.01
 
-    /// Engines that are alike fail somewhere in a table with a probability of 5 % at most. A rule of one
-    /// criterion they miss in many a table: see README.md.
+    /// Engines that are alike fail somewhere in a table with a probability of 5 % at most. `alikeAlone`
+    /// they miss in many a table: see README.md.
     [[nodiscard]] bool passed() const { return familyP > 0.05; }
 };
 
