@@ -48,6 +48,14 @@ trap 'rm -rf "$work"' EXIT
 log=${LOG:-$work/log}
 : > "$log"
 
+# For awk: what a line says of a name, as in rest=0.34.
+value='function value(name,   i, pair) {
+    for (i = 3; i <= NF; ++i) {
+        split($i, pair, "=")
+        if (pair[1] == name) return pair[2]
+    }
+}'
+
 # One link in the window, in processes of 50 sequences, one after the other. A sequence takes some seconds.
 in_window() {
     local link=$1 file=$2 first last left status
@@ -74,13 +82,7 @@ if [[ $what == window ]]; then
     done
     wait
     cat "$work/tcp" "$work/rtu" "$work/reo" > "$log"
-    awk '
-    function value(name,   i, pair) {
-        for (i = 3; i <= NF; ++i) {
-            split($i, pair, "=")
-            if (pair[1] == name) return pair[2]
-        }
-    }
+    awk "$value"'
     $1 == "crash" { ++crashes[$2] }
     $1 == "window" {
         ++all[$2]
@@ -129,13 +131,7 @@ for link in tcp rtu reo; do
         fi
     done
 done
-awk '
-function value(name,   i, pair) {
-    for (i = 3; i <= NF; ++i) {
-        split($i, pair, "=")
-        if (pair[1] == name) return pair[2]
-    }
-}
+awk "$value"'
 $1 == "crash" { ++crashes[$2] }
 $1 == "process" {
     if (value("block_ms") > block[$2]) block[$2] = value("block_ms")

@@ -4,10 +4,10 @@
 #include <QEventLoop>
 #include <QTemporaryDir>
 #include <QTest>
-#include <QTimer>
 #include <cstdio>
 
 #include "tests/ui/footprint.h"
+#include "tests/ui/session/event_loop_probe.h"
 #include "tests/ui/transports/hostile_sequence.h"
 
 using namespace trapwright;
@@ -81,19 +81,11 @@ int main(int count, char** words) {
     const tests::Footprint before = tests::measureFootprint();
 
     // How late this thread's events are, as the window's would be.
-    QElapsedTimer clock;
-    double longest = 0.0;
-    QTimer probe;
-    probe.setTimerType(Qt::PreciseTimer);
-    probe.setInterval(5);
-    QObject::connect(&probe, &QTimer::timeout, [&] {
-        longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()) - 5.0);
-        clock.restart();
-    });
-    clock.start();
-    probe.start();
+    session::LateEvents late;
+    late.start();
     const auto outcomes =
         tests::runHostile(link, std::stoull(words[2]), std::stoull(words[3]), std::stoull(words[4]), path);
+    const double longest = late.stop();
     for (const tests::Outcome& outcome : outcomes) {
         fmt::print(
             "sequence {} {} started={:d} rest={:.3f} intime={:d} told={:d} self={:d} recovered={:d} "
