@@ -15,16 +15,16 @@ core/base       core/base
 core/bench      core/base core/bench core/part core/stats core/study core/track core/trial core/verify
 core/calibration core/base core/calibration core/stats core/trial
 core/drive      core/base core/drive
-core/evolution  core/base core/evolution core/stats
 core/geometry   core/base core/geometry
 core/part       core/base core/geometry core/part
+core/search     core/base core/search core/stats
 core/stats      core/base core/stats
-core/store      core/base core/calibration core/drive core/evolution core/geometry core/part core/store core/study
-core/study      core/base core/evolution core/geometry core/part core/stats core/study core/track core/trial
+core/store      core/base core/calibration core/drive core/geometry core/part core/search core/store core/study
+core/study      core/base core/geometry core/part core/search core/stats core/study core/track core/trial
 core/track      core/base core/geometry core/track
 core/trial      core/base core/part core/track core/trial
 core/verify     core/base core/calibration core/geometry core/part core/stats core/study core/track core/trial core/verify
-core/workflow   core/base core/evolution core/geometry core/part core/store core/study core/track core/trial core/workflow
+core/workflow   core/base core/geometry core/part core/search core/store core/study core/track core/trial core/workflow
 sim/contact     core/base core/geometry core/part core/track core/trial sim/contact
 sim/native      core/base core/geometry core/part core/track core/trial sim/contact sim/native
 sim/simbody     core/base core/geometry core/part core/track core/trial sim/contact sim/simbody

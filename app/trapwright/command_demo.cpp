@@ -78,7 +78,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         "threads, for about {:.1f} minutes\n{}",
         *before == 0 ? "Learning" : fmt::format("Going on from generation {} with", *before - 1), path,
         study->settings.evolution.populationSize, study->settings.evolution.trialsPerEvaluation,
-        inputs->engine->name(), inputs->threads, options.minutes, kLearningHeading));
+        inputs->engine->name(), inputs->threads, options.minutes,
+        learningHeading(inputs->settings.evolution.search)));
     auto learned = runLearning(study->file, *inputs, console, options.minutes * 60.0);
     if (!learned) return learned.failure();
     if (learned->interrupted) {
@@ -103,7 +104,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                               picked->generation,
                               study::formatValidation(study::tabulate(*validation, groups))));
 
-    auto track = study::decodeTrack(study->settings.track, picked->record.chromosome);
+    auto track = study::decodeTrack(study->settings.track, picked->record.design);
     if (!track) return Failure{ExitCode::fault, track.error().message};
     const track::TrackFile design{fmt::format("cuboid, generation {}", picked->generation),
                                   std::move(track).value(), validation->expectedOrientation};

@@ -31,7 +31,8 @@ Attempt<ExitCode> compare(const store::StudyFile& study, const Options& options,
     if (!other) return Failure{ExitCode::badInput, other.error().message};
     const auto difference = store::findDifference(study, *other);
     if (!difference) return Failure{ExitCode::badInput, difference.error().message};
-    console.print(difference->empty() ? "The same genes and scores.\n" : "Different: " + *difference + ".\n");
+    console.print(difference->empty() ? "The same designs and scores.\n"
+                                      : "Different: " + *difference + ".\n");
     console.emit(
         {{"study", options.study}, {"compared_with", *options.compare}, {"difference", *difference}});
     return difference->empty() ? ExitCode::ok : ExitCode::no;
@@ -51,7 +52,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         return ExitCode::ok;
     }
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    const auto dumped = store::dumpGenes(*file, [&](std::string_view lines) {
+    const auto dumped = store::dumpIndividuals(*file, [&](std::string_view lines) {
         console.print(lines);
         if (console.json()) appendLines(lines, list);
     });
@@ -64,11 +65,11 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addDumpCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    Command command =
-        addCommand(program, invocation, "dump",
-                   "Prints genes and scores of every individual, one line each. Equal runs give equal lines.",
-                   "trapwright dump one.trap > one.txt\n  trapwright dump one.trap --compare two.trap",
-                   [options](const Console& console) { return run(*options, console); });
+    Command command = addCommand(
+        program, invocation, "dump",
+        "Prints designs and scores of every individual, one line each. Equal runs give equal lines.",
+        "trapwright dump one.trap > one.txt\n  trapwright dump one.trap --compare two.trap",
+        [options](const Console& console) { return run(*options, console); });
     command.addOption("STUDY", options->study, "The study's file").required();
     command.addFlag("--checks", options->checks,
                     "Instead, what the reference engine made of each generation's winner (engine hybrid)");

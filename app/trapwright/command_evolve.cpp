@@ -68,7 +68,7 @@ std::string describeStart(const OpenStudy& study, const study::StudyInputs& inpu
         study.file.path().string(), study.part->name, study.part->symmetry.name, evolution.populationSize,
         evolution.trialsPerEvaluation, evolution.seed, describeEngines(study, inputs), inputs.threads,
         trial::calcBestOrientationScore(study.part->symmetry, evolution.orientationDistance),
-        kLearningHeading);
+        learningHeading(inputs.settings.evolution.search));
 }
 
 std::string_view endName(study::LearningEnd end) {

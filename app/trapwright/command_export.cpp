@@ -50,7 +50,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!settings) return Failure{ExitCode::badInput, settings.error().message};
     auto individual = findIndividual(*file, options.choice);
     if (!individual) return individual.failure();
-    const auto track = study::decodeTrack(settings->track, individual->record.chromosome);
+    const auto track = study::decodeTrack(settings->track, individual->record.design);
     if (!track) return Failure{ExitCode::badInput, track.error().message};
     auto means = findPrintMeans(options.print);
     if (!means) return means.failure();

@@ -62,16 +62,16 @@ Json toJson(const study::IndividualRecord& record) {
 
 Json toJson(const study::GenerationSummary& summary) {
     const study::GenerationStatistics& statistics = summary.statistics;
-    return {{"generation", summary.index},
-            {"winner", summary.winner},
-            {"success", successToJson(statistics.success)},
-            {"top_30_percent_success", statistics.topSuccess ? Json(*statistics.topSuccess) : Json()},
-            {"best", toJson(statistics.best)},
-            {"top_30_percent_mean", toJson(statistics.topMean)},
-            {"p_x", statistics.topStrategy.crossover},
-            {"p_dm", statistics.topStrategy.mutation},
-            {"p_s", statistics.topStrategy.smoothing},
-            {"seconds", summary.seconds}};
+    Json json = {{"generation", summary.index},
+                 {"winner", summary.winner},
+                 {"success", successToJson(statistics.success)},
+                 {"top_30_percent_success", statistics.topSuccess ? Json(*statistics.topSuccess) : Json()},
+                 {"best", toJson(statistics.best)},
+                 {"top_30_percent_mean", toJson(statistics.topMean)}};
+    for (const search::NamedNumber& curve : statistics.curves)
+        json[curve.key] = curve.value;
+    json["seconds"] = summary.seconds;
+    return json;
 }
 
 Json toJson(const std::vector<study::CheckRecord>& records) {

@@ -74,21 +74,31 @@ std::string describeSuccess(const std::optional<stats::Count>& success) {
                        kPercent * bounds.high);
 }
 
+/// Of the column of one of the search's curves.
+std::size_t widthOf(const search::NumberInfo& curve) {
+    constexpr std::size_t kLeast = 7;
+    return std::max(kLeast, curve.key.size());
+}
+
 // Adding 0 makes the -0 of a track without overlaps a 0.
-std::string describeGeneration(const study::GenerationRecord& record) {
+std::string describeGeneration(search::Method method, const study::GenerationRecord& record) {
     const trial::Fitness& best = record.statistics.best;
     const trial::Fitness& top = record.statistics.topMean;
-    const evolution::StrategyValues& strategy = record.statistics.topStrategy;
+    std::string curves;
+    for (const search::NumberInfo& info : search::describeMethod(method).curves) {
+        const auto value = search::findNumber(record.statistics.curves, info.key);
+        curves += fmt::format(" {:>{}}", value ? fmt::format("{:.{}f}", *value, info.decimals) : "-",
+                              widthOf(info));
+    }
     const study::IndividualRecord& winner = record.individuals[static_cast<std::size_t>(record.winner)];
     const std::optional<double>& topSuccess = record.statistics.topSuccess;
     return fmt::format(
-        "{:>10} {} {:>9} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>8} {:>8.3f} {:>6.1f} {:>7.3f} {:>7.3f} "
-        "{:>7.4f} {:>7.4f} {:>7.4f} {:>7.1f}\n",
+        "{:>10} {} {:>9} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>8} {:>8.3f} {:>6.1f} {:>7.3f} {:>7.3f}{} "
+        "{:>7.1f}\n",
         record.index, describeSuccess(record.statistics.success),
         fmt::format("{}/{}", winner.finished, winner.trials), best.total(), best.collision + 0.0,
         best.distance, best.orientation, topSuccess ? fmt::format("{:.1f}", kPercent * *topSuccess) : "-",
-        top.total(), top.collision, top.distance, top.orientation, strategy.crossover, strategy.mutation,
-        strategy.smoothing, record.seconds);
+        top.total(), top.collision, top.distance, top.orientation, curves, record.seconds);
 }
 
 /// The reference's scores below those of the generation's line, and how they differ from the learning
@@ -140,11 +150,17 @@ Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inp
 
 }  // namespace
 
-const char* const kLearningHeading =
-    "               [%]          95 % [%]  the generation's winner                       [%]    m"
-    "ean of the top 30 %           geometric mean of these\n"
-    "Generation success   Clopper-Pearson  finished        F    F_C     F_D     F_O  success     "
-    "   F    F_C     F_D     F_O     p_x    p_dm     p_s seconds\n";
+std::string learningHeading(search::Method method) {
+    std::string names;
+    for (const search::NumberInfo& curve : search::describeMethod(method).curves)
+        names += fmt::format(" {:>{}}", curve.key, widthOf(curve));
+    return fmt::format(
+        "               [%]          95 % [%]  the generation's winner                       [%]    m"
+        "ean of the top 30 %           {:^{}}\n"
+        "Generation success   Clopper-Pearson  finished        F    F_C     F_D     F_O  success     "
+        "   F    F_C     F_D     F_O{} seconds\n",
+        "the search", names.size(), names);
+}
 
 Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
                                  const Console& console, std::optional<double> timeLimit) {
@@ -158,7 +174,7 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
         events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
         events.saved = [&](const study::GenerationRecord& record) {
             situation.setSuccess(record.statistics.success);
-            display.print(describeGeneration(record));
+            display.print(describeGeneration(inputs.settings.evolution.search, record));
             if (timeLimit && secondsSince(begin) + record.seconds > *timeLimit) {
                 timeOver = true;
                 control.stopAfterGeneration();

@@ -18,6 +18,7 @@ enum class Purpose : std::uint8_t {
     stablePoseDrop = 7,
     virtualFeeder = 8,
     physicalOrder = 9,
+    randomDesign = 10,
     test = 255
 };
 

@@ -29,10 +29,9 @@ std::string exactText(double value) {
 
 std::string lineOf(int generation, std::size_t number, const study::IndividualRecord& record) {
     std::string line = std::to_string(generation) + " " + std::to_string(number);
-    for (const evolution::Bits* gene :
-         {&record.chromosome.points, &record.chromosome.lengths, &record.chromosome.strategy}) {
-        line += " " + hexadecimal(packBits(*gene));
-    }
+    line += " " + hexadecimal(search::packDesign(record.design));
+    for (const search::NamedNumber& trait : record.traits)
+        line += " " + exactText(trait.value);
     for (const double score :
          {record.fitness.collision, record.fitness.distance, record.fitness.orientation}) {
         line += " " + exactText(score);
@@ -43,7 +42,7 @@ std::string lineOf(int generation, std::size_t number, const study::IndividualRe
     return line + " " + (record.oriented ? std::to_string(*record.oriented) : "-") + "\n";
 }
 
-/// Whether genes and scores are the same; success as far as both have counted it.
+/// Whether designs and scores are the same; success as far as both have counted it.
 bool areAlike(const study::IndividualRecord& a, study::IndividualRecord b) {
     if (!a.oriented || !b.oriented) b.oriented = a.oriented;
     return a == b;
@@ -57,7 +56,8 @@ bool areAlike(const study::GenerationStatistics& a, study::GenerationStatistics 
 
 }  // namespace
 
-base::Status dumpGenes(const StudyFile& study, const std::function<void(std::string_view lines)>& write) {
+base::Status dumpIndividuals(const StudyFile& study,
+                             const std::function<void(std::string_view lines)>& write) {
     const auto count = study.generationCount();
     if (!count) return count.error();
     for (int index = 0; index < *count; ++index) {
@@ -111,9 +111,10 @@ base::Result<std::string> findDifference(const StudyFile& a, const StudyFile& b)
         }
         for (std::size_t i = 0; i < individualsA.size(); ++i) {
             if (areAlike(individualsA[i], individualsB[i])) continue;
-            const bool sameGenes = individualsA[i].chromosome == individualsB[i].chromosome;
+            const bool sameDesign = individualsA[i].design == individualsB[i].design &&
+                                    individualsA[i].traits == individualsB[i].traits;
             return place + ", individual " + std::to_string(i) + ": " +
-                   (sameGenes ? "the scores differ" : "the genes differ");
+                   (sameDesign ? "the scores differ" : "the designs differ");
         }
         if (generationA->winner != generationB->winner ||
             !areAlike(generationA->statistics, generationB->statistics)) {

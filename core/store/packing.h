@@ -5,17 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "core/evolution/chromosome.h"
 #include "core/geometry/triangle_mesh.h"
 
 namespace trapwright::store {
 
 /// How values lie in the blobs of a study file: little-endian, on every machine.
 
-/// A bit count (32 bits), then eight bits a byte, the first in the lowest place.
-std::string packBits(const evolution::Bits& bits);
-/// None if the blob is not what packBits writes.
-std::optional<evolution::Bits> unpackBits(std::string_view blob);
+/// Doubles, one after the other.
+std::string packNumbers(std::span<const double> numbers);
+/// None if the size is wrong.
+std::optional<std::vector<double>> unpackNumbers(std::string_view blob);
 
 /// x, y, z of every vertex as doubles. [m]
 std::string packVertices(const std::vector<base::Vec3>& vertices);

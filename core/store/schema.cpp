@@ -7,6 +7,8 @@
 #include <array>
 #include <string>
 
+#include "core/store/old_genes.h"
+
 namespace trapwright::store {
 
 namespace {
@@ -201,13 +203,40 @@ CREATE TABLE drop_pose (
 UPDATE study SET settings = json_set(settings, '$.part.poseWeights', 'quasi-static');
 )sql";
 
-constexpr std::array<Migration, 7> kMigrations = {{{1, kVersion1},
+// Any search, not the genetic one alone: designs instead of its genes, its strategy values as named numbers.
+constexpr const char* kVersion8 = R"sql(
+ALTER TABLE individual ADD COLUMN design BLOB NOT NULL DEFAULT x'';     -- numbers in [0, 1]
+ALTER TABLE individual ADD COLUMN traits BLOB NOT NULL DEFAULT x'';     -- a double for each row of trait
+CREATE TABLE trait (
+    place INTEGER PRIMARY KEY,      -- from 0
+    key TEXT NOT NULL               -- what the search calls it
+);
+CREATE TABLE curve (                -- what the search reports
+    generation INTEGER NOT NULL REFERENCES generation (number),
+    place INTEGER NOT NULL,         -- from 0
+    key TEXT NOT NULL,
+    value REAL NOT NULL,
+    PRIMARY KEY (generation, place)
+) WITHOUT ROWID;
+CREATE TABLE search_state (         -- what the next generation follows from
+    id INTEGER PRIMARY KEY CHECK (id = 1),
+    generation INTEGER NOT NULL,    -- the last
+    state BLOB NOT NULL             -- the search's own
+);
+INSERT INTO curve SELECT number, 0, 'p_x', top_crossover FROM generation;
+INSERT INTO curve SELECT number, 1, 'p_dm', top_mutation FROM generation;
+INSERT INTO curve SELECT number, 2, 'p_s', top_smoothing FROM generation;
+UPDATE study SET settings = json_set(settings, '$.evolution.search', 'genetic');
+)sql";
+
+constexpr std::array<Migration, 8> kMigrations = {{{1, kVersion1},
                                                    {2, kVersion2},
                                                    {3, kVersion3},
                                                    {4, kVersion4},
                                                    {5, kVersion5},
                                                    {6, kVersion6},
-                                                   {7, kVersion7}}};
+                                                   {7, kVersion7},
+                                                   {8, kVersion8, &turnGenesIntoDesigns}}};
 
 }  // namespace
 
@@ -225,6 +254,7 @@ void migrate(SQLite::Database& database, std::span<const Migration> migrations) 
     for (const Migration& migration : migrations) {
         if (migration.version <= present) continue;
         database.exec(migration.sql);
+        if (migration.then != nullptr) migration.then(database);
         database.exec("PRAGMA user_version = " + std::to_string(migration.version));
     }
     transaction.commit();

@@ -14,8 +14,9 @@ inline constexpr int kApplicationId = 0x54726170;
 
 /// One step of the schema. Steps are never changed once released; a new one is added.
 struct Migration {
-    int version;      // the user_version that the file has afterwards
-    const char* sql;  // may hold several statements
+    int version;                                         // the user_version that the file has afterwards
+    const char* sql;                                     // may hold several statements
+    void (*then)(SQLite::Database& database) = nullptr;  // what SQL cannot do
 };
 
 /// All steps, from an empty database to the schema of this program.

@@ -87,6 +87,8 @@ class StudyFile {
     /// Adds the next generation (index = generationCount) in one transaction.
     base::Status saveGeneration(const study::GenerationRecord& record);
     [[nodiscard]] base::Result<int> generationCount() const;
+    /// Where learning goes on; none if there is no generation.
+    [[nodiscard]] base::Result<std::optional<study::LearningState>> loadLearningState() const;
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
     [[nodiscard]] base::Result<study::IndividualRecord> loadIndividual(int generation, int individual) const;
     /// Winner, curves and time of every generation from `first` on: all that a chart needs.

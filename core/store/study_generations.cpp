@@ -12,8 +12,28 @@ namespace trapwright::store {
 namespace {
 
 constexpr const char* kIndividualColumns =
-    "points, lengths, strategy, collision, distance, orientation, overlaps, trials, finished, fell_off, "
-    "stuck, oriented";
+    "design, traits, collision, distance, orientation, overlaps, trials, finished, fell_off, stuck, oriented";
+
+/// What the traits of this study's individuals are called.
+using TraitKeys = std::vector<std::string>;
+
+TraitKeys readTraitKeys(SQLite::Database& database) {
+    TraitKeys keys;
+    SQLite::Statement query(database, "SELECT key FROM trait ORDER BY place");
+    while (query.executeStep())
+        keys.push_back(query.getColumn(0).getString());
+    return keys;
+}
+
+void writeTraitKeys(SQLite::Database& database, const std::vector<search::NamedNumber>& traits) {
+    database.exec("DELETE FROM trait");
+    SQLite::Statement insert(database, "INSERT INTO trait VALUES (?, ?)");
+    for (std::size_t i = 0; i < traits.size(); ++i) {
+        insert.reset();
+        SQLite::bind(insert, static_cast<int>(i), traits[i].key);
+        insert.exec();
+    }
+}
 
 void bindBlob(SQLite::Statement& statement, int index, const std::string& blob) {
     statement.bind(index, blob.data(), static_cast<int>(blob.size()));
@@ -33,36 +53,40 @@ void insertIndividual(SQLite::Statement& statement, int generation, int number,
     statement.reset();
     statement.bind(1, generation);
     statement.bind(2, number);
-    bindBlob(statement, 3, packBits(record.chromosome.points));
-    bindBlob(statement, 4, packBits(record.chromosome.lengths));
-    bindBlob(statement, 5, packBits(record.chromosome.strategy));
-    statement.bind(6, record.fitness.collision);
-    statement.bind(7, record.fitness.distance);
-    statement.bind(8, record.fitness.orientation);
-    statement.bind(9, record.overlaps);
-    statement.bind(10, record.trials);
-    statement.bind(11, record.finished);
-    statement.bind(12, record.fellOff);
-    statement.bind(13, record.stuck);
-    bindOptional(statement, 14, record.oriented);
+    bindBlob(statement, 3, search::packDesign(record.design));
+    std::vector<double> traits;
+    for (const search::NamedNumber& trait : record.traits)
+        traits.push_back(trait.value);
+    bindBlob(statement, 4, packNumbers(traits));
+    statement.bind(5, record.fitness.collision);
+    statement.bind(6, record.fitness.distance);
+    statement.bind(7, record.fitness.orientation);
+    statement.bind(8, record.overlaps);
+    statement.bind(9, record.trials);
+    statement.bind(10, record.finished);
+    statement.bind(11, record.fellOff);
+    statement.bind(12, record.stuck);
+    bindOptional(statement, 13, record.oriented);
     statement.exec();
 }
 
-/// The columns of kIndividualColumns from `first` on; none if a gene is no gene, or a count none.
-std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& query, int first) {
-    auto points = unpackBits(readBlob(query, first));
-    auto lengths = unpackBits(readBlob(query, first + 1));
-    auto strategy = unpackBits(readBlob(query, first + 2));
-    if (!points || !lengths || !strategy) return std::nullopt;
+/// The columns of kIndividualColumns from `first` on; none if a design is no design, or a count none.
+std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& query, int first,
+                                                      const TraitKeys& traitKeys) {
+    auto design = search::unpackDesign(readBlob(query, first));
+    const auto traits = unpackNumbers(readBlob(query, first + 1));
+    if (!design || !traits || traits->size() != traitKeys.size()) return std::nullopt;
     study::IndividualRecord record;
-    record.chromosome = {std::move(*points), std::move(*lengths), std::move(*strategy)};
-    record.fitness = readFitness(query, first + 3);
-    record.overlaps = query.getColumn(first + 6).getInt();
-    record.trials = query.getColumn(first + 7).getInt();
-    record.finished = query.getColumn(first + 8).getInt();
-    record.fellOff = query.getColumn(first + 9).getInt();
-    record.stuck = query.getColumn(first + 10).getInt();
-    const auto oriented = query.getColumn(first + 11);
+    record.design = std::move(*design);
+    for (std::size_t i = 0; i < traitKeys.size(); ++i)
+        record.traits.push_back({traitKeys[i], (*traits)[i]});
+    record.fitness = readFitness(query, first + 2);
+    record.overlaps = query.getColumn(first + 5).getInt();
+    record.trials = query.getColumn(first + 6).getInt();
+    record.finished = query.getColumn(first + 7).getInt();
+    record.fellOff = query.getColumn(first + 8).getInt();
+    record.stuck = query.getColumn(first + 9).getInt();
+    const auto oriented = query.getColumn(first + 10);
     if (!oriented.isNull()) record.oriented = oriented.getInt();
     const bool counted = areCounts(record.trials, {record.finished, record.fellOff, record.stuck});
     if (!counted || record.overlaps < 0 || !areCounts(record.trials, {record.oriented.value_or(0)}))
@@ -72,9 +96,7 @@ std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& q
 
 constexpr const char* kSummaryQuery =
     "SELECT generation.number, winner, seconds, best_collision, best_distance, best_orientation, "
-    "top_collision, "
-    "top_distance, "
-    "top_orientation, top_crossover, top_mutation, top_smoothing, "
+    "top_collision, top_distance, top_orientation, "
     "(SELECT sum(trials) FROM individual WHERE individual.generation = generation.number), best.oriented, "
     "best.trials, top_success FROM generation LEFT JOIN individual AS best "
     "ON best.generation = generation.number AND best.number = generation.winner ";
@@ -87,19 +109,34 @@ base::Result<study::GenerationSummary> readSummary(const std::filesystem::path& 
     summary.seconds = query.getColumn(2).getDouble();
     summary.statistics.best = readFitness(query, 3);
     summary.statistics.topMean = readFitness(query, 6);
-    summary.statistics.topStrategy = {query.getColumn(9).getDouble(), query.getColumn(10).getDouble(),
-                                      query.getColumn(11).getDouble()};
-    summary.trials = query.getColumn(12).getInt64();
-    const auto oriented = query.getColumn(13);
-    const int trials = query.getColumn(14).getInt();
+    summary.trials = query.getColumn(9).getInt64();
+    const auto oriented = query.getColumn(10);
+    const int trials = query.getColumn(11).getInt();
     if (!oriented.isNull() && trials > 0) {
         if (!areCounts(trials, {oriented.getInt()}))
             return damagedValue(path, "the winner of generation " + std::to_string(summary.index));
         summary.statistics.success = {oriented.getInt(), trials};
     }
-    const auto topSuccess = query.getColumn(15);
+    const auto topSuccess = query.getColumn(12);
     if (!topSuccess.isNull()) summary.statistics.topSuccess = topSuccess.getDouble();
     return summary;
+}
+
+/// Adds what the search reported of these generations; of all from the first of them on, whose numbers follow
+/// each other.
+void readCurves(SQLite::Database& database, std::vector<study::GenerationSummary>& summaries) {
+    if (summaries.empty()) return;
+    const int first = summaries.front().index;
+    SQLite::Statement query(database,
+                            "SELECT generation, key, value FROM curve WHERE generation BETWEEN ? AND ? "
+                            "ORDER BY generation, place");
+    SQLite::bind(query, first, summaries.back().index);
+    while (query.executeStep()) {
+        const auto at = static_cast<std::size_t>(query.getColumn(0).getInt() - first);
+        if (at < summaries.size())
+            summaries[at].statistics.curves.push_back(
+                {query.getColumn(1).getString(), query.getColumn(2).getDouble()});
+    }
 }
 
 std::string nameOf(int generation, int individual) {
@@ -114,11 +151,12 @@ base::Result<std::vector<study::Individual>> readWinners(SQLite::Database& datab
                                           " FROM generation JOIN individual ON individual.generation = "
                                           "generation.number AND individual.number = generation.winner " +
                                           condition + "ORDER BY generation");
+    const TraitKeys traitKeys = readTraitKeys(database);
     std::vector<study::Individual> winners;
     while (query.executeStep()) {
         const int generation = query.getColumn(0).getInt();
         const int number = query.getColumn(1).getInt();
-        auto record = readIndividual(query, 2);
+        auto record = readIndividual(query, 2, traitKeys);
         if (!record) return damagedValue(path, nameOf(generation, number));
         winners.push_back({generation, number, std::move(*record)});
     }
@@ -137,20 +175,32 @@ base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
             return base::Error{doing + ": the study " + path().string() + " has " + std::to_string(count) +
                                " generations, and the next one must have that number."};
         }
-        SQLite::Statement generation(
-            database, "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        SQLite::Statement generation(database,
+                                     "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         const study::GenerationStatistics& s = record.statistics;
         SQLite::bind(generation, record.index, state_->program, record.winner, s.best.collision,
                      s.best.distance, s.best.orientation, s.topMean.collision, s.topMean.distance,
-                     s.topMean.orientation, s.topStrategy.crossover, s.topStrategy.mutation,
-                     s.topStrategy.smoothing, record.seconds);
-        bindOptional(generation, 14, s.topSuccess);
+                     s.topMean.orientation, record.seconds);
+        bindOptional(generation, 11, s.topSuccess);
         generation.exec();
-        SQLite::Statement individual(
-            database, "INSERT INTO individual VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        SQLite::Statement curve(database, "INSERT INTO curve VALUES (?, ?, ?, ?)");
+        for (std::size_t i = 0; i < s.curves.size(); ++i) {
+            curve.reset();
+            SQLite::bind(curve, record.index, static_cast<int>(i), s.curves[i].key, s.curves[i].value);
+            curve.exec();
+        }
+        if (record.index == 0 && !record.individuals.empty())
+            writeTraitKeys(database, record.individuals.front().traits);
+        SQLite::Statement individual(database, std::string("INSERT INTO individual (generation, number, ") +
+                                                   kIndividualColumns +
+                                                   ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         for (std::size_t i = 0; i < record.individuals.size(); ++i) {
             insertIndividual(individual, record.index, static_cast<int>(i), record.individuals[i]);
         }
+        SQLite::Statement state(database, "INSERT OR REPLACE INTO search_state VALUES (1, ?, ?)");
+        state.bind(1, record.index);
+        bindBlob(state, 2, record.searchState);
+        state.exec();
         transaction.commit();
         return base::success();
     });
@@ -171,20 +221,23 @@ base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const
                                std::to_string(state_->countRows("generation")) +
                                " generations, counted from 0."};
         }
-        const auto summary = readSummary(path(), head);
-        if (!summary) return summary.error();
+        auto read = readSummary(path(), head);
+        if (!read) return read.error();
+        std::vector<study::GenerationSummary> one{std::move(*read)};
+        readCurves(*state_->database, one);
         study::GenerationRecord record;
-        record.index = summary->index;
-        record.winner = summary->winner;
-        record.statistics = summary->statistics;
-        record.seconds = summary->seconds;
+        record.index = one.front().index;
+        record.winner = one.front().winner;
+        record.statistics = std::move(one.front().statistics);
+        record.seconds = one.front().seconds;
+        const TraitKeys traitKeys = readTraitKeys(*state_->database);
 
         SQLite::Statement query(*state_->database,
                                 std::string("SELECT ") + kIndividualColumns +
                                     " FROM individual WHERE generation = ? ORDER BY number");
         query.bind(1, index);
         while (query.executeStep()) {
-            auto individual = readIndividual(query, 0);
+            auto individual = readIndividual(query, 0, traitKeys);
             if (!individual)
                 return damagedValue(path(), nameOf(index, static_cast<int>(record.individuals.size())));
             record.individuals.push_back(std::move(*individual));
@@ -209,7 +262,7 @@ base::Result<study::IndividualRecord> StudyFile::loadIndividual(int generation, 
                                               "; it has " + std::to_string(state_->countRows("generation")) +
                                               " generations. Generations and individuals count from 0."};
                        }
-                       auto record = readIndividual(query, 0);
+                       auto record = readIndividual(query, 0, readTraitKeys(*state_->database));
                        if (!record) return damagedValue(path(), name);
                        return std::move(*record);
                    });
@@ -228,8 +281,21 @@ base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int
                            if (!summary) return summary.error();
                            summaries.push_back(std::move(*summary));
                        }
+                       readCurves(*state_->database, summaries);
                        return summaries;
                    });
+}
+
+base::Result<std::optional<study::LearningState>> StudyFile::loadLearningState() const {
+    using Last = std::optional<study::LearningState>;
+    return guarded(path(), "The state of the search could not be read", [&]() -> base::Result<Last> {
+        const int count = state_->countRows("generation");
+        if (count == 0) return Last();
+        SQLite::Statement query(*state_->database, "SELECT generation, state FROM search_state");
+        if (!query.executeStep() || query.getColumn(0).getInt() != count - 1)
+            return damagedValue(path(), "the state of the search");
+        return Last({count - 1, readBlob(query, 1)});
+    });
 }
 
 base::Result<std::vector<study::Individual>> StudyFile::loadWinners() const {

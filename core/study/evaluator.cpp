@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/base/parallel.h"
-#include "core/evolution/racing.h"
 #include "core/geometry/self_overlap.h"
+#include "core/search/racing.h"
 #include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
@@ -23,11 +23,12 @@ struct Candidate {
     std::string failure;
 };
 
-Candidate prepare(const StudyInputs& inputs, const evolution::Chromosome& chromosome) {
+Candidate prepare(const StudyInputs& inputs, const search::Proposal& proposal) {
     const Settings& settings = inputs.settings;
     Candidate candidate;
-    candidate.record.chromosome = chromosome;
-    auto track = decodeTrack(settings.track, chromosome);
+    candidate.record.design = proposal.design;
+    candidate.record.traits = proposal.traits;
+    auto track = decodeTrack(settings.track, proposal.design);
     if (!track) {
         candidate.failure = track.error().message;
         return candidate;
@@ -70,30 +71,30 @@ class Race {
         : inputs_(&inputs),
           generation_(generation),
           candidates_(&candidates),
-          stages_(evolution::makeRacingStages(candidates.size(), settings().racingTrials,
-                                              settings().trialsPerEvaluation, settings().racingShare)),
+          stages_(search::makeRacingStages(candidates.size(), settings().racingTrials,
+                                           settings().trialsPerEvaluation, settings().racingShare)),
           running_(static_cast<int>(
               std::count_if(candidates.begin(), candidates.end(),
                             [](const Candidate& candidate) { return candidate.simulated; }))) {}
 
     /// Who runs next; empty when all is decided.
-    [[nodiscard]] std::vector<evolution::RacingStep> findNextRound() const {
+    [[nodiscard]] std::vector<search::RacingStep> findNextRound() const {
         std::vector<double> fitnesses;
         for (const Candidate& candidate : *candidates_)
             fitnesses.push_back(candidate.record.fitness.total());
-        return evolution::findNextRound(fitnesses, countTrials(), stages_);
+        return search::findNextRound(fitnesses, countTrials(), stages_);
     }
 
-    [[nodiscard]] GenerationPlan plan(std::span<const evolution::RacingStep> round,
+    [[nodiscard]] GenerationPlan plan(std::span<const search::RacingStep> round,
                                       std::int64_t doneBefore) const {
         std::vector<int> trials = countTrials();
-        for (const evolution::RacingStep& step : round)
+        for (const search::RacingStep& step : round)
             trials[step.individual] = step.trials;
         return {generation_, static_cast<int>(candidates_->size()), running_,
-                evolution::countRacingTrials(trials, running_, stages_), doneBefore};
+                search::countRacingTrials(trials, running_, stages_), doneBefore};
     }
 
-    base::Status run(std::span<const evolution::RacingStep> round, const base::RunControl& control) {
+    base::Status run(std::span<const search::RacingStep> round, const base::RunControl& control) {
         std::vector<trial::TrialBatch> batches(round.size());
         base::parallelFor(round.size(), inputs_->threads, [&](std::size_t i, unsigned /*worker*/) {
             const Candidate& candidate = (*candidates_)[round[i].individual];
@@ -132,7 +133,7 @@ class Race {
     const StudyInputs* inputs_;
     int generation_;
     std::vector<Candidate>* candidates_;
-    std::vector<evolution::RacingStage> stages_;
+    std::vector<search::RacingStage> stages_;
     int running_;
 };
 
@@ -170,11 +171,11 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
 }
 
 base::Result<std::vector<IndividualRecord>> evaluateGeneration(
-    const StudyInputs& inputs, int generation, std::span<const evolution::Chromosome> population,
+    const StudyInputs& inputs, int generation, std::span<const search::Proposal> proposals,
     const std::function<void(const GenerationPlan&)>& planned, base::RunControl control) {
-    std::vector<Candidate> candidates(population.size());
-    base::parallelFor(population.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
-        if (control.mayGoOn()) candidates[i] = prepare(inputs, population[i]);
+    std::vector<Candidate> candidates(proposals.size());
+    base::parallelFor(proposals.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
+        if (control.mayGoOn()) candidates[i] = prepare(inputs, proposals[i]);
     });
     if (control.cancelled()) return base::Error{"The evaluation was cancelled."};
     for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -58,6 +58,7 @@ Settings paperMode(Settings settings) {
     settings.track.encoding = PointEncoding::free;
     settings.track.shape.type = track::FeederType::bowl;
     settings.track.shape.bowlRadius = 175e-3;
+    settings.evolution.search = search::Method::genetic;
     settings.evolution.orientationDistance = trial::OrientationDistance::plain;
     settings.evolution.smoothingLimit = 1.0;
     settings.evolution.mutationFloor = 0.0;

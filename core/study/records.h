@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/evolution/chromosome.h"
+#include "core/search/search.h"
 #include "core/stats/binomial.h"
 #include "core/trial/fitness.h"
 #include "core/trial/outcome.h"
@@ -14,7 +14,8 @@ namespace trapwright::study {
 
 /// One evaluated individual of a generation.
 struct IndividualRecord {
-    evolution::Chromosome chromosome;
+    search::Design design;
+    std::vector<search::NamedNumber> traits;  // what else the search knows of it
     trial::Fitness fitness;
     int overlaps = 0;  // triangles of the surface that overlap another; F_C = -overlaps
     int trials = 0;    // simulated; 0 if the track was not simulated
@@ -36,10 +37,10 @@ struct IndividualRecord {
 
 /// The curves of Figures 6 and 7 (decisions.md#distance-and-statistics), and success.
 struct GenerationStatistics {
-    trial::Fitness best;                    // of the winner
-    trial::Fitness topMean;                 // arithmetic mean of the top 30 %
-    evolution::StrategyValues topStrategy;  // geometric mean of the top 30 %
-    std::optional<stats::Count> success{};  // of the winner; none: not simulated, or not counted
+    trial::Fitness best;                      // of the winner
+    trial::Fitness topMean;                   // arithmetic mean of the top 30 %
+    std::vector<search::NamedNumber> curves;  // what the search reports; the genetic one its strategy values
+    std::optional<stats::Count> success{};    // of the winner; none: not simulated, or not counted
     /// Mean share of those of the top 30 % that were simulated. None: there are none, or it was not counted.
     std::optional<double> topSuccess{};
 
@@ -53,6 +54,15 @@ struct GenerationRecord {
     int winner = 0;  // index into individuals; the lowest among equals
     GenerationStatistics statistics;
     double seconds = 0.0;  // wall time; the only field that may differ between equal runs
+    /// The search's own after it was told of this generation (search::Search::save). A study keeps that of
+    /// its last generation alone (LearningState).
+    std::string searchState{};
+};
+
+/// Where a learning run goes on.
+struct LearningState {
+    int index = 0;       // of the last generation that was saved
+    std::string search;  // its GenerationRecord::searchState
 };
 
 /// A generation without its individuals.

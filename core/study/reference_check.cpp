@@ -35,7 +35,7 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
                                       const Individual& winner, const base::RunControl& control) {
     assert(winner.record.trials > 0);
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
-    auto built = decodeTrack(inputs.settings.track, winner.record.chromosome);
+    auto built = decodeTrack(inputs.settings.track, winner.record.design);
     if (!built) return built.error();
     const auto track = std::make_shared<const track::Track>(std::move(built).value());
     const std::array batches = {makeLearningBatch(makeScene(inputs.settings, inputs.part, track),

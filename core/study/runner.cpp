@@ -2,8 +2,7 @@
 
 #include <chrono>
 
-#include "core/evolution/population.h"
-#include "core/evolution/statistics.h"
+#include "core/search/ranking.h"
 #include "core/study/track_design.h"
 
 namespace trapwright::study {
@@ -18,27 +17,23 @@ std::vector<double> totalsOf(std::span<const IndividualRecord> individuals) {
     return totals;
 }
 
-std::vector<evolution::Chromosome> childrenOf(const Settings& settings, const GenerationRecord& last) {
-    std::vector<evolution::Chromosome> parents;
-    parents.reserve(last.individuals.size());
-    for (const IndividualRecord& individual : last.individuals)
-        parents.push_back(individual.chromosome);
-    return evolution::nextGeneration(parents, totalsOf(last.individuals),
-                                     generationParameters(settings.evolution), makeSmoothing(settings.track),
-                                     settings.evolution.seed, static_cast<std::uint32_t>(last.index + 1));
+std::vector<search::Judgement> judgementsOf(std::span<const IndividualRecord> individuals) {
+    std::vector<search::Judgement> judgements;
+    judgements.reserve(individuals.size());
+    for (const IndividualRecord& individual : individuals)
+        judgements.push_back({individual.fitness.total(), individual.trials});
+    return judgements;
 }
 
 }  // namespace
 
 GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> individuals,
-                                    const EvolutionSettings& settings) {
+                                    std::vector<search::NamedNumber> curves) {
     GenerationRecord record;
     record.index = index;
     record.individuals = std::move(individuals);
 
-    const std::vector<std::size_t> top = evolution::findTop(totalsOf(record.individuals));
-    const evolution::TransitionParameters bounds = generationParameters(settings).transition;
-    std::vector<evolution::StrategyValues> strategies;
+    const std::vector<std::size_t> top = search::findTop(totalsOf(record.individuals));
     trial::Fitness& mean = record.statistics.topMean;
     double successes = 0.0;
     int simulated = 0;
@@ -47,8 +42,6 @@ GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> ind
         mean.collision += individual.fitness.collision;
         mean.distance += individual.fitness.distance;
         mean.orientation += individual.fitness.orientation;
-        strategies.push_back(
-            evolution::limitStrategy(evolution::decodeStrategy(individual.chromosome.strategy), bounds));
         if (const auto success = individual.success()) {
             successes += success->share();
             ++simulated;
@@ -58,38 +51,38 @@ GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> ind
     mean = {mean.collision / count, mean.distance / count, mean.orientation / count};
     record.winner = static_cast<int>(top.front());
     record.statistics.best = record.individuals[top.front()].fitness;
-    record.statistics.topStrategy = evolution::calcGeometricMean(strategies);
+    record.statistics.curves = std::move(curves);
     record.statistics.success = record.individuals[top.front()].success();
     if (simulated > 0) record.statistics.topSuccess = successes / simulated;
     return record;
 }
 
-base::Result<LearningEnd> evolve(const StudyInputs& inputs, std::optional<GenerationRecord> last,
+LearningState stateAfter(const GenerationRecord& last) {
+    return {last.index, last.searchState};
+}
+
+base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<LearningState>& last,
                                  const LearningEvents& events, const LearningControl& control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     const Settings& settings = inputs.settings;
+    const std::unique_ptr<search::Search> search = makeSearch(settings);
     if (last) {
-        for (const IndividualRecord& individual : last->individuals) {
-            if (const auto checked = checkGenes(settings.track, individual.chromosome); !checked)
-                return checked.error();
-        }
+        if (const auto loaded = search->load(last->search); !loaded) return loaded.error();
     }
 
     for (int index = last ? last->index + 1 : 0;
          index < control.generationsOr(settings.evolution.generations); ++index) {
         if (control.stopRequested()) return LearningEnd::stopped;
         const auto begin = std::chrono::steady_clock::now();
-        const std::vector<evolution::Chromosome> population =
-            last ? childrenOf(settings, *last)
-                 : evolution::createPopulation(chromosomeLayout(settings.track),
-                                               settings.evolution.populationSize, settings.evolution.seed);
-        auto individuals = evaluateGeneration(inputs, index, population, events.planned, control.run);
+        auto individuals = evaluateGeneration(inputs, index, search->ask(), events.planned, control.run);
         if (control.run.cancelled()) return LearningEnd::cancelled;
         if (!individuals) return individuals.error();
 
-        last = completeGeneration(index, std::move(individuals).value(), settings.evolution);
-        last->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        if (const auto saved = events.save(*last); !saved) return saved.error();
+        search->tell(judgementsOf(*individuals));
+        GenerationRecord record = completeGeneration(index, std::move(*individuals), search->report());
+        record.searchState = search->save();
+        record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        if (const auto saved = events.save(record); !saved) return saved.error();
     }
     return LearningEnd::completed;
 }

@@ -24,16 +24,19 @@ enum class LearningEnd {
     cancelled   // at once; the unfinished generation was dropped
 };
 
-/// Learns until there are settings.evolution.generations (paper, section 3). Begins with a random population,
-/// or goes on from `last`, the last generation that was saved: the next one depends on its genes and scores
-/// and on the seed alone, so that any number of stops gives the same bits as none. Errors: settings or part
-/// that cannot be used, engine, save.
-base::Result<LearningEnd> evolve(const StudyInputs& inputs, std::optional<GenerationRecord> last,
+LearningState stateAfter(const GenerationRecord& last);
+
+/// Learns until there are settings.evolution.generations (paper, section 3): the search that the settings
+/// name proposes individuals, trials judge them, and the search is told. Begins anew, or goes on after
+/// `last`: the next generation depends on the search's state and the settings alone, so that any number of
+/// stops gives the same bits as none. Errors: settings or part that cannot be used, a state that is none of
+/// theirs, engine, save.
+base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<LearningState>& last,
                                  const LearningEvents& events, const LearningControl& control);
 
-/// A generation's winner and statistics (Figures 6 and 7; decisions.md#distance-and-statistics). Strategy
-/// values as they take effect, between their bounds.
+/// A generation's winner and statistics (Figures 6 and 7; decisions.md#distance-and-statistics), with what
+/// the search reports of it.
 GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> individuals,
-                                    const EvolutionSettings& settings);
+                                    std::vector<search::NamedNumber> curves);
 
 }  // namespace trapwright::study

@@ -28,7 +28,7 @@ std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) 
     for (Individual& winner : winners) {
         if (ranked.size() == static_cast<std::size_t>(count)) break;
         const bool known = std::any_of(ranked.begin(), ranked.end(), [&](const Individual& better) {
-            return better.record.chromosome == winner.record.chromosome;
+            return better.record.design == winner.record.design;
         });
         if (!known) ranked.push_back(std::move(winner));
     }
@@ -58,7 +58,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         rankWinners(std::move(winners), settings.validation.selectionWinners);
     std::vector<trial::TrialBatch> batches;
     for (const Individual& winner : ranked) {
-        auto track = decodeTrack(settings.track, winner.record.chromosome);
+        auto track = decodeTrack(settings.track, winner.record.design);
         if (!track) return track.error();
         const TrialScene scene =
             makeScene(settings, inputs.part, std::make_shared<const track::Track>(std::move(track).value()));

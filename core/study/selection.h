@@ -13,7 +13,7 @@
 
 namespace trapwright::study {
 
-/// The `count` fittest of these winners, best first, no chromosome twice (the highest score of each counts;
+/// The `count` fittest of these winners, best first, no design twice (the highest score of each counts;
 /// among equals the earlier generation is first).
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count);
 

@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/part/part.h"
 #include "core/part/symmetry.h"
+#include "core/search/methods.h"
 #include "core/track/encoding.h"
 #include "core/track/feeder_shape.h"
 #include "core/trial/batch.h"
@@ -37,8 +38,9 @@ struct TrackSettings {
     friend bool operator==(const TrackSettings& a, const TrackSettings& b);
 };
 
-/// The genetic algorithm's settings (paper, Table 1; decisions.md#smoothing and what follows).
+/// How designs are searched for and judged (paper, Table 1; decisions.md#smoothing and what follows).
 struct EvolutionSettings {
+    search::Method search = search::Method::genetic;
     int populationSize = 100;       // P
     int trialsPerEvaluation = 100;  // N
     int tournamentSize = 6;         // s

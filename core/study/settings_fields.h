@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/evolution/statistics.h"
+#include "core/search/ranking.h"
 #include "core/study/number_text.h"
 #include "core/study/settings.h"
 
@@ -70,6 +70,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.choice("track.encoding", s.track.encoding,
              Choices<PointEncoding, 2>{{{"strip", PointEncoding::strip}, {"free", PointEncoding::free}}});
 
+    v.choice("evolution.search", s.evolution.search, search::kMethods);
     v.count({"evolution.populationSize", 2, 100000}, s.evolution.populationSize);
     v.count({"evolution.trialsPerEvaluation", 1, 1000000}, s.evolution.trialsPerEvaluation);
     v.count({"evolution.tournamentSize", 1, 100000}, s.evolution.tournamentSize);
@@ -81,7 +82,7 @@ void visitFields(Visitor& v, SettingsType& s) {
                                                      {"plain", trial::OrientationDistance::plain}}});
     v.flag("evolution.simulateOverlapping", s.evolution.simulateOverlapping);
     v.count({"evolution.racingTrials", 0, 1000000}, s.evolution.racingTrials);
-    v.number({"evolution.racingShare", none, evolution::kTopShare, 1.0}, s.evolution.racingShare);
+    v.number({"evolution.racingShare", none, search::kTopShare, 1.0}, s.evolution.racingShare);
     v.flag("evolution.commonRandomNumbers", s.evolution.commonRandomNumbers);
     v.number({"evolution.learningStuckTime_s", none, 0.05, 600.0}, s.evolution.learningStuckTime);
     v.count({"evolution.generations", 1, 1000000}, s.evolution.generations);

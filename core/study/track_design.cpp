@@ -1,6 +1,5 @@
 #include "core/study/track_design.h"
 
-#include "core/evolution/gray.h"
 #include "core/track/encoding.h"
 #include "core/track/smoothing.h"
 #include "core/track/track_builder.h"
@@ -8,6 +7,9 @@
 namespace trapwright::study {
 
 namespace {
+
+constexpr int kBits = 10;  // of each number (paper, section 4.2.1)
+constexpr double kMillimetres = 1e3;
 
 track::Encoding encodingOf(const TrackSettings& settings) {
     track::Encoding encoding;
@@ -36,54 +38,59 @@ track::TrackParameters parametersOf(const TrackSettings& settings) {
 
 }  // namespace
 
-evolution::ChromosomeLayout chromosomeLayout(const TrackSettings& settings) {
-    return {settings.crossSections * settings.pointsPerSection, settings.crossSections};
+search::DesignSpace designSpace(const TrackSettings& settings) {
+    const track::Encoding encoding = encodingOf(settings);
+    search::DesignSpace space;
+    space.dimensions.reserve(encoding.pointValues() + encoding.lengthValues());
+    for (int section = 0; section < encoding.sections; ++section) {
+        for (int point = 0; point < encoding.points; ++point) {
+            const std::string place =
+                "section " + std::to_string(section + 1) + ", point " + std::to_string(point + 1);
+            const track::Interval across = track::spanAcross(encoding, point);
+            space.dimensions.push_back({place + ", y", "mm", kMillimetres * across.low,
+                                        kMillimetres * (across.low + across.size), kBits, true});
+            space.dimensions.push_back(
+                {place + ", z", "mm", 0.0, kMillimetres * encoding.height, kBits, true});
+        }
+    }
+    for (int section = 0; section < encoding.sections; ++section) {
+        space.dimensions.push_back({"length of segment " + std::to_string(section + 1), "mm",
+                                    kMillimetres * encoding.minLength, kMillimetres * encoding.maxLength,
+                                    kBits});
+    }
+    space.smooth = [encoding](search::Design design, double probability, base::Random& random) {
+        const std::vector<double> points =
+            track::smoothSurface(std::span(design).first(encoding.pointValues()), encoding.sections,
+                                 encoding.points, probability, random);
+        std::copy(points.begin(), points.end(), design.begin());
+        return design;
+    };
+    return space;
 }
 
-evolution::GenerationParameters generationParameters(const EvolutionSettings& settings) {
-    evolution::GenerationParameters parameters;
-    parameters.tournamentSize = settings.tournamentSize;
-    parameters.transition = {settings.staticMutation, settings.smoothingLimit, settings.mutationFloor};
+search::SearchParameters searchParameters(const EvolutionSettings& settings) {
+    search::SearchParameters parameters;
+    parameters.seed = settings.seed;
+    parameters.populationSize = settings.populationSize;
+    parameters.genetic.tournamentSize = settings.tournamentSize;
+    parameters.genetic.transition = {settings.staticMutation, settings.smoothingLimit,
+                                     settings.mutationFloor};
     return parameters;
 }
 
-evolution::SmoothPoints makeSmoothing(const TrackSettings& settings) {
-    return [sections = settings.crossSections, points = settings.pointsPerSection](
-               const evolution::Bits& gene, double probability, base::Random& random) {
-        const std::vector<double> values = evolution::decodeGray(gene, evolution::kPointBits);
-        return evolution::encodeGray(track::smoothSurface(values, sections, points, probability, random),
-                                     evolution::kPointBits);
-    };
+std::unique_ptr<search::Search> makeSearch(const Settings& settings) {
+    return search::makeSearch(settings.evolution.search, designSpace(settings.track),
+                              searchParameters(settings.evolution));
 }
 
-base::Status checkGenes(const TrackSettings& settings, const evolution::Chromosome& chromosome) {
-    const evolution::ChromosomeLayout layout = chromosomeLayout(settings);
-    const auto pointBits = static_cast<std::size_t>(layout.points) * 2 * evolution::kPointBits;
-    const auto lengthBits = static_cast<std::size_t>(layout.lengths) * evolution::kLengthBits;
-    constexpr auto kStrategyLength = std::size_t{3} * evolution::kStrategyBits;
-    if (chromosome.points.size() == pointBits && chromosome.lengths.size() == lengthBits &&
-        chromosome.strategy.size() == kStrategyLength) {
-        return base::success();
-    }
-    const auto listed = [](std::size_t points, std::size_t lengths, std::size_t strategy) {
-        return std::to_string(points) + ", " + std::to_string(lengths) + " and " + std::to_string(strategy) +
-               " bits";
-    };
-    return base::Error{
-        "The genes of an individual have " +
-        listed(chromosome.points.size(), chromosome.lengths.size(), chromosome.strategy.size()) +
-        ", where these settings need " + listed(pointBits, lengthBits, kStrategyLength) +
-        ". Use the settings that it was made with."};
-}
-
-base::Result<track::Track> decodeTrack(const TrackSettings& settings,
-                                       const evolution::Chromosome& chromosome) {
+base::Result<track::Track> decodeTrack(const TrackSettings& settings, const search::Design& design) {
     const track::Encoding encoding = encodingOf(settings);
     if (const auto checked = track::checkEncoding(encoding); !checked) return checked.error();
-    if (const auto checked = checkGenes(settings, chromosome); !checked) return checked.error();
-    const std::vector<double> points = evolution::decodeGray(chromosome.points, evolution::kPointBits);
-    const std::vector<double> lengths = evolution::decodeGray(chromosome.lengths, evolution::kLengthBits);
-    return track::buildTrack(parametersOf(settings), track::decodeTrap(encoding, points, lengths));
+    if (const auto checked = designSpace(settings).check(design); !checked) return checked.error();
+    const std::span<const double> numbers(design);
+    return track::buildTrack(parametersOf(settings),
+                             track::decodeTrap(encoding, numbers.first(encoding.pointValues()),
+                                               numbers.subspan(encoding.pointValues())));
 }
 
 base::Result<track::Track> buildLayout(const TrackSettings& settings) {

@@ -1,31 +1,28 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/evolution/population.h"
+#include "core/search/methods.h"
 #include "core/study/settings.h"
 #include "core/track/track.h"
 
 namespace trapwright::study {
 
-/// Where evolution's bits and the track's points meet.
+/// Where the numbers of a search and the track's points meet.
 
-/// How long the genes of these settings are.
-evolution::ChromosomeLayout chromosomeLayout(const TrackSettings& settings);
+/// What there is to choose from with these settings (paper, section 4.2.1): y and z of each point, 10 bits
+/// each, section by section from the inner to the outer edge, then the length of each segment. It smooths
+/// surfaces (section 3.2) on the grid of sections and points.
+search::DesignSpace designSpace(const TrackSettings& settings);
 
-/// The settings as the transition function takes them.
-evolution::GenerationParameters generationParameters(const EvolutionSettings& settings);
+/// The settings as a search takes them.
+search::SearchParameters searchParameters(const EvolutionSettings& settings);
 
-/// Surface smoothing (paper, section 3.2) on gene 1: decoded, smoothed on the grid of sections and points,
-/// encoded.
-evolution::SmoothPoints makeSmoothing(const TrackSettings& settings);
+/// The search that these settings name, before its first generation.
+std::unique_ptr<search::Search> makeSearch(const Settings& settings);
 
-/// An error if the genes are not as long as the settings say.
-base::Status checkGenes(const TrackSettings& settings, const evolution::Chromosome& chromosome);
-
-/// The track that an individual stands for. An error if its genes are not as long as the settings say, or if
-/// the track cannot be built.
-base::Result<track::Track> decodeTrack(const TrackSettings& settings,
-                                       const evolution::Chromosome& chromosome);
+/// The track that a design stands for. An error if it has not as many numbers as the settings say, or if the
+/// track cannot be built.
+base::Result<track::Track> decodeTrack(const TrackSettings& settings, const search::Design& design);
 
 /// The track before anything is learned: its trap flat at the lead-in's height, all segments of the mean
 /// length (paper, Figure 3). An error if the settings do not give a track.

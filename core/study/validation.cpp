@@ -85,7 +85,7 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
         return base::Error{"validation.trialsPerPose is " + std::to_string(trials) + "; for a part with " +
                            std::to_string(poses) + " stable poses that is too many. Set it lower."};
     }
-    auto built = decodeTrack(settings.track, individual.record.chromosome);
+    auto built = decodeTrack(settings.track, individual.record.design);
     if (!built) return built.error();
     const TrialScene scene =
         makeScene(settings, inputs.part, std::make_shared<const track::Track>(std::move(built).value()));

@@ -9,23 +9,17 @@ namespace trapwright::track {
 
 namespace {
 
-// The interval of y that the value of point j spans. [m]
-struct Interval {
-    double low;
-    double size;
-};
-
-Interval findInterval(const Encoding& encoding, int point) {
-    if (encoding.pointEncoding == PointEncoding::free) return {-0.5 * encoding.width, encoding.width};
-    const double strip = encoding.width / encoding.points;
-    return {-0.5 * encoding.width + strip * point, strip};
-}
-
 double inMillimetres(double length) {
     return length / base::kMillimetre;
 }
 
 }  // namespace
+
+Interval spanAcross(const Encoding& encoding, int point) {
+    if (encoding.pointEncoding == PointEncoding::free) return {-0.5 * encoding.width, encoding.width};
+    const double strip = encoding.width / encoding.points;
+    return {-0.5 * encoding.width + strip * point, strip};
+}
 
 base::Status checkEncoding(const Encoding& encoding) {
     if (encoding.sections < 1) {
@@ -68,7 +62,7 @@ std::vector<CrossSection> decodeTrap(const Encoding& encoding, std::span<const d
         sections[i].x = x;
         sections[i].points.reserve(static_cast<std::size_t>(encoding.points));
         for (int j = 0; j < encoding.points; ++j, next += 2) {
-            const Interval interval = findInterval(encoding, j);
+            const Interval interval = spanAcross(encoding, j);
             sections[i].points.emplace_back(interval.low + interval.size * points[next],
                                             encoding.height * points[next + 1]);
         }

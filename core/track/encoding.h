@@ -30,6 +30,15 @@ struct Encoding {
     [[nodiscard]] std::size_t lengthValues() const { return static_cast<std::size_t>(sections); }
 };
 
+/// From low to low + size. [m]
+struct Interval {
+    double low = 0.0;
+    double size = 0.0;
+};
+
+/// Where point j of a section may lie across the track, from the inner edge (y = -width / 2) on.
+Interval spanAcross(const Encoding& encoding, int point);
+
 /// An error that names the first parameter that is out of its range.
 base::Status checkEncoding(const Encoding& encoding);
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 
-#include "core/evolution/population.h"
 #include "core/study/track_design.h"
 #include "core/study/track_trials.h"
 
@@ -44,19 +43,17 @@ base::Result<double> timeOne(double budget, std::size_t first, std::size_t most,
 
 base::Result<double> timeRandomTracks(const study::StudyInputs& inputs, double budget,
                                       const base::RunControl& control) {
-    const study::EvolutionSettings& evolution = inputs.settings.evolution;
-    const auto population = evolution::createPopulation(study::chromosomeLayout(inputs.settings.track),
-                                                        evolution.populationSize, evolution.seed);
+    const auto proposals = study::makeSearch(inputs.settings)->ask();
     // The more at once, the better all threads are used, as they will be by a whole generation.
     const auto each = timeOne(
-        budget, std::size_t{2} * inputs.threads, population.size(), [&](std::size_t count) -> base::Status {
+        budget, std::size_t{2} * inputs.threads, proposals.size(), [&](std::size_t count) -> base::Status {
             const auto some = study::evaluateGeneration(
-                inputs, 0, std::span(population).first(count), [](const study::GenerationPlan&) {}, control);
+                inputs, 0, std::span(proposals).first(count), [](const study::GenerationPlan&) {}, control);
             if (!some) return some.error();
             return base::success();
         });
     if (!each) return each.error();
-    return *each / evolution.trialsPerEvaluation;
+    return *each / inputs.settings.evolution.trialsPerEvaluation;
 }
 
 base::Result<double> timeFlatTrack(const study::StudyInputs& inputs, double budget,

@@ -5,23 +5,10 @@
 
 namespace trapwright::workflow {
 
-namespace {
-
-base::Result<std::optional<study::GenerationRecord>> loadLast(const store::StudyFile& file) {
-    const auto count = file.generationCount();
-    if (!count) return count.error();
-    if (*count == 0) return std::optional<study::GenerationRecord>();
-    auto record = file.loadGeneration(*count - 1);
-    if (!record) return record.error();
-    return std::optional(std::move(*record));
-}
-
-}  // namespace
-
 Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& inputs,
                              const EngineMaker& makeEngine, const LearnEvents& events,
                              const study::LearningControl& control) {
-    auto last = loadLast(file);
+    const auto last = file.loadLearningState();
     if (!last) return Failure{FailureKind::reading, last.error().message};
     const auto started = WinnerChecks::start(file, inputs, makeEngine, control.checks);
     if (!started) return started.error();
@@ -43,7 +30,7 @@ Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& i
         kind = FailureKind::simulation;
         return base::success();
     };
-    const auto end = study::evolve(inputs, std::move(*last), watch, control);
+    const auto end = study::evolve(inputs, *last, watch, control);
     if (!end) {
         if (kind == FailureKind::saving) return describeSaving(end.error());
         return Failure{kind, end.error().message};

@@ -62,7 +62,7 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
                                            std::shared_ptr<const part::Part> part,
                                            const TrialsRequest& request, const StoredTrials& stored) {
     const study::Individual& individual = request.winner;
-    auto track = study::decodeTrack(settings.track, individual.record.chromosome);
+    auto track = study::decodeTrack(settings.track, individual.record.design);
     if (!track) return track.error();
     const study::TrialScene scene =
         study::makeScene(settings, std::move(part), std::make_shared<const track::Track>(std::move(*track)));

@@ -195,10 +195,10 @@ class LearningTest : public QObject {
             const QJsonObject generation = value.toObject();
             const qsizetype line = 8 * generation["generation"].toInt() + generation["winner"].toInt();
             const QList<QByteArray> fields = dump[line].split(' ');
-            QCOMPARE(fields.size(), 14);
+            QCOMPARE(fields.size(), 15);
             const QJsonObject success = generation["success"].toObject();
-            QCOMPARE(success["count"].toInt(-1), fields[13].toInt());
-            QCOMPARE(success["share"].toDouble(-1.0), fields[13].toDouble() / fields[9].toDouble());
+            QCOMPARE(success["count"].toInt(-1), fields[14].toInt());
+            QCOMPARE(success["share"].toDouble(-1.0), fields[14].toDouble() / fields[10].toDouble());
             QVERIFY(success["low"].toDouble() <= success["share"].toDouble());
             QCOMPARE(success["bounds"].toString(), "95 % Clopper-Pearson");
             const double top = generation["top_30_percent_success"].toDouble(-1.0);

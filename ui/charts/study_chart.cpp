@@ -52,9 +52,8 @@ FitnessChart::FitnessChart(QWidget* parent) : StudyChart("fitness", tr("Fitness"
     setEmptyText(tr("The learning curves begin when the first generation is complete."));
 }
 
-StrategyChart::StrategyChart(QWidget* parent)
-    : StudyChart("strategy", tr("Strategy values"), &strategySheet, parent) {
-    setEmptyText(tr("The strategy values appear when the first generation is complete."));
+SearchChart::SearchChart(QWidget* parent) : StudyChart("search", tr("Search"), &searchSheet, parent) {
+    setEmptyText(tr("What the search tells of itself appears when the first generation is complete."));
 }
 
 SpeedChart::SpeedChart(QWidget* parent) : StudyChart("speed", tr("Speed"), &speedSheet, parent) {

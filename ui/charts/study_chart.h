@@ -51,11 +51,12 @@ class FitnessChart : public StudyChart {
     explicit FitnessChart(QWidget* parent = nullptr);
 };
 
-/// p_x, p_dm and p_s on a logarithmic axis (paper, Figure 7).
-class StrategyChart : public StudyChart {
+/// What the search tells of itself; of the genetic one p_x, p_dm and p_s on a logarithmic axis (paper, Figure
+/// 7).
+class SearchChart : public StudyChart {
     Q_OBJECT
  public:
-    explicit StrategyChart(QWidget* parent = nullptr);
+    explicit SearchChart(QWidget* parent = nullptr);
 };
 
 /// Simulated trials per second.

@@ -2,8 +2,12 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+
+#include "core/search/methods.h"
 
 namespace trapwright::charts {
 
@@ -29,7 +33,7 @@ QString withStudy(const QString& text, const std::vector<StudyCurves>& studies, 
     return studies.size() < 2 ? text : QStringLiteral("%1, %2").arg(text, studies[study].name);
 }
 
-/// A curve of each study: a value of each generation.
+/// A curve of each study: a value of each generation, or NaN.
 using ValueOf = std::function<double(const study::GenerationSummary&)>;
 
 void addCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const QString& key,
@@ -38,8 +42,12 @@ void addCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const Q
         style.second = i > 0;
         Curve curve{
             withStudy(name, studies, i), withStudy(column, studies, i), {key, studyKey(i)}, style, {}};
-        for (const study::GenerationSummary& summary : studies[i].summaries)
-            curve.points.emplace_back(summary.index, valueOf(summary));
+        for (const study::GenerationSummary& summary : studies[i].summaries) {
+            const double value = valueOf(summary);
+            if (!std::isnan(value)) curve.points.emplace_back(summary.index, value);
+        }
+        if (curve.points.empty() && !studies[i].summaries.empty())
+            continue;  // a study that has no such values
         plot.curves.push_back(std::move(curve));
     }
 }
@@ -69,6 +77,17 @@ PlotSheet makePlot(const QString& key, const QString& yTitle, const QString& ySh
     plot.yTitle = yTitle;
     plot.yShortTitle = yShortTitle;
     return plot;
+}
+
+/// What the searches of these studies report, each name once.
+std::vector<std::string> curveKeys(const std::vector<StudyCurves>& studies) {
+    std::vector<std::string> keys;
+    for (const StudyCurves& study : studies) {
+        if (study.summaries.empty()) continue;
+        for (const search::NamedNumber& curve : study.summaries.front().statistics.curves)
+            if (std::find(keys.begin(), keys.end(), curve.key) == keys.end()) keys.push_back(curve.key);
+    }
+    return keys;
 }
 
 /// One of the three scores of the fitness.
@@ -236,34 +255,35 @@ ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
     return sheet;
 }
 
-ChartSheet strategySheet(const std::vector<StudyCurves>& studies) {
+ChartSheet searchSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
-    PlotSheet plot = makePlot("strategy", Text::tr("Probability, mean of top 30 %"), Text::tr("Probability"));
-    plot.yScale = Scale::logarithmic;
-    plot.decimals = 4;
-    plot.yIncluded = {1.0};
-    plot.leastHeight = 1.0;
-    struct Value {
-        QString key;
-        QString name;
-        QString help;
-        CurveStyle style;
-        double evolution::StrategyValues::*value;
-    };
-    const std::vector<Value> values{
-        {"p_x", Text::tr("crossover p_x"), Text::tr("How often a child changes the parent that it copies."),
-         kBest, &evolution::StrategyValues::crossover},
-        {"p_dm", Text::tr("mutation p_dm"),
-         Text::tr("How often points of the surface are changed at random."), kMean,
-         &evolution::StrategyValues::mutation},
-        {"p_s", Text::tr("smoothing p_s"), Text::tr("How often points of the surface are smoothed away."),
-         kThird, &evolution::StrategyValues::smoothing}};
-    for (const Value& value : values) {
-        sheet.legend.push_back({value.key, value.name, value.help, value.style});
-        addCurves(plot, studies, value.key, value.name, value.key, value.style,
-                  [&](const auto& summary) { return summary.statistics.topStrategy.*value.value; });
+    const std::array styles{kBest, kMean, kThird};
+    std::size_t count = 0;
+    for (const std::string& key : curveKeys(studies)) {
+        const search::NumberInfo* known = search::findCurve(key);
+        const search::NumberInfo info = known != nullptr ? *known : search::NumberInfo{key, key, {}, key};
+        const QString axis = QString::fromStdString(info.axis);
+        auto plot = std::find_if(sheet.plots.begin(), sheet.plots.end(),
+                                 [&](const PlotSheet& other) { return other.yTitle == axis; });
+        if (plot == sheet.plots.end()) {
+            PlotSheet made =
+                makePlot(QStringLiteral("search%1").arg(sheet.plots.size()), axis, axis.section(',', 0, 0));
+            made.yScale = info.logarithmic ? Scale::logarithmic : Scale::linear;
+            made.decimals = info.decimals;
+            if (info.logarithmic) made.yIncluded = {1.0};
+            made.leastHeight = info.logarithmic ? 1.0 : 0.1;
+            plot = sheet.plots.insert(sheet.plots.end(), std::move(made));
+        }
+        const CurveStyle style = styles[count++ % styles.size()];
+        const QString name = QString::fromStdString(info.name);
+        sheet.legend.push_back({QString::fromStdString(key), name, QString::fromStdString(info.help), style});
+        addCurves(*plot, studies, QString::fromStdString(key), name, QString::fromStdString(key), style,
+                  [&](const auto& summary) {
+                      return search::findNumber(summary.statistics.curves, key)
+                          .value_or(std::numeric_limits<double>::quiet_NaN());
+                  });
     }
-    sheet.plots.push_back(std::move(plot));
+    if (sheet.plots.empty()) sheet.plots.push_back(makePlot("search0", {}));
     addStudies(sheet, studies);
     return sheet;
 }

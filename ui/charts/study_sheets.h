@@ -10,7 +10,7 @@ namespace trapwright::charts {
 
 ChartSheet successSheet(const std::vector<StudyCurves>& studies);
 ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies);
-ChartSheet strategySheet(const std::vector<StudyCurves>& studies);
+ChartSheet searchSheet(const std::vector<StudyCurves>& studies);
 ChartSheet speedSheet(const std::vector<StudyCurves>& studies);
 ChartSheet engineSheet(const std::vector<StudyCurves>& studies);
 

@@ -74,7 +74,7 @@ void PlacingScene::build(const Printed& printed) {
     const study::TrackSettings& settings = session_->settings().track;
     if (printed.generation < 0) return build_.buildLayout(settings);
     const auto winner = session_->loadWinner(printed.generation, printed.individual);
-    if (winner) return build_.buildIndividual(settings, winner->record.chromosome);
+    if (winner) return build_.buildIndividual(settings, winner->record.design);
     emit failed(tr("The track cannot be shown"), QString::fromStdString(winner.error().message));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ui/models/numbers.h"
+#include "ui/models/search_columns.h"
 
 namespace trapwright::models {
 
@@ -82,25 +83,20 @@ std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
         {tr("Mean F of top 30 %"), tr("Mean fitness of the best 30 % of the generation."),
          [](const Row& r) { return QVariant(r.summary.statistics.topMean.total()); },
          [](const Row& r) { return fixed(r.summary.statistics.topMean.total(), 3); }},
-        {tr("p_x"), tr("Crossover rate: geometric mean of the top 30 %."),
-         [](const Row& r) { return QVariant(r.summary.statistics.topStrategy.crossover); },
-         [](const Row& r) { return fixed(r.summary.statistics.topStrategy.crossover, 4); }},
-        {tr("p_dm"), tr("Dynamic mutation rate: geometric mean of the top 30 %."),
-         [](const Row& r) { return QVariant(r.summary.statistics.topStrategy.mutation); },
-         [](const Row& r) { return fixed(r.summary.statistics.topStrategy.mutation, 4); }},
-        {tr("p_s"), tr("Smoothing rate: geometric mean of the top 30 %."),
-         [](const Row& r) { return QVariant(r.summary.statistics.topStrategy.smoothing); },
-         [](const Row& r) { return fixed(r.summary.statistics.topStrategy.smoothing, 4); }},
     };
 }
 
 void GenerationModel::setGenerations(const std::vector<study::GenerationSummary>& summaries,
-                                     const std::vector<study::CheckRecord>& checks) {
+                                     const std::vector<study::CheckRecord>& checks, search::Method method) {
     std::vector<GenerationRow> rows;
     rows.reserve(summaries.size());
     for (const study::GenerationSummary& summary : summaries)
         rows.push_back({summary, std::nullopt});
-    reset(std::move(rows));
+    std::vector<Column<GenerationRow>> columns = makeColumns();
+    for (const search::NumberInfo& curve : search::describeMethod(method).curves)
+        columns.push_back(
+            numberColumn<Row>(curve, [](const Row& r) { return std::span(r.summary.statistics.curves); }));
+    reset(std::move(rows), std::move(columns));
     for (const study::CheckRecord& check : checks)
         setCheck(check);
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/search/methods.h"
 #include "core/study/records.h"
 #include "ui/models/record_model.h"
 
@@ -31,17 +32,16 @@ class GenerationModel : public RecordModel<GenerationRow> {
         Distance,
         Orientation,
         TopTotal,
-        Crossover,
-        Mutation,
-        Smoothing
+        FirstCurve  // then one for each curve of the search
     };
     /// What only those who look into the algorithm need.
     static constexpr int kFirstDetail = Total;
 
     explicit GenerationModel(QObject* parent = nullptr);
 
+    /// Of a study that is searched so: its curves get a column each.
     void setGenerations(const std::vector<study::GenerationSummary>& summaries,
-                        const std::vector<study::CheckRecord>& checks);
+                        const std::vector<study::CheckRecord>& checks, search::Method method);
     void append(const study::GenerationSummary& summary);
     /// The check of a generation that is there; others are ignored.
     void setCheck(const study::CheckRecord& check);

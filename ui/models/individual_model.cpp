@@ -3,6 +3,7 @@
 #include <QFont>
 
 #include "ui/models/numbers.h"
+#include "ui/models/search_columns.h"
 
 namespace trapwright::models {
 
@@ -53,30 +54,20 @@ std::vector<Column<IndividualRow>> IndividualModel::makeColumns() {
          tr("How much more alike the parts lie at the end than at the start. Higher is better."),
          [](const Row& r) { return QVariant(r.record.fitness.orientation); },
          [](const Row& r) { return fixed(r.record.fitness.orientation, 3); }},
-        {tr("p_x"), tr("Crossover rate of this individual."),
-         [](const Row& r) { return QVariant(r.strategy.crossover); },
-         [](const Row& r) { return fixed(r.strategy.crossover, 4); }},
-        {tr("p_dm"), tr("Dynamic mutation rate of this individual, not below its floor."),
-         [](const Row& r) { return QVariant(r.strategy.mutation); },
-         [](const Row& r) { return fixed(r.strategy.mutation, 4); }},
-        {tr("p_s"), tr("Smoothing rate of this individual, scaled to its limit."),
-         [](const Row& r) { return QVariant(r.strategy.smoothing); },
-         [](const Row& r) { return fixed(r.strategy.smoothing, 4); }},
     };
 }
 
-void IndividualModel::setGeneration(const study::GenerationRecord& record,
-                                    const evolution::TransitionParameters& bounds) {
+void IndividualModel::setGeneration(const study::GenerationRecord& record, search::Method method) {
     std::vector<IndividualRow> rows;
     rows.reserve(record.individuals.size());
     for (std::size_t i = 0; i < record.individuals.size(); ++i) {
-        const study::IndividualRecord& individual = record.individuals[i];
         const int number = static_cast<int>(i);
-        rows.push_back(
-            {record.index, number, number == record.winner, individual,
-             evolution::limitStrategy(evolution::decodeStrategy(individual.chromosome.strategy), bounds)});
+        rows.push_back({record.index, number, number == record.winner, record.individuals[i]});
     }
-    reset(std::move(rows));
+    std::vector<Column<IndividualRow>> columns = makeColumns();
+    for (const search::NumberInfo& trait : search::describeMethod(method).traits)
+        columns.push_back(numberColumn<Row>(trait, [](const Row& r) { return std::span(r.record.traits); }));
+    reset(std::move(rows), std::move(columns));
 }
 
 void IndividualModel::clear() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/evolution/transition.h"
+#include "core/search/methods.h"
 #include "core/study/records.h"
 #include "ui/models/record_model.h"
 
@@ -11,7 +11,6 @@ struct IndividualRow {
     int individual = 0;
     bool winner = false;
     study::IndividualRecord record;
-    evolution::StrategyValues strategy;  // as it takes effect
 };
 
 /// The individuals of one generation.
@@ -30,17 +29,15 @@ class IndividualModel : public RecordModel<IndividualRow> {
         Collision,
         Distance,
         Orientation,
-        Crossover,
-        Mutation,
-        Smoothing
+        FirstTrait  // then one for each trait of the search
     };
     /// What only those who look into the algorithm need.
     static constexpr int kFirstDetail = Total;
 
     explicit IndividualModel(QObject* parent = nullptr);
 
-    /// `bounds` are those of the study's settings (study::generationParameters).
-    void setGeneration(const study::GenerationRecord& record, const evolution::TransitionParameters& bounds);
+    /// Of a study that is searched so: its traits get a column each.
+    void setGeneration(const study::GenerationRecord& record, search::Method method);
     void clear();
 
  protected:

@@ -3,6 +3,7 @@
 #include <QAbstractTableModel>
 #include <QString>
 #include <QVariant>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,8 +17,8 @@ template <class Row>
 struct Column {
     QString title;  // with the unit
     QString help;   // one sentence, the heading's tool tip
-    QVariant (*value)(const Row&);
-    QString (*text)(const Row&);
+    std::function<QVariant(const Row&)> value;
+    std::function<QString(const Row&)> text;
     // What it holds in CSV, where that is not the title and the value.
     QStringList (*csvTitles)() = nullptr;
     QVariantList (*csvValues)(const Row&) = nullptr;
@@ -79,6 +80,14 @@ class RecordModel : public QAbstractTableModel {
     void reset(std::vector<Row> rows) {
         beginResetModel();
         rows_ = std::move(rows);
+        endResetModel();
+    }
+
+    /// With other columns.
+    void reset(std::vector<Row> rows, std::vector<Column<Row>> columns) {
+        beginResetModel();
+        rows_ = std::move(rows);
+        columns_ = std::move(columns);
         endResetModel();
     }
 

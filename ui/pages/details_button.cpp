@@ -8,11 +8,11 @@
 
 namespace trapwright::pages {
 
-DetailsButton::DetailsButton(QTableView& view, int first, int last, QWidget* parent)
-    : QToolButton(parent), view_(view), first_(first), last_(last) {
+DetailsButton::DetailsButton(QTableView& view, int first, QWidget* parent)
+    : QToolButton(parent), view_(view), first_(first) {
     setObjectName(view.objectName() + ".details");
     setText(tr("Details of the algorithm"));
-    setToolTip(tr("Scores and strategy values, which learning works with"));
+    setToolTip(tr("Scores and what the search tells of itself, which learning works with"));
     setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     setAutoRaise(true);
     setCheckable(true);
@@ -20,6 +20,8 @@ DetailsButton::DetailsButton(QTableView& view, int first, int last, QWidget* par
     const QString setting = "details/" + view.objectName();
     setChecked(QSettings().value(setting, false).toBool());
     showColumns(isChecked());
+    // Another study may have other columns.
+    connect(view.model(), &QAbstractItemModel::modelReset, this, [this] { hideColumns(!isChecked()); });
     connect(this, &QToolButton::toggled, this, [this, setting](bool shown) {
         showColumns(shown);
         QSettings().setValue(setting, shown);
@@ -33,9 +35,13 @@ void DetailsButton::changeEvent(QEvent* event) {
 
 void DetailsButton::showColumns(bool shown) {
     setIcon(look::icon(shown ? "unfold" : "fold"));
-    for (int column = first_; column <= last_; ++column)
-        view_.setColumnHidden(column, !shown);
+    hideColumns(!shown);
     if (shown && view_.model()->rowCount() > 0) view_.resizeColumnsToContents();
+}
+
+void DetailsButton::hideColumns(bool hidden) {
+    for (int column = first_; column < view_.model()->columnCount(); ++column)
+        view_.setColumnHidden(column, hidden);
 }
 
 }  // namespace trapwright::pages

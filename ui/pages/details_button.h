@@ -11,18 +11,18 @@ namespace trapwright::pages {
 class DetailsButton : public QToolButton {
     Q_OBJECT
  public:
-    /// The columns `first` to `last` of a view that has its model.
-    DetailsButton(QTableView& view, int first, int last, QWidget* parent);
+    /// The columns from `first` on of a view that has its model.
+    DetailsButton(QTableView& view, int first, QWidget* parent);
 
  protected:
     void changeEvent(QEvent* event) override;
 
  private:
     void showColumns(bool shown);
+    void hideColumns(bool hidden);
 
     QTableView& view_;
     int first_;
-    int last_;
 };
 
 }  // namespace trapwright::pages

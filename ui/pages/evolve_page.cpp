@@ -184,7 +184,7 @@ void EvolvePage::setSession(StudySession* session) {
     if (session_) session_->disconnect(this);
     session_ = session;
     build_.cancel();
-    design_.reset();
+    blueprint_.reset();
     track_.reset();
     picked_.reset();
     card_->setSession(session);
@@ -289,13 +289,13 @@ void EvolvePage::showPicked() {
 
 void EvolvePage::buildTrack(const study::Individual* individual) {
     const study::TrackSettings& settings = session_->settings().track;
-    Design design{settings, individual != nullptr ? individual->record.chromosome : evolution::Chromosome()};
-    if (design_ && *design_ == design) return showScene();
-    design_ = std::move(design);
+    Blueprint blueprint{settings, individual != nullptr ? individual->record.design : search::Design()};
+    if (blueprint_ && *blueprint_ == blueprint) return showScene();
+    blueprint_ = std::move(blueprint);
     if (individual == nullptr) {
         build_.buildLayout(settings);
     } else {
-        build_.buildIndividual(settings, individual->record.chromosome);
+        build_.buildIndividual(settings, individual->record.design);
     }
 }
 

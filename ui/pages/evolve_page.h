@@ -45,11 +45,11 @@ class EvolvePage : public Page {
     QWidget* sceneBar() override;
 
  private:
-    /// What a track is built from; no genes: the flat track before anything is learned.
-    struct Design {
+    /// What a track is built from; no design: the flat track before anything is learned.
+    struct Blueprint {
         study::TrackSettings settings;
-        evolution::Chromosome genes;
-        friend bool operator==(const Design&, const Design&) = default;
+        search::Design design;
+        friend bool operator==(const Blueprint&, const Blueprint&) = default;
     };
 
     QWidget* makeThreads(QWidget* parent);
@@ -76,7 +76,7 @@ class EvolvePage : public Page {
     scene::SceneView* scene_ = nullptr;        // while the page is shown
     std::optional<study::Individual> picked_;  // none: the best winner is followed
     session::TrackBuild build_;
-    std::optional<Design> design_;  // what track_ is built from, or being built from
+    std::optional<Blueprint> blueprint_;  // what track_ is built from, or being built from
     std::shared_ptr<const track::Track> track_;
     QAction* followAction_;
 

@@ -47,7 +47,10 @@ Facts factsOf(const study::Settings& settings) {
         {EvolveSummary::tr("Population"), EvolveSummary::tr("%1, with %2 trials each")
                                               .arg(evolution.populationSize)
                                               .arg(evolution.trialsPerEvaluation)},
-        {EvolveSummary::tr("Tournament"), QString::number(evolution.tournamentSize)},
+        {EvolveSummary::tr("Search"),
+         evolution.search == search::Method::genetic
+             ? EvolveSummary::tr("genetic, tournaments of %1").arg(evolution.tournamentSize)
+             : EvolveSummary::tr("random")},
         {EvolveSummary::tr("Seed"), QString::number(evolution.seed)},
     };
 }

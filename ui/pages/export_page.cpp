@@ -289,7 +289,7 @@ void ExportPage::build() {
                                   .arg(individual)
                                   .toStdString();
     const PrintChoice& choice = form_->choice();
-    print_.build({session_->settings().track, winner->record.chromosome, about, choice.options, choice.limits,
+    print_.build({session_->settings().track, winner->record.design, about, choice.options, choice.limits,
                   form_->printer().space, form_->split().mode(), form_->split().options()});
 }
 

@@ -49,6 +49,7 @@ const RawText kTexts[] = {
     {"track.baseThickness_mm", TEXT("Base thickness"), TEXT("Of the solid below the deepest point.")},
     {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
 
+    {"evolution.search", TEXT("Search"), TEXT("How tracks are looked for: bred from the best ones, as in the paper, or drawn at random, which shows what breeding is worth."), {TEXT("Genetic"), TEXT("Random")}},
     {"evolution.populationSize", TEXT("Population"), TEXT("Individuals in each generation.")},
     {"evolution.trialsPerEvaluation", TEXT("Trials each"), TEXT("Parts that are simulated to judge one individual.")},
     {"evolution.tournamentSize", TEXT("Tournament"), TEXT("Individuals that compete to become a parent; more of them press harder.")},
@@ -166,8 +167,8 @@ std::vector<FieldGroup> trackGroups() {
           "simulation.contact.restitution"}},
         {"learning",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
-         {"evolution.generations", "evolution.populationSize", "evolution.trialsPerEvaluation",
-          "simulation.engine", "evolution.seed"}},
+         {"evolution.search", "evolution.generations", "evolution.populationSize",
+          "evolution.trialsPerEvaluation", "simulation.engine", "evolution.seed"}},
         {"operators",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Genetic operators")),
          {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",

@@ -35,8 +35,7 @@ QWidget* GenerationTable::makeHead() {
     layout->setContentsMargins(12, 4, 12, 4);
     layout->setSpacing(8);
     layout->addWidget(text, 1);
-    layout->addWidget(new DetailsButton(table_->view(), models::GenerationModel::kFirstDetail,
-                                        models::GenerationModel::Smoothing, head));
+    layout->addWidget(new DetailsButton(table_->view(), models::GenerationModel::kFirstDetail, head));
     head->hide();
     connect(&model_, &QAbstractItemModel::modelReset, head,
             [this, head] { head->setVisible(model_.rowCount() > 0); });
@@ -47,8 +46,8 @@ QWidget* GenerationTable::makeHead() {
 void GenerationTable::setSession(StudySession* session) {
     if (session_) session_->disconnect(this);
     session_ = session;
-    if (!session_) return model_.setGenerations({}, {});
-    model_.setGenerations(session_->summaries(), session_->checks());
+    if (!session_) return model_.setGenerations({}, {}, search::Method::genetic);
+    model_.setGenerations(session_->summaries(), session_->checks(), session_->settings().evolution.search);
     connect(session_, &StudySession::generationSaved, this,
             [this] { model_.append(session_->summaries().back()); });
     connect(session_, &StudySession::checkSaved, this,

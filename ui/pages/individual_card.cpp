@@ -8,8 +8,8 @@
 #include "ui/look/folding_group.h"
 #include "ui/look/text.h"
 #include "ui/models/numbers.h"
+#include "ui/pages/design_picture.h"
 #include "ui/pages/fact_list.h"
-#include "ui/pages/gene_picture.h"
 
 namespace trapwright::pages {
 
@@ -30,9 +30,9 @@ IndividualCard::IndividualCard(QWidget* parent)
       success_(new FactList(contents_)),
       details_(new look::FoldingGroup("evolve.algorithm", tr("Details of the algorithm"), true, contents_)),
       scores_(new FactList(details_)),
-      strategy_(new FactList(details_)),
+      traits_(new FactList(details_)),
       lengths_(new QLabel(contents_)),
-      genes_(new GenePicture(details_)) {
+      design_(new DesignPicture(details_)) {
     success_->setObjectName("evolve.parts");
     empty_->setWordWrap(true);
     empty_->setForegroundRole(QPalette::PlaceholderText);
@@ -47,7 +47,7 @@ IndividualCard::IndividualCard(QWidget* parent)
     column->addWidget(success_);
     column->addWidget(lengths_);
     column->addWidget(details_);
-    for (QWidget* detail : std::initializer_list<QWidget*>{scores_, strategy_, genes_})
+    for (QWidget* detail : std::initializer_list<QWidget*>{scores_, traits_, design_})
         details_->body()->addWidget(detail);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -76,13 +76,16 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
                    {tr("Collisions F_C"), tr("%1 triangles").arg(fixed(fitness.collision, 0))},
                    {tr("Distance F_D"), tr("%1 segments").arg(fixed(fitness.distance, 3))},
                    {tr("Orientation F_O"), tr("%1 √rad").arg(fixed(fitness.orientation, 3))}});
-    const evolution::StrategyValues strategy =
-        evolution::limitStrategy(evolution::decodeStrategy(record.chromosome.strategy),
-                                 study::generationParameters(settings.evolution).transition);
-    strategy_->show({{tr("Crossover p_x"), fixed(strategy.crossover, 4)},
-                     {tr("Mutation p_dm"), fixed(strategy.mutation, 4)},
-                     {tr("Smoothing p_s"), fixed(strategy.smoothing, 4)}});
-    genes_->show(record.chromosome, settings.track.crossSections);
+    Facts traits;
+    for (const search::NumberInfo& info : search::describeMethod(settings.evolution.search).traits) {
+        const QString name = QString::fromStdString(info.name);
+        const auto value = search::findNumber(record.traits, info.key);
+        traits.emplace_back(name.left(1).toUpper() + name.mid(1),
+                            value ? fixed(*value, info.decimals) : QStringLiteral("–"));
+    }
+    traits_->show(traits);
+    traits_->setVisible(!traits.empty());
+    design_->show(record.design, study::designSpace(settings.track), settings.track.crossSections);
     empty_->hide();
     contents_->show();
 }

@@ -14,11 +14,11 @@ class FoldingGroup;
 
 namespace trapwright::pages {
 
+class DesignPicture;
 class FactList;
-class GenePicture;
 
-/// The individual whose track is in the scene: its success and, folded, its scores, what it is made of, its
-/// genes.
+/// The individual whose track is in the scene: its success and, folded, its scores, what the search knows of
+/// it, its design.
 class IndividualCard : public QWidget {
     Q_OBJECT
  public:
@@ -36,9 +36,9 @@ class IndividualCard : public QWidget {
     FactList* success_;
     look::FoldingGroup* details_;
     FactList* scores_;
-    FactList* strategy_;
+    FactList* traits_;
     QLabel* lengths_;
-    GenePicture* genes_;
+    DesignPicture* design_;
 };
 
 }  // namespace trapwright::pages

@@ -6,7 +6,6 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
-#include "core/study/track_design.h"
 #include "ui/pages/details_button.h"
 #include "ui/session/study_session.h"
 
@@ -49,8 +48,7 @@ QWidget* IndividualTable::makeHead() {
     layout->addWidget(label);
     layout->addWidget(spin_);
     layout->addWidget(count_, 1);
-    layout->addWidget(new DetailsButton(table_->view(), models::IndividualModel::kFirstDetail,
-                                        models::IndividualModel::Smoothing, head));
+    layout->addWidget(new DetailsButton(table_->view(), models::IndividualModel::kFirstDetail, head));
     connect(spin_, &QSpinBox::valueChanged, this, &IndividualTable::generationPicked);
     head->hide();
     return head;
@@ -92,7 +90,7 @@ void IndividualTable::load() {
             return;
         }
         loaded_ = generation_;
-        model_.setGeneration(*record, study::generationParameters(session_->settings().evolution).transition);
+        model_.setGeneration(*record, session_->settings().evolution.search);
         count_->setText(
             tr("%1 individuals, %L2 trials").arg(model_.rowCount()).arg(study::summarize(*record).trials));
     }

@@ -30,7 +30,7 @@ LearningCharts::LearningCharts(QObject* parent) : QObject(parent) {
     add(new charts::SpeedChart);
     firstDetail_ = charts_.size();
     add(new charts::FitnessChart);
-    add(new charts::StrategyChart);
+    add(new charts::SearchChart);
 }
 
 void LearningCharts::add(charts::StudyChart* chart) {

@@ -22,7 +22,7 @@ class LearningCharts : public QObject {
  public:
     explicit LearningCharts(QObject* parent);
 
-    /// Success, engines, speed, and the details of the algorithm (fitness, strategy values) in one panel.
+    /// Success, engines, speed, and the details of the algorithm (fitness, search) in one panel.
     /// Asked for once; who asks owns the charts.
     [[nodiscard]] std::vector<Panel> panels() const;
 

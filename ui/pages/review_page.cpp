@@ -74,7 +74,7 @@ void ReviewPage::addInspector() {
 void ReviewPage::addTables() {
     selectionTable_->view().setSelectionBehavior(QAbstractItemView::SelectRows);
     auto* details = new DetailsButton(selectionTable_->view(), models::SelectionModel::kFirstDetail,
-                                      models::SelectionModel::Orientation, selectionTable_.get());
+                                      selectionTable_.get());
     selectionTable_->headRow().insertWidget(1, details);
     connect(selectionTable_.get(), &ResultTable::cellChosen, this, [this](const QModelIndex& index) {
         choice_->setWinner(index.data(models::GenerationRole).toInt(),

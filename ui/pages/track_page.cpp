@@ -303,6 +303,10 @@ void TrackPage::refresh() {
     const bool bowl = settings.track.shape.type == track::FeederType::bowl;
     form_->setVisible("track.bowlRadius_mm", bowl);
     form_->setVisible("track.conveying", bowl);
+    const bool genetic = settings.evolution.search == search::Method::genetic;
+    for (const char* key : {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
+                            "evolution.smoothingLimit"})
+        form_->setVisible(key, genetic);
     const bool locked = session_->locked();
     form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });
     contact_->setEnabled(!locked);

@@ -122,7 +122,7 @@ void TrialReview::setWinner(const std::optional<study::Individual>& winner) {
                             : tr("Learn a track first: its trials are listed here."));
     bar_->setHint(winner ? tr("Choose a trial to replay it") : QString());
     if (!winner_) return;
-    build_.buildIndividual(session_->settings().track, winner_->record.chromosome);
+    build_.buildIndividual(session_->settings().track, winner_->record.design);
     wantTrials();
 }
 

@@ -45,7 +45,7 @@ void WinnerPictures::next() {
         const study::Individual* winner = model_.winnerAt(model_.rowOf(generation));
         if (winner == nullptr || model_.hasPicture(generation)) continue;
         generation_ = generation;
-        build_.buildIndividual(settings_, winner->record.chromosome);
+        build_.buildIndividual(settings_, winner->record.design);
     }
 }
 

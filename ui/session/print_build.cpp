@@ -71,7 +71,7 @@ void PrintBuild::build(const PrintRequest& request) {
                 emit failed(QString::fromStdString(option), QString::fromStdString(message));
             };
         };
-        auto track = study::decodeTrack(request.settings, request.chromosome);
+        auto track = study::decodeTrack(request.settings, request.design);
         if (!track) return fail({}, track.error().message);
         auto solid = track::buildPrintSolid(*track, request.options);
         if (!solid) return fail(solid.error().option, solid.error().message);

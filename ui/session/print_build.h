@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/evolution/chromosome.h"
 #include "core/geometry/bed_fit.h"
 #include "core/geometry/print_check.h"
+#include "core/search/design_space.h"
 #include "core/study/settings.h"
 #include "core/track/print_pieces.h"
 #include "core/track/track_file.h"
@@ -29,7 +29,7 @@ enum class SplitMode {
 /// What shall be printed of which individual.
 struct PrintRequest {
     study::TrackSettings settings;
-    evolution::Chromosome chromosome;
+    search::Design design;
     std::string about;  // where the track comes from, for the file
     track::PrintOptions options;
     geometry::PrintLimits limits;

@@ -10,9 +10,8 @@ void TrackBuild::buildLayout(const study::TrackSettings& settings) {
     start([settings] { return study::buildLayout(settings); });
 }
 
-void TrackBuild::buildIndividual(const study::TrackSettings& settings,
-                                 const evolution::Chromosome& chromosome) {
-    start([settings, chromosome] { return study::decodeTrack(settings, chromosome); });
+void TrackBuild::buildIndividual(const study::TrackSettings& settings, const search::Design& design) {
+    start([settings, design] { return study::decodeTrack(settings, design); });
 }
 
 void TrackBuild::start(std::function<base::Result<track::Track>()> build) {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/base/result.h"
-#include "core/evolution/chromosome.h"
+#include "core/search/design_space.h"
 #include "core/study/settings.h"
 #include "core/track/track.h"
 #include "ui/session/newest_task.h"
@@ -24,7 +24,7 @@ class TrackBuild : public QObject {
     /// The empty layout of these settings: a flat trap between lead-in and lead-out (Figure 3).
     void buildLayout(const study::TrackSettings& settings);
     /// The track of an individual.
-    void buildIndividual(const study::TrackSettings& settings, const evolution::Chromosome& chromosome);
+    void buildIndividual(const study::TrackSettings& settings, const search::Design& design);
     void cancel();
 
  signals:

@@ -24,7 +24,7 @@ namespace trapwright::window {
 struct StudyCovers::Contents {
     StudyCover cover;
     study::TrackSettings track;
-    std::optional<evolution::Chromosome> genes;  // of the best track; none: nothing is learned
+    std::optional<search::Design> design;  // of the best track; none: nothing is learned
 };
 
 namespace {
@@ -136,7 +136,7 @@ void StudyCovers::next() {
             contents.track = settings->track;
             if (const auto track = findTrack(*file, *selections)) {
                 contents.cover.success = readSuccess(*file, *selections, *validations, *track);
-                contents.genes = track->record.chromosome;
+                contents.design = track->record.design;
             }
             return contents;
         };
@@ -155,8 +155,8 @@ void StudyCovers::next() {
 
 void StudyCovers::draw(const Contents& contents) {
     covers_[current_] = contents.cover;
-    if (contents.genes) {
-        build_.buildIndividual(contents.track, *contents.genes);
+    if (contents.design) {
+        build_.buildIndividual(contents.track, *contents.design);
     } else {
         build_.buildLayout(contents.track);
     }

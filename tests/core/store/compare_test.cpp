@@ -26,8 +26,20 @@ class CompareTest : public QObject {
         row(
             "wall time", [](study::GenerationRecord& g) { g.seconds += 1; }, "");
         row(
-            "one bit", [](study::GenerationRecord& g) { g.individuals[4].chromosome.strategy[59] ^= 1; },
-            "generation 1, individual 4: the genes differ");
+            "one step of a number",
+            [](study::GenerationRecord& g) {
+                g.individuals[4].design[59] = 1.0 - g.individuals[4].design[59];
+            },
+            "generation 1, individual 4: the designs differ");
+        row(
+            "a trait",
+            [](study::GenerationRecord& g) {
+                g.individuals[4].traits[2].value = std::nextafter(g.individuals[4].traits[2].value, 9.0);
+            },
+            "generation 1, individual 4: the designs differ");
+        row(
+            "a curve", [](study::GenerationRecord& g) { g.statistics.curves[1].value = 0.5; },
+            "generation 1: the winner or the statistics differ");
         row(
             "last bit of a score",
             [](study::GenerationRecord& g) {
@@ -66,11 +78,11 @@ class CompareTest : public QObject {
         VERIFY_OK(difference);
         QCOMPARE(QString::fromStdString(*difference), expected);
 
-        // The dumps agree exactly when genes and scores do.
+        // The dumps agree exactly when designs and scores do.
         std::string dumpA;
         std::string dumpB;
-        VERIFY_OK(store::dumpGenes(*a, [&](std::string_view lines) { dumpA += lines; }));
-        VERIFY_OK(store::dumpGenes(*b, [&](std::string_view lines) { dumpB += lines; }));
+        VERIFY_OK(store::dumpIndividuals(*a, [&](std::string_view lines) { dumpA += lines; }));
+        VERIFY_OK(store::dumpIndividuals(*b, [&](std::string_view lines) { dumpB += lines; }));
         QCOMPARE(std::count(dumpA.begin(), dumpA.end(), '\n'), 18);
         QCOMPARE(dumpA == dumpB, expected.isEmpty() || expected.contains("winner"));
     }
@@ -89,7 +101,7 @@ class CompareTest : public QObject {
         QCOMPARE(store::findDifference(*a, *b).value(), std::string());
         QCOMPARE(store::findDifference(*b, *a).value(), std::string());
         std::string dump;
-        VERIFY_OK(store::dumpGenes(*b, [&](std::string_view lines) { dump += lines; }));
+        VERIFY_OK(store::dumpIndividuals(*b, [&](std::string_view lines) { dump += lines; }));
         QVERIFY(dump.substr(0, dump.find('\n')).ends_with(" -"));
         QVERIFY(!dump.ends_with(" -\n"));
     }

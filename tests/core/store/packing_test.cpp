@@ -2,9 +2,8 @@
 
 #include <QtTest>
 #include <bit>
+#include <cmath>
 #include <limits>
-
-#include "core/base/random.h"
 
 using namespace trapwright;
 
@@ -12,29 +11,16 @@ class PackingTest : public QObject {
     Q_OBJECT
 
  private slots:
-    void bitsComeBack() {
-        base::Random random({.seed = 1});
-        for (std::size_t size = 0; size < 100; ++size) {
-            evolution::Bits bits(size);
-            for (auto& bit : bits)
-                bit = random.boolean() ? 1 : 0;
-            const std::string blob = store::packBits(bits);
-            QCOMPARE(blob.size(), 4 + (size + 7) / 8);
-            QVERIFY(store::unpackBits(blob) == bits);
-        }
-    }
-
-    void bitsLieAsDocumented() {
-        QCOMPARE(store::packBits({1, 0, 0, 0, 0, 0, 0, 0, 0, 1}), std::string("\x0a\0\0\0\x01\x02", 6));
+    void numbersComeBackToTheLastBit() {
+        const std::vector<double> numbers = {0.1 + 0.2, -0.0, 1e-300};
+        const auto back = store::unpackNumbers(store::packNumbers(numbers));
+        QVERIFY(back == numbers);
+        QVERIFY(std::signbit((*back)[1]));
+        QVERIFY(store::unpackNumbers("")->empty());
     }
 
     void wrongBlobsAreRefused() {
-        const std::string blob = store::packBits(evolution::Bits(20, 1));
-        QVERIFY(!store::unpackBits(""));
-        QVERIFY(!store::unpackBits(blob.substr(0, 3)));
-        QVERIFY(!store::unpackBits(blob.substr(0, blob.size() - 1)));
-        QVERIFY(!store::unpackBits(blob + "x"));
-        QVERIFY(!store::unpackBits(std::string(4, '\xff')));
+        QVERIFY(!store::unpackNumbers("12345"));
         QVERIFY(!store::unpackVertices("12345"));
         QVERIFY(!store::unpackTriangles("12345", 10));
         QVERIFY(!store::unpackTriangles(store::packTriangles({{0, 1, 3}}), 3));

@@ -19,25 +19,6 @@ namespace trapwright::sample {
 
 inline const std::string kProgram = "trapwright 0.0-test";
 
-/// What schema version 7 added.
-inline constexpr const char* kDropVersion7 = "DROP TABLE drop_pose; DROP TABLE drop_test;";
-
-/// What schema version 6 added.
-inline constexpr const char* kDropVersion6 =
-    "ALTER TABLE physical_trial DROP COLUMN feeder; ALTER TABLE physical_trial DROP COLUMN drive; "
-    "ALTER TABLE physical_trial DROP COLUMN half_stroke;";
-
-/// What schema version 5 added.
-inline constexpr const char* kDropVersion5 =
-    "ALTER TABLE individual DROP COLUMN oriented; ALTER TABLE generation DROP COLUMN top_success;";
-
-/// What schema version 4 added.
-inline constexpr const char* kDropVersion4 =
-    "DROP TABLE calibration_reading; DROP TABLE calibration; DROP TABLE drive_log; DROP TABLE "
-    "physical_trial; "
-    "DROP TABLE physical_pose; DROP TABLE physical_validation; DROP TABLE chosen_winner; "
-    "ALTER TABLE part DROP COLUMN symmetry_counts;";
-
 /// The message of a Result that must have failed, or a text that no message contains.
 template <class T>
 QString messageOf(const base::Result<T>& result) {
@@ -63,11 +44,21 @@ inline store::StoredPart part() {
 inline study::GenerationRecord generation(int index, int individuals = 6) {
     base::Random random({.seed = 77, .generation = static_cast<std::uint32_t>(index)});
     const auto count = [&](std::uint32_t limit) { return static_cast<int>(random.below(limit)); };
-    const auto bits = [&](std::size_t size) {
-        evolution::Bits gene(size);
-        for (auto& bit : gene)
-            bit = random.boolean() ? 1 : 0;
-        return gene;
+    // As the genetic search has them: 85 numbers of 10 bits; p_dm above its floor, p_s below its limit.
+    const auto share = [&](std::uint32_t largest) {
+        return static_cast<double>(random.below(largest + 1)) / largest;
+    };
+    const auto design = [&] {
+        search::Design numbers(85);
+        for (double& number : numbers)
+            number = share(1023);
+        return numbers;
+    };
+    const auto traits = [&] {
+        constexpr std::uint32_t kLargest = (1U << 20U) - 1;
+        return std::vector<search::NamedNumber>{{"p_x", share(kLargest)},
+                                                {"p_dm", std::max(share(kLargest), 0.0005)},
+                                                {"p_s", share(kLargest) * 0.3}};
     };
     const auto fitness = [&] {
         return trial::Fitness{-random.uniform(), -random.normal(), random.uniform()};
@@ -76,22 +67,17 @@ inline study::GenerationRecord generation(int index, int individuals = 6) {
     study::GenerationRecord record;
     record.index = index;
     for (int i = 0; i < individuals; ++i) {
-        record.individuals.push_back({{bits(800), bits(50), bits(60)},
-                                      fitness(),
-                                      count(9),
-                                      9 + count(9),
-                                      count(9),
-                                      count(9),
-                                      count(9),
-                                      count(9)});
+        record.individuals.push_back(
+            {design(), traits(), fitness(), count(9), 9 + count(9), count(9), count(9), count(9), count(9)});
     }
     record.winner = count(static_cast<std::uint32_t>(individuals));
     record.statistics = {fitness(),
                          fitness(),
-                         {random.uniform(), random.uniform(), random.uniform()},
+                         {{"p_x", random.uniform()}, {"p_dm", random.uniform()}, {"p_s", random.uniform()}},
                          record.individuals[static_cast<std::size_t>(record.winner)].success(),
                          random.uniform()};
     record.seconds = random.uniform();
+    record.searchState = "state " + std::to_string(index);
     return record;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/store/compare.h"
 #include "core/store/schema.h"
+#include "old_study.h"
 #include "sample_study.h"
 
 using namespace trapwright;
@@ -25,20 +26,6 @@ study::GenerationRecord generationOf(int index, int winnersTrials) {
     study::GenerationRecord record = sample::generation(index);
     record.individuals[static_cast<std::size_t>(record.winner)].trials = winnersTrials;
     return record;
-}
-
-/// The study as a program of schema version 1 would have left it.
-void makeOld(const std::filesystem::path& path) {
-    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
-    database.exec(sample::kDropVersion7);
-    database.exec(sample::kDropVersion6);
-    database.exec(sample::kDropVersion5);
-    database.exec(sample::kDropVersion4);
-    database.exec("DROP TABLE winner_check");
-    database.exec(
-        "UPDATE study SET settings = json_remove(settings, '$.evolution.racingTrials', "
-        "'$.evolution.racingShare', '$.evolution.commonRandomNumbers', '$.evolution.learningStuckTime_s')");
-    database.exec("PRAGMA user_version = 1");
 }
 
 }  // namespace
@@ -107,7 +94,7 @@ class StudyChecksTest : public QObject {
 
     void studyOfVersion1IsBroughtUpToDate() {
         sample::write(path_, 2);
-        makeOld(path_);
+        sample::makeOld(path_, 1);
         QVERIFY(sample::messageOf(StudyFile::openReadOnly(path_)).contains("older Trapwright"));
         {
             auto study = StudyFile::open(path_, sample::kProgram);

@@ -4,6 +4,7 @@
 #include <QtTest>
 
 #include "core/store/schema.h"
+#include "old_study.h"
 #include "sample_study.h"
 
 using namespace trapwright;
@@ -77,14 +78,11 @@ class StudyDropsTest : public QObject {
     }
 
     void studyWithoutDropTestsIsBroughtUpToDate() {
-        {
-            SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
-            database.exec(sample::kDropVersion7);
-            database.exec(
+        sample::makeOld(path_, 6);
+        SQLite::Database(path_.string(), SQLite::OPEN_READWRITE)
+            .exec(
                 "UPDATE study SET settings = json_remove(settings, '$.part.poseWeights', "
                 "'$.part.material', '$.simulation.contact.surface')");
-            database.exec("PRAGMA user_version = 6");
-        }
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
         QVERIFY(study->loadDropTests().value().empty());

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/store/schema.h"
+#include "old_study.h"
 #include "sample_study.h"
 
 using namespace trapwright;
@@ -196,14 +197,7 @@ class StudyFeederTest : public QObject {
     }
 
     void studyOfVersion3IsBroughtUpToDate() {
-        {
-            SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
-            database.exec(sample::kDropVersion7);
-            database.exec(sample::kDropVersion6);
-            database.exec(sample::kDropVersion5);
-            database.exec(sample::kDropVersion4);
-            database.exec("PRAGMA user_version = 3");
-        }
+        sample::makeOld(path_, 3);
         QVERIFY(sample::messageOf(StudyFile::openReadOnly(path_)).contains("older Trapwright"));
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
@@ -231,12 +225,7 @@ class StudyFeederTest : public QObject {
             VERIFY_OK(study->addPhysicalValidation(validation(0)));
             VERIFY_OK(study->addPhysicalTrial(0, trial));
         }
-        {
-            SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
-            database.exec(sample::kDropVersion7);
-            database.exec(sample::kDropVersion6);
-            database.exec("PRAGMA user_version = 5");
-        }
+        sample::makeOld(path_, 5);
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
         trial.feeder = study::FeederKind::unknown;

@@ -21,12 +21,11 @@ base::Result<study::LearningEnd> learn(const std::filesystem::path& path, unsign
     auto engine = std::make_shared<fake::FakeEngine>(fake::waveLaw, threads);
     engine->afterTrial = afterTrial;
     inputs.engine = engine;
-    std::optional<study::GenerationRecord> last;
-    const int count = file->generationCount().value();
-    if (count > 0) last = file->loadGeneration(count - 1).value();
+    const auto last = file->loadLearningState();
+    if (!last) return last.error();
     study::LearningEvents events;
     events.save = [&](const study::GenerationRecord& record) { return file->saveGeneration(record); };
-    return study::evolve(inputs, std::move(last), events, control);
+    return study::evolve(inputs, *last, events, control);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ base::Result<study::LearningEnd> learn(const study::StudyInputs& inputs,
         saved.push_back(record);
         return base::success();
     };
-    return study::evolve(inputs, saved.empty() ? std::nullopt : std::optional(saved.back()), events, {});
+    return study::evolve(
+        inputs, saved.empty() ? std::nullopt : std::optional(study::stateAfter(saved.back())), events, {});
 }
 
 /// A study that races: 4, 8 and 16 trials.

@@ -3,7 +3,6 @@
 #include <QtTest>
 #include <limits>
 
-#include "core/evolution/gray.h"
 #include "core/study/track_design.h"
 #include "fake_engine.h"
 
@@ -33,7 +32,9 @@ base::Result<LearningEnd> learn(const study::StudyInputs& inputs, std::vector<Ge
         saved.push_back(record);
         return base::success();
     };
-    return study::evolve(inputs, saved.empty() ? std::nullopt : std::optional(saved.back()), events, control);
+    return study::evolve(inputs,
+                         saved.empty() ? std::nullopt : std::optional(study::stateAfter(saved.back())),
+                         events, control);
 }
 
 std::shared_ptr<const trial::Engine> engineOf(fake::Law law) {
@@ -62,7 +63,7 @@ class RunnerTest : public QObject {
         const auto nearest = [](const GenerationRecord& record) {
             const auto& winner = record.individuals[static_cast<std::size_t>(record.winner)];
             return fake::distanceFromWave(
-                study::decodeTrack(fake::waveInputs().settings.track, winner.chromosome).value());
+                study::decodeTrack(fake::waveInputs().settings.track, winner.design).value());
         };
         QVERIFY(nearest(saved.back()) < 0.75 * nearest(saved.front()));
     }
@@ -98,7 +99,7 @@ class RunnerTest : public QObject {
         ++inputs.settings.evolution.seed;
         VERIFY_OK(learn(inputs, other));
         QVERIFY(!sameBits(one, other));
-        QVERIFY(one[0].individuals[0].chromosome != other[0].individuals[0].chromosome);
+        QVERIFY(one[0].individuals[0].design != other[0].individuals[0].design);
     }
 
     void stoppedAndResumedGivesTheSameBits() {
@@ -115,7 +116,7 @@ class RunnerTest : public QObject {
                 control.stopAfterGeneration();
                 return base::success();
             };
-            const auto last = pieces.empty() ? std::nullopt : std::optional(pieces.back());
+            const auto last = pieces.empty() ? std::nullopt : std::optional(study::stateAfter(pieces.back()));
             const auto end = study::evolve(fake::waveInputs(), last, events, control);
             VERIFY_OK(end);
             QCOMPARE(pieces.size(), i);
@@ -209,11 +210,40 @@ class RunnerTest : public QObject {
             ++overlapping;
             QCOMPARE(individual.trials, wanted ? 6 : 0);
             QCOMPARE(individual.fitness.collision, -double(individual.overlaps));
-            const auto track = study::decodeTrack(inputs.settings.track, individual.chromosome);
+            const auto track = study::decodeTrack(inputs.settings.track, individual.design);
             if (!wanted)
                 QVERIFY(individual.fitness == trial::calcUnsimulatedFitness(*track, individual.overlaps));
         }
         QVERIFY(overlapping > 12);  // free points cross nearly always (feasibility: F_C of -60 at random)
+    }
+
+    // The paper's search and drawing at random through the same runner; a state is its own search's.
+    void everySearchLearnsAndGoesOn_data() {
+        QTest::addColumn<int>("method");
+        for (const auto& [name, method] : search::kMethods)
+            QTest::newRow(name.data()) << static_cast<int>(method);
+    }
+    void everySearchLearnsAndGoesOn() {
+        QFETCH(int, method);
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.evolution.search = search::Method(method);
+        std::vector<GenerationRecord> whole;
+        VERIFY_OK(learn(inputs, whole));
+        std::vector<GenerationRecord> pieces;
+        for (int count = 1; count <= inputs.settings.evolution.generations; ++count) {
+            study::StudyInputs some = inputs;
+            some.settings.evolution.generations = count;
+            VERIFY_OK(learn(some, pieces));
+        }
+        QVERIFY(sameBits(whole, pieces));
+        for (const GenerationRecord& record : whole) {
+            QCOMPARE(record.statistics.curves.size(),
+                     search::describeMethod(inputs.settings.evolution.search).curves.size());
+            QVERIFY(!record.searchState.empty());
+        }
+        whole.back().searchState = "of something else";
+        ++inputs.settings.evolution.generations;
+        QVERIFY(fake::messageOf(learn(inputs, whole)).startsWith("This is not the state of a"));
     }
 
     void failedSaveEndsTheRun() {
@@ -267,26 +297,19 @@ class RunnerTest : public QObject {
 
     void statisticsAreThoseOfTheTop30Percent() {
         // Ten individuals: the top are those of F = 9 (twice) and 8.
-        study::EvolutionSettings settings;
-        settings.smoothingLimit = 0.3;
-        settings.mutationFloor = 0.25;
         std::vector<study::IndividualRecord> individuals(10);
         for (std::size_t i = 0; i < 10; ++i) {
             individuals[i].fitness = {0.0, -1.0, double(i)};
-            individuals[i].chromosome.strategy =
-                evolution::encodeGray(std::vector<double>{0.5, 0.0, 1.0}, evolution::kStrategyBits);
         }
         individuals[2].fitness = {-2.0, 0.0, 10.0};  // F = 8, as the last
-        const GenerationRecord record = study::completeGeneration(4, individuals, settings);
+        const GenerationRecord record = study::completeGeneration(4, individuals, {{"p_x", 0.5}});
         QCOMPARE(record.index, 4);
         QCOMPARE(record.winner, 2);  // the lowest among equals
         QVERIFY(record.statistics.best == individuals[2].fitness);
         QVERIFY(qAbs(record.statistics.topMean.collision + 2.0 / 3.0) < 1e-12);
         QVERIFY(qAbs(record.statistics.topMean.distance + 2.0 / 3.0) < 1e-12);
         QVERIFY(qAbs(record.statistics.topMean.orientation - 9.0) < 1e-12);
-        QVERIFY(qAbs(record.statistics.topStrategy.crossover - 0.5) < 1e-5);
-        QVERIFY(qAbs(record.statistics.topStrategy.mutation - 0.25) < 1e-12);
-        QVERIFY(qAbs(record.statistics.topStrategy.smoothing - 0.3) < 1e-12);
+        QVERIFY((record.statistics.curves == std::vector<search::NamedNumber>{{"p_x", 0.5}}));
         QVERIFY(!record.statistics.success && !record.statistics.topSuccess);  // nobody counted
     }
 
@@ -295,8 +318,6 @@ class RunnerTest : public QObject {
         std::vector<study::IndividualRecord> individuals(10);
         for (std::size_t i = 0; i < 10; ++i) {
             individuals[i].fitness = {0.0, 0.0, double(i)};
-            individuals[i].chromosome.strategy =
-                evolution::encodeGray(std::vector<double>{0.5, 0.0, 1.0}, evolution::kStrategyBits);
             individuals[i].trials = 10;
             individuals[i].oriented = 10;
         }

@@ -37,8 +37,21 @@ Settings unusualSettings() {
     s.track.leadOutSegments = 3;
     s.track.baseThickness = 0.0031;
     s.track.encoding = study::PointEncoding::free;
-    s.evolution = {31,   17, 5,         0.1 / 3.0, 0.7, 1e-7, trial::OrientationDistance::plain,
-                   true, 4,  1.0 / 3.0, true,      0.7, 12,   0xFFFFFFFFFFFFFFFFULL};
+    s.evolution = {search::Method::random,
+                   31,
+                   17,
+                   5,
+                   0.1 / 3.0,
+                   0.7,
+                   1e-7,
+                   trial::OrientationDistance::plain,
+                   true,
+                   4,
+                   1.0 / 3.0,
+                   true,
+                   0.7,
+                   12,
+                   0xFFFFFFFFFFFFFFFFULL};
     s.simulation.drive = {60.25, 0.7e-3 / 9.0, 13.7 * base::kDegree};
     s.simulation.contact = {0.6, 0.55, 0.21};
     s.simulation.surface = "PLA, printed";

@@ -1,8 +1,8 @@
 #include "core/study/track_design.h"
 
 #include <QtTest>
+#include <set>
 
-#include "core/evolution/gray.h"
 #include "fake_engine.h"
 
 using namespace trapwright;
@@ -18,10 +18,9 @@ study::TrackSettings smallSettings() {
     return settings;
 }
 
-evolution::Chromosome chromosomeOf(const std::vector<double>& points, const std::vector<double>& lengths) {
-    return {evolution::encodeGray(points, evolution::kPointBits),
-            evolution::encodeGray(lengths, evolution::kLengthBits),
-            evolution::encodeGray(std::vector<double>{0.5, 0.5, 0.5}, evolution::kStrategyBits)};
+search::Design designOf(std::vector<double> points, const std::vector<double>& lengths) {
+    points.insert(points.end(), lengths.begin(), lengths.end());
+    return points;
 }
 
 }  // namespace
@@ -30,12 +29,29 @@ class TrackDesignTest : public QObject {
     Q_OBJECT
 
  private slots:
-    void layoutIsThatOfTheGenes() {
-        const evolution::ChromosomeLayout layout = study::chromosomeLayout(smallSettings());
-        QCOMPARE(layout.points, 12);
-        QCOMPARE(layout.lengths, 3);
-        base::Random random({.seed = 1});
-        VERIFY_OK(study::decodeTrack(smallSettings(), evolution::createRandomChromosome(layout, random)));
+    void spaceIsThatOfTheTrack() {
+        const search::DesignSpace space = study::designSpace(smallSettings());
+        QCOMPARE(space.dimensions.size(), std::size_t{27});
+        std::set<std::string> keys;
+        for (std::size_t i = 0; i < 27; ++i) {
+            const search::Dimension& dimension = space.dimensions[i];
+            keys.insert(dimension.key);
+            QCOMPARE(dimension.bits, 10);
+            QCOMPARE(dimension.ofPoint, i < 24);
+            QCOMPARE(dimension.unit, std::string("mm"));
+        }
+        QCOMPARE(keys.size(), std::size_t{27});
+        // Strips of 15 mm: the third of them is right of the middle.
+        const search::Dimension& y = space.dimensions[4];
+        QCOMPARE(y.key, std::string("section 1, point 3, y"));
+        QVERIFY(qAbs(y.low) < 1e-12 && qAbs(y.high - 15.0) < 1e-12);
+        QCOMPARE(space.dimensions[5].high, 30.0);
+        QCOMPARE(space.dimensions[26].low, 10.0);
+        QCOMPARE(space.dimensions[26].high, 30.0);
+        study::TrackSettings free = smallSettings();
+        free.encoding = study::PointEncoding::free;
+        QCOMPARE(study::designSpace(free).dimensions[4].low, -30.0);
+        QCOMPARE(study::designSpace(free).dimensions[4].high, 30.0);
     }
 
     void genesBecomePlaces() {
@@ -45,7 +61,7 @@ class TrackDesignTest : public QObject {
             for (int j = 0; j < 4; ++j)
                 points.insert(points.end(), {j % 2 == 0 ? 0.0 : 1.0, z});
         }
-        const auto track = study::decodeTrack(smallSettings(), chromosomeOf(points, {0.0, 0.0, 1.0}));
+        const auto track = study::decodeTrack(smallSettings(), designOf(points, {0.0, 0.0, 1.0}));
         VERIFY_OK(track);
         QCOMPARE(track->firstTrapSection, 1);
         QCOMPARE(track->lastTrapSection, 4);
@@ -72,8 +88,8 @@ class TrackDesignTest : public QObject {
         settings.segmentHeight = 20e-3;
         settings.leadOutSegments = 3;
         settings.baseThickness = 5e-3;
-        const auto track = study::decodeTrack(
-            settings, chromosomeOf(std::vector<double>(24, 0.0), std::vector<double>(3, 0.0)));
+        const auto track =
+            study::decodeTrack(settings, designOf(std::vector<double>(24, 0.0), std::vector<double>(3, 0.0)));
         VERIFY_OK(track);
         QVERIFY(track->shape.type == track::FeederType::bowl);
         QCOMPARE(track->shape.bowlRadius, 0.2);
@@ -101,26 +117,25 @@ class TrackDesignTest : public QObject {
         QVERIFY(!study::buildLayout(settings).ok());
     }
 
-    void genesOfAnotherLengthAreRefused() {
+    void designsOfAnotherLengthAreRefused() {
         const auto track = study::decodeTrack(
-            smallSettings(), chromosomeOf(std::vector<double>(26, 0.0), std::vector<double>(3, 0.0)));
+            smallSettings(), designOf(std::vector<double>(26, 0.0), std::vector<double>(3, 0.0)));
         QVERIFY(!track.ok());
-        QVERIFY2(track.error().message.find("260, 30 and 60 bits") != std::string::npos,
+        QVERIFY2(track.error().message.find("29 numbers, where these settings need 27") != std::string::npos,
                  track.error().message.c_str());
-        QVERIFY(track.error().message.find("240, 30 and 60 bits") != std::string::npos);
     }
 
-    void smoothingWorksOnGenes() {
+    void smoothingWorksOnPoints() {
         base::Random random({.seed = 3});
-        const evolution::Bits gene =
-            evolution::createRandomChromosome(study::chromosomeLayout(smallSettings()), random).points;
-        const evolution::SmoothPoints smooth = study::makeSmoothing(smallSettings());
-        QVERIFY(smooth(gene, 0.0, random) == gene);
+        search::Design before(27);
+        for (double& number : before)
+            number = random.uniform();
+        const search::SmoothDesign smooth = study::designSpace(smallSettings()).smooth;
+        QVERIFY(smooth(before, 0.0, random) == before);
 
-        // Probability 1: the bilinear patch of the four corners, to half a step of 10 bits.
-        const std::vector<double> before = evolution::decodeGray(gene, evolution::kPointBits);
-        const std::vector<double> after =
-            evolution::decodeGray(smooth(gene, 1.0, random), evolution::kPointBits);
+        // Probability 1: the bilinear patch of the four corners; lengths stay.
+        const search::Design after = smooth(before, 1.0, random);
+        QCOMPARE(after.size(), before.size());
         const auto at = [](const std::vector<double>& values, std::size_t section, std::size_t point,
                            std::size_t k) { return values[(section * 4 + point) * 2 + k]; };
         for (std::size_t s = 0; s < 3; ++s) {
@@ -131,9 +146,10 @@ class TrackDesignTest : public QObject {
                     const double patch = (1 - u) * (1 - v) * at(before, 0, 0, k) +
                                          (1 - u) * v * at(before, 0, 3, k) +
                                          u * (1 - v) * at(before, 2, 0, k) + u * v * at(before, 2, 3, k);
-                    QVERIFY(qAbs(at(after, s, j, k) - patch) <= 0.5 / 1023 + 1e-12);
+                    QVERIFY(qAbs(at(after, s, j, k) - patch) <= 1e-12);
                 }
             }
+            QCOMPARE(after[24 + s], before[24 + s]);
         }
     }
 
@@ -143,7 +159,11 @@ class TrackDesignTest : public QObject {
         settings.staticMutation = 0.011;
         settings.smoothingLimit = 0.77;
         settings.mutationFloor = 0.003;
-        const evolution::GenerationParameters parameters = study::generationParameters(settings);
+        settings.populationSize = 17;
+        settings.seed = 99;
+        QCOMPARE(study::searchParameters(settings).populationSize, 17);
+        QCOMPARE(study::searchParameters(settings).seed, std::uint64_t{99});
+        const search::ga::GenerationParameters parameters = study::searchParameters(settings).genetic;
         QCOMPARE(parameters.tournamentSize, 9);
         QCOMPARE(parameters.transition.staticMutation, 0.011);
         QCOMPARE(parameters.transition.smoothingLimit, 0.77);

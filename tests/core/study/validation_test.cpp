@@ -32,8 +32,8 @@ study::Individual winnerOf(const study::StudyInputs& inputs, int generation, std
     study::Individual winner;
     winner.generation = generation;
     winner.individual = generation % 5;
-    winner.record.chromosome =
-        evolution::createRandomChromosome(study::chromosomeLayout(inputs.settings.track), random);
+    for (const search::Dimension& dimension : study::designSpace(inputs.settings.track).dimensions)
+        winner.record.design.push_back(search::roundToBits(random.uniform(), dimension.bits));
     winner.record.fitness = {0.0, fitness, 0.0};
     return winner;
 }
@@ -184,7 +184,7 @@ class ValidationTest : public QObject {
     void validationStartsNearThePoses() {
         const study::StudyInputs inputs = fake::waveInputs();
         const auto track = std::make_shared<const track::Track>(
-            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.chromosome).value());
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.design).value());
         const study::TrialScene scene{&inputs.settings.simulation, inputs.part, track, 7};
         double sum = 0.0;
         base::Vec3 heading = base::Vec3::Zero();
@@ -214,7 +214,7 @@ class ValidationTest : public QObject {
     void trialsCanBeMadeAgainOneByOne() {
         const study::StudyInputs inputs = fake::waveInputs();
         const auto track = std::make_shared<const track::Track>(
-            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.chromosome).value());
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.design).value());
         const study::TrialScene scene{&inputs.settings.simulation, inputs.part, track, 7};
         const trial::TrialBatch few = study::makeLearningBatch(scene, 3, 4, 5);
         const trial::TrialBatch many = study::makeLearningBatch(scene, 3, 4, 50);
@@ -231,7 +231,7 @@ class ValidationTest : public QObject {
     void learningIsLessPatient() {
         study::StudyInputs inputs = fake::waveInputs();
         const auto track = std::make_shared<const track::Track>(
-            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.chromosome).value());
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.design).value());
         double& stuckTime = inputs.settings.simulation.termination.stuckTime;
         stuckTime = 1.5;
         inputs.settings.evolution.learningStuckTime = 0.5;

@@ -64,7 +64,7 @@ Study load(const char* path) {
     const study::TrialScene scene =
         study::makeScene(settings, part,
                          std::make_shared<const track::Track>(
-                             take(study::decodeTrack(settings.track, best.front().record.chromosome))));
+                             take(study::decodeTrack(settings.track, best.front().record.design))));
     const trial::TrialBatch batch =
         study::makeSelectionBatch(scene, best.front().generation, best.front().individual, kTrials);
     const auto outcomes = take(native::NativeEngine({0, 0.0}).run(std::span(&batch, 1), {})).front();
@@ -81,14 +81,14 @@ class Photographer {
 
     void takeAll(const QString& suffix, QSize size) {
         charts::FitnessChart fitness;
-        charts::StrategyChart strategy;
+        charts::SearchChart search;
         charts::SpeedChart speed;
         charts::EngineChart engines;
         std::vector<charts::StudyCurves> curves;
         for (const Study& study : studies_)
             curves.push_back(study.curves);
         for (charts::StudyChart* chart :
-             std::initializer_list<charts::StudyChart*>{&fitness, &strategy, &speed, &engines}) {
+             std::initializer_list<charts::StudyChart*>{&fitness, &search, &speed, &engines}) {
             chart->setStudies(curves);
             take(*chart, suffix, size);
         }

@@ -239,8 +239,8 @@ class StudyChartTest : public QObject {
 
     void logarithmicChartLeavesOutWhatItCannotShow() {
         StudyCurves study = someStudy(10);
-        study.summaries[4].statistics.topStrategy.smoothing = 0.0;
-        charts::StrategyChart chart;
+        study.summaries[4].statistics.curves[2].value = 0.0;
+        charts::SearchChart chart;
         chart.setStudies({study});
         showChart(chart);
         const Plot* plot = chart.shownPlots().front();

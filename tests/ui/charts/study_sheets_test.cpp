@@ -89,7 +89,7 @@ class StudySheetsTest : public QObject {
     }
 
     void strategyIsLogarithmic() {
-        const ChartSheet sheet = charts::strategySheet({someStudy("a", 0.5)});
+        const ChartSheet sheet = charts::searchSheet({someStudy("a", 0.5)});
         QCOMPARE(sheet.plots.size(), std::size_t{1});
         QVERIFY(sheet.plots[0].yScale == charts::Scale::logarithmic);
         QCOMPARE(sheet.plots[0].curves[0].points.front(), QPointF(0, 0.8));
@@ -126,7 +126,7 @@ class StudySheetsTest : public QObject {
         QTest::addColumn<charts::ChartSheet (*)(const std::vector<StudyCurves>&)>("make");
         QTest::newRow("success") << &charts::successSheet;
         QTest::newRow("fitness") << &charts::fitnessSheet;
-        QTest::newRow("strategy") << &charts::strategySheet;
+        QTest::newRow("search") << &charts::searchSheet;
         QTest::newRow("speed") << &charts::speedSheet;
         QTest::newRow("engines") << &charts::engineSheet;
     }
@@ -162,7 +162,7 @@ class StudySheetsTest : public QObject {
         StudyCurves later = someStudy("b, c", 0.7);
         later.summaries.push_back(sample::summary(3, 0.1));
         const QStringList lines =
-            charts::toCsv(charts::strategySheet({someStudy("a", 0.5), later})).split('\n');
+            charts::toCsv(charts::searchSheet({someStudy("a", 0.5), later})).split('\n');
         QCOMPARE(lines.size(), 6);
         QCOMPARE(lines[0],
                  QString("Generation,\"p_x, a\",\"p_x, b, c\",\"p_dm, a\",\"p_dm, b, c\",\"p_s, a\",\"p_s, "
@@ -180,7 +180,7 @@ class StudySheetsTest : public QObject {
 
     void nothingIsShownOfNoStudy() {
         for (const auto make :
-             {&charts::fitnessSheet, &charts::strategySheet, &charts::speedSheet, &charts::engineSheet}) {
+             {&charts::fitnessSheet, &charts::searchSheet, &charts::speedSheet, &charts::engineSheet}) {
             for (const PlotSheet& plot : make({}).plots)
                 QVERIFY(plot.curves.empty());
         }

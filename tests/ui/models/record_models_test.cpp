@@ -3,7 +3,6 @@
 #include <QSignalSpy>
 #include <QtTest>
 
-#include "core/evolution/gray.h"
 #include "core/part/part_builder.h"
 #include "core/part/shapes.h"
 #include "core/workflow/study_trials.h"
@@ -32,11 +31,11 @@ double valueAt(const QAbstractItemModel& model, int row, int column) {
     return model.index(row, column).data(models::ValueRole).toDouble();
 }
 
-/// An individual whose gene 3 says these values.
+/// An individual of these strategy values.
 study::IndividualRecord individual(double fitness, const std::vector<double>& strategy) {
     study::IndividualRecord record;
     record.fitness = {-1.0, -0.5, fitness};
-    record.chromosome.strategy = evolution::encodeGray(strategy, evolution::kStrategyBits);
+    record.traits = {{"p_x", strategy[0]}, {"p_dm", strategy[1]}, {"p_s", strategy[2]}};
     record.trials = 10;
     record.finished = 7;
     record.stuck = 2;
@@ -65,7 +64,8 @@ class RecordModelsTest : public QObject {
     void generationsGrowAndAreChecked() {
         GenerationModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
-        model.setGenerations({sample::summary(0), sample::summary(1)}, {sample::check(1, 10, 9)});
+        model.setGenerations({sample::summary(0), sample::summary(1)}, {sample::check(1, 10, 9)},
+                             search::Method::genetic);
         QCOMPARE(model.rowCount(), 2);
         QCOMPARE(textAt(model, 0, GenerationModel::ReferenceSuccess), QString());
         QCOMPARE(textAt(model, 1, GenerationModel::ReferenceSuccess), QString("90.0"));
@@ -87,11 +87,11 @@ class RecordModelsTest : public QObject {
 
     void generationShowsItsNumbers() {
         GenerationModel model;
-        model.setGenerations({sample::summary(4, 0.75)}, {});
+        model.setGenerations({sample::summary(4, 0.75)}, {}, search::Method::genetic);
         QCOMPARE(textAt(model, 0, GenerationModel::Generation), QString("4"));
         QCOMPARE(textAt(model, 0, GenerationModel::Total), QString("-1.500"));
         QCOMPARE(textAt(model, 0, GenerationModel::Collision), QString("-2"));
-        QCOMPARE(textAt(model, 0, GenerationModel::Mutation), QString("0.0100"));
+        QCOMPARE(textAt(model, 0, GenerationModel::FirstCurve + 1), QString("0.0100"));
         QCOMPARE(valueAt(model, 0, GenerationModel::TopTotal), -4.0 - 0.5 + 0.375);
         QVERIFY(!model.headerData(GenerationModel::Orientation, Qt::Horizontal, Qt::ToolTipRole)
                      .toString()
@@ -103,7 +103,7 @@ class RecordModelsTest : public QObject {
         study::GenerationSummary old = sample::summary(1);
         old.statistics.success.reset();
         old.statistics.topSuccess.reset();
-        model.setGenerations({sample::summary(0), old}, {});
+        model.setGenerations({sample::summary(0), old}, {}, search::Method::genetic);
         QCOMPARE(textAt(model, 0, GenerationModel::Success), QString("85.0"));
         QCOMPARE(textAt(model, 0, GenerationModel::Bounds), QString("62.1 … 96.8"));
         QCOMPARE(textAt(model, 0, GenerationModel::TopSuccess), QString("50.0"));
@@ -134,26 +134,26 @@ class RecordModelsTest : public QObject {
         GenerationModel model;
         study::GenerationSummary summary = sample::summary(0);
         summary.statistics.best = {-0.0, -1e-9, 1.0};
-        model.setGenerations({summary}, {});
+        model.setGenerations({summary}, {}, search::Method::genetic);
         QCOMPARE(textAt(model, 0, GenerationModel::Collision), QString("0"));
         QCOMPARE(textAt(model, 0, GenerationModel::Distance), QString("0.000"));
     }
 
-    void individualsShowWhatTheirGenesSay() {
+    void individualsShowTheirTraits() {
         study::GenerationRecord record;
         record.index = 12;
         record.winner = 1;
-        record.individuals = {individual(0.1, {0.25, 0.0, 1.0}), individual(0.9, {1.0, 0.5, 0.5})};
-        evolution::TransitionParameters bounds;
-        bounds.mutationFloor = 0.002;
-        bounds.smoothingLimit = 0.3;
+        record.individuals = {individual(0.1, {0.25, 0.002, 0.3}), individual(0.9, {1.0, 0.5, 0.5})};
         IndividualModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
-        model.setGeneration(record, bounds);
+        model.setGeneration(record, search::Method::genetic);
         QCOMPARE(model.rowCount(), 2);
-        QCOMPARE(textAt(model, 0, IndividualModel::Crossover), QString("0.2500"));
-        QCOMPARE(textAt(model, 0, IndividualModel::Mutation), QString("0.0020"));   // its floor
-        QCOMPARE(textAt(model, 0, IndividualModel::Smoothing), QString("0.3000"));  // its limit
+        QCOMPARE(model.columnCount(), IndividualModel::FirstTrait + 3);
+        QCOMPARE(textAt(model, 0, IndividualModel::FirstTrait), QString("0.2500"));
+        QCOMPARE(textAt(model, 0, IndividualModel::FirstTrait + 1), QString("0.0020"));
+        QCOMPARE(textAt(model, 0, IndividualModel::FirstTrait + 2), QString("0.3000"));
+        QCOMPARE(model.headerData(IndividualModel::FirstTrait + 2, Qt::Horizontal).toString(),
+                 QString("p_s"));
         QCOMPARE(textAt(model, 0, IndividualModel::Stuck), QString("2"));
         QCOMPARE(textAt(model, 0, IndividualModel::Finished), QString("7"));
         QCOMPARE(textAt(model, 0, IndividualModel::Success), QString("60.0"));
@@ -164,6 +164,9 @@ class RecordModelsTest : public QObject {
         QCOMPARE(model.index(1, 0).data(models::GenerationRole).toInt(), 12);
         model.clear();
         QCOMPARE(model.rowCount(), 0);
+        // A study that is searched otherwise.
+        model.setGeneration(record, search::Method::random);
+        QCOMPARE(model.columnCount(), int(IndividualModel::FirstTrait));
     }
 
     void individualsAreSortedByNumber() {
@@ -171,7 +174,7 @@ class RecordModelsTest : public QObject {
         for (const double fitness : {0.5, 10.0, -3.0, 9.0})
             record.individuals.push_back(individual(fitness, {0.0, 0.0, 0.0}));
         IndividualModel model;
-        model.setGeneration(record, {});
+        model.setGeneration(record, search::Method::genetic);
         QSortFilterProxyModel sorted;
         sorted.setSourceModel(&model);
         sorted.setSortRole(models::ValueRole);

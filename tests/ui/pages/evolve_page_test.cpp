@@ -128,7 +128,7 @@ class EvolvePageTest : public QObject {
         user.click("evolve.start");
         QCOMPARE(user.state(), RunState::learning);
         QVERIFY(waitUntil([&] { return user.text("evolve.state") == "All 6 generations learned"; }));
-        for (const char* name : {"success", "fitness", "strategy", "speed"}) {
+        for (const char* name : {"success", "fitness", "search", "speed"}) {
             const charts::StudyCurves& curves = user.chart(name)->studies().front();
             QCOMPARE(curves.summaries.size(), std::size_t{kGenerations});
             QCOMPARE(curves.trialsPerSecond.size(), std::size_t{kGenerations});
@@ -240,7 +240,7 @@ class EvolvePageTest : public QObject {
         QVERIFY(waitUntil([&] { return user.track() != newest; }));
         QVERIFY(heightSum(*user.track()) != heightSum(*newest));
         QVERIFY(user.text("evolve.lengths").startsWith("Segments of"));
-        QVERIFY(!user.find<QWidget>("evolve.genes")->accessibleDescription().isEmpty());
+        QVERIFY(!user.find<QWidget>("evolve.design")->accessibleDescription().isEmpty());
 
         const int other = best == 2 ? 3 : 2;
         user.find<QSpinBox>("individuals.generation")->setValue(other);
@@ -316,7 +316,7 @@ class EvolvePageTest : public QObject {
             User user(studies);
             QVERIFY(user.open(studies.path("a.trap")));
             QVERIFY(user.find<QWidget>("evolve.parts")->isVisible());
-            for (const char* name : {"evolve.scores", "evolve.genes"})
+            for (const char* name : {"evolve.scores", "evolve.design"})
                 QVERIFY2(!user.find<QWidget>(name)->isVisible(), name);
             // The chart in front is success; the others are behind it.
             QVERIFY(waitUntil(
@@ -324,7 +324,7 @@ class EvolvePageTest : public QObject {
             QVERIFY(user.find<QDockWidget>("dock.evolve.algorithm")->visibleRegion().isEmpty());
             user.find<look::FoldingGroup>("group.evolve.algorithm")->setFolded(false);
             QVERIFY(user.find<QWidget>("evolve.scores")->isVisible());
-            QVERIFY(user.find<QWidget>("evolve.genes")->isVisible());
+            QVERIFY(user.find<QWidget>("evolve.design")->isVisible());
             user.show("algorithm");
             QVERIFY(user.find<QWidget>("fitness")->isVisible());
 

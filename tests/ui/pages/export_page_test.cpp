@@ -78,7 +78,7 @@ struct User : tests::WindowUser {
         const auto chosen = session()->chosen();
         const auto winner = chosen ? session()->loadWinner(chosen->generation, chosen->individual)
                                    : session()->loadWinner(first.generation, first.individual);
-        const auto track = study::decodeTrack(session()->settings().track, winner.value().record.chromosome);
+        const auto track = study::decodeTrack(session()->settings().track, winner.value().record.design);
         return track::buildPrintSolid(track.value(), options).value();
     }
 };

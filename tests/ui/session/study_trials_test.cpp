@@ -123,10 +123,10 @@ class StudyTrialsTest : public QObject {
         session_->replay({workflow::TrialKind::learning, session_->winners().back()}, 4, 0.01);
         QTRY_COMPARE(failed.count(), 2);
         study::Individual broken = session_->winners().back();
-        broken.record.chromosome.lengths.pop_back();
+        broken.record.design.pop_back();
         session_->simulateTrials({workflow::TrialKind::learning, broken});
         QTRY_COMPARE(failed.count(), 3);
-        QVERIFY(failed[2][1].toString().contains("bits"));
+        QVERIFY(failed[2][1].toString().contains("numbers"));
     }
 
     void cancelledSimulationsAreNotHeardOf() {

@@ -7,7 +7,6 @@
 #include <QToolButton>
 
 #include "app/trapwright/engines.h"
-#include "core/evolution/population.h"
 #include "core/store/study_file.h"
 #include "core/study/track_design.h"
 #include "tests/ui/window/user.h"
@@ -423,10 +422,9 @@ class FirstRunTest : public QObject {
     }
     static void saveOneGeneration(store::StudyFile& file) {
         const auto settings = file.loadSettings();
-        const auto population = evolution::createPopulation(study::chromosomeLayout(settings->track), 2, 1);
         study::GenerationRecord record;
-        for (const evolution::Chromosome& genes : population)
-            record.individuals.push_back({genes, {}, 0, 100, 90, 5, 5});
+        for (const search::Proposal& proposal : study::makeSearch(*settings)->ask())
+            record.individuals.push_back({proposal.design, proposal.traits, {}, 0, 100, 90, 5, 5});
         QVERIFY(file.saveGeneration(record).ok());
     }
 

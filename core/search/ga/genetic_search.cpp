@@ -1,0 +1,132 @@
+#include "core/search/ga/genetic_search.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "core/base/bytes.h"
+#include "core/search/ranking.h"
+
+namespace trapwright::search::ga {
+
+namespace {
+
+constexpr std::uint8_t kStateVersion = 1;
+constexpr std::uint32_t kMostIndividuals = 10'000'000;
+
+std::vector<NamedNumber> listed(const StrategyValues& values) {
+    return {{"p_x", values.crossover}, {"p_dm", values.mutation}, {"p_s", values.smoothing}};
+}
+
+}  // namespace
+
+MethodInfo describeGeneticSearch() {
+    const std::string axis = "Probability, mean of top 30 %";
+    return {
+        {{"p_x", "crossover p_x", "Crossover rate of this individual."},
+         {"p_dm", "mutation p_dm", "Dynamic mutation rate of this individual, not below its floor."},
+         {"p_s", "smoothing p_s", "Smoothing rate of this individual, scaled to its limit."}},
+        {{"p_x", "crossover p_x",
+          "How often a child changes the parent that it copies: geometric mean of the top 30 %.", axis, true},
+         {"p_dm", "mutation p_dm",
+          "How often points of the surface are changed at random: geometric mean of the top 30 %.", axis,
+          true},
+         {"p_s", "smoothing p_s",
+          "How often points of the surface are smoothed away: geometric mean of the top 30 %.", axis, true}}};
+}
+
+GeneticSearch::GeneticSearch(DesignSpace space, const SearchParameters& parameters)
+    : space_(std::move(space)), layout_(layOut(space_)), parameters_(parameters) {}
+
+std::vector<Proposal> GeneticSearch::ask() {
+    if (asked_.empty()) {
+        const Smooth smooth = [this](Chromosome child, double probability, base::Random& random) {
+            if (space_.smooth)
+                encodeDesign(space_.smooth(decodeDesign(child, space_), probability, random), space_, child);
+            return child;
+        };
+        asked_ = population_.empty() ? createPopulation(layout_, parameters_.populationSize, parameters_.seed)
+                                     : nextGeneration(population_, scores_, layout_, parameters_.genetic,
+                                                      smooth, parameters_.seed, generation_);
+    }
+    std::vector<Proposal> proposals;
+    proposals.reserve(asked_.size());
+    for (const Chromosome& chromosome : asked_)
+        proposals.push_back({decodeDesign(chromosome, space_), listed(strategyOf(chromosome))});
+    return proposals;
+}
+
+void GeneticSearch::tell(std::span<const Judgement> judgements) {
+    assert(judgements.size() == asked_.size());
+    population_ = std::move(asked_);
+    asked_.clear();
+    scores_.clear();
+    for (const Judgement& judgement : judgements)
+        scores_.push_back(judgement.score);
+    ++generation_;
+}
+
+std::vector<NamedNumber> GeneticSearch::report() const {
+    std::vector<StrategyValues> best;
+    for (const std::size_t i : findTop(scores_))
+        best.push_back(strategyOf(population_[i]));
+    return listed(calcGeometricMean(best));
+}
+
+std::string GeneticSearch::save() const {
+    return packState(generation_, population_, scores_);
+}
+
+base::Status GeneticSearch::load(std::string_view state) {
+    const base::Error strange{"This is not the state of a genetic search."};
+    base::ByteReader reader(state);
+    if (reader.get8() != kStateVersion) return strange;
+    const std::uint32_t generation = reader.get32();
+    const std::uint32_t count = reader.get32();
+    if (!reader.ok() || count == 0 || count > kMostIndividuals) return strange;
+    std::vector<Chromosome> population;
+    std::vector<double> scores;
+    for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+        Chromosome chromosome;
+        for (Bits* gene : {&chromosome.points, &chromosome.singles, &chromosome.strategy}) {
+            auto bits = getBits(reader);
+            if (!bits) return strange;
+            *gene = std::move(*bits);
+        }
+        if (!fits(chromosome, layout_)) {
+            return base::Error{
+                "The search's last individuals have genes of " + std::to_string(chromosome.points.size()) +
+                " and " + std::to_string(chromosome.singles.size()) +
+                " bits, which is not what these settings need. Use the settings that the study "
+                "was learned with."};
+        }
+        population.push_back(std::move(chromosome));
+        scores.push_back(reader.getDouble());
+        if (std::isnan(scores.back())) return strange;
+    }
+    if (!reader.atEnd()) return strange;
+    generation_ = generation;
+    population_ = std::move(population);
+    scores_ = std::move(scores);
+    asked_.clear();
+    return base::success();
+}
+
+StrategyValues GeneticSearch::strategyOf(const Chromosome& chromosome) const {
+    return limitStrategy(decodeStrategy(chromosome.strategy), parameters_.genetic.transition);
+}
+
+std::string packState(std::uint32_t generation, std::span<const Chromosome> population,
+                      std::span<const double> scores) {
+    base::ByteWriter writer;
+    writer.put8(kStateVersion);
+    writer.put32(generation);
+    writer.put32(static_cast<std::uint32_t>(population.size()));
+    for (std::size_t i = 0; i < population.size(); ++i) {
+        for (const Bits* gene : {&population[i].points, &population[i].singles, &population[i].strategy})
+            writer.putBytes(packBits(*gene));
+        writer.putDouble(scores[i]);
+    }
+    return writer.bytes();
+}
+
+}  // namespace trapwright::search::ga

@@ -1,0 +1,97 @@
+#include "tests/core/store/old_study.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/search/ga/genes.h"
+#include "core/store/packing.h"
+
+namespace trapwright::sample {
+
+namespace {
+
+/// Genes instead of designs: 80 numbers of points and 5 lengths of 10 bits, three strategy values of 20.
+void dropVersion8(SQLite::Database& database) {
+    namespace ga = search::ga;
+    database.exec(
+        "ALTER TABLE individual ADD COLUMN points BLOB NOT NULL DEFAULT x''; "
+        "ALTER TABLE individual ADD COLUMN lengths BLOB NOT NULL DEFAULT x''; "
+        "ALTER TABLE individual ADD COLUMN strategy BLOB NOT NULL DEFAULT x'';");
+    for (const char* name : {"crossover", "mutation", "smoothing"})
+        database.exec(std::string("ALTER TABLE generation ADD COLUMN top_") + name +
+                      " REAL NOT NULL DEFAULT 0");
+    database.exec(
+        "UPDATE generation SET top_crossover = (SELECT value FROM curve WHERE generation = number AND key = "
+        "'p_x'), "
+        "top_mutation = (SELECT value FROM curve WHERE generation = number AND key = 'p_dm'), "
+        "top_smoothing = (SELECT value FROM curve WHERE generation = number AND key = 'p_s')");
+    SQLite::Statement query(database, "SELECT generation, number, design, traits FROM individual");
+    struct Row {
+        int generation;
+        int number;
+        std::string points, lengths, strategy;
+    };
+    std::vector<Row> rows;
+    while (query.executeStep()) {
+        const auto design = search::unpackDesign(query.getColumn(2).getString()).value();
+        const auto traits = store::unpackNumbers(query.getColumn(3).getString()).value();
+        const std::span<const double> numbers(design);
+        rows.push_back({query.getColumn(0).getInt(), query.getColumn(1).getInt(),
+                        ga::packBits(ga::encodeGray(numbers.first(80), 10)),
+                        ga::packBits(ga::encodeGray(numbers.subspan(80), 10)),
+                        ga::packBits(ga::encodeGray(std::array{traits[0], traits[1], traits[2] / 0.3},
+                                                    ga::kStrategyBits))});
+    }
+    SQLite::Statement update(
+        database,
+        "UPDATE individual SET points = ?, lengths = ?, strategy = ? WHERE generation = ? AND number = ?");
+    for (const Row& row : rows) {
+        update.reset();
+        int column = 0;
+        for (const std::string* blob : {&row.points, &row.lengths, &row.strategy})
+            update.bind(++column, blob->data(), static_cast<int>(blob->size()));
+        update.bind(4, row.generation);
+        update.bind(5, row.number);
+        update.exec();
+    }
+    database.exec(
+        "ALTER TABLE individual DROP COLUMN design; ALTER TABLE individual DROP COLUMN traits; "
+        "DROP TABLE curve; DROP TABLE trait; DROP TABLE search_state; "
+        "UPDATE study SET settings = json_remove(settings, '$.evolution.search')");
+}
+
+}  // namespace
+
+void makeOld(const std::filesystem::path& path, int version) {
+    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 8) dropVersion8(database);
+    if (version < 7) database.exec("DROP TABLE drop_pose; DROP TABLE drop_test;");
+    if (version < 6) {
+        database.exec(
+            "ALTER TABLE physical_trial DROP COLUMN feeder; ALTER TABLE physical_trial DROP COLUMN drive; "
+            "ALTER TABLE physical_trial DROP COLUMN half_stroke;");
+    }
+    if (version < 5)
+        database.exec(
+            "ALTER TABLE individual DROP COLUMN oriented; ALTER TABLE generation DROP COLUMN top_success;");
+    if (version < 4) {
+        database.exec(
+            "DROP TABLE calibration_reading; DROP TABLE calibration; DROP TABLE drive_log; "
+            "DROP TABLE physical_trial; DROP TABLE physical_pose; DROP TABLE physical_validation; "
+            "DROP TABLE chosen_winner; ALTER TABLE part DROP COLUMN symmetry_counts;");
+    }
+    if (version < 3)
+        database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.learningStuckTime_s')");
+    if (version < 2) {
+        database.exec(
+            "DROP TABLE winner_check; UPDATE study SET settings = json_remove(settings, "
+            "'$.evolution.racingTrials', '$.evolution.racingShare', '$.evolution.commonRandomNumbers')");
+    }
+    database.exec("PRAGMA user_version = " + std::to_string(version));
+}
+
+}  // namespace trapwright::sample

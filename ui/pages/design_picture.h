@@ -1,0 +1,41 @@
+#pragma once
+
+#include <QWidget>
+
+#include "core/search/design_space.h"
+
+namespace trapwright::pages {
+
+/// The numbers of a design, the larger the darker: a line for each cross-section, then one for those that are
+/// of no point. Likeness of two individuals is seen at a glance.
+class DesignPicture : public QWidget {
+    Q_OBJECT
+ public:
+    explicit DesignPicture(QWidget* parent);
+
+    /// `sections` lines for the numbers of points, at least one.
+    void show(const search::Design& design, const search::DesignSpace& space, int sections);
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+ protected:
+    bool event(QEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
+
+ private:
+    /// One number and where it is shown.
+    struct Cell {
+        QRectF area;
+        double value = 0.0;
+        QString text;  // what it is, for the tool tip
+    };
+    [[nodiscard]] std::vector<Cell> cells() const;
+    [[nodiscard]] double lineHeight() const;
+
+    search::Design design_;
+    std::vector<search::Dimension> dimensions_;
+    int sections_ = 1;
+};
+
+}  // namespace trapwright::pages
