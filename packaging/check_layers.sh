@@ -20,8 +20,9 @@ core/part       core/base core/geometry core/part
 core/search     core/base core/search core/stats
 core/stats      core/base core/stats
 core/store      core/base core/calibration core/drive core/geometry core/part core/search core/store core/study
-core/study      core/base core/geometry core/part core/search core/stats core/study core/track core/trial
+core/study      core/base core/geometry core/part core/search core/stats core/study core/track core/traps core/trial
 core/track      core/base core/geometry core/track
+core/traps      core/base core/search core/track core/traps
 core/trial      core/base core/part core/track core/trial
 core/verify     core/base core/calibration core/geometry core/part core/stats core/study core/track core/trial core/verify
 core/workflow   core/base core/geometry core/part core/search core/store core/study core/track core/trial core/workflow

@@ -28,6 +28,8 @@ struct Dimension {
     /// One of the two numbers of a point in a plane. Such dimensions come in twos, with equally many bits; a
     /// search may change both at once.
     bool ofPoint = false;
+    /// Where it is drawn: dimensions of one line belong together, as those of a cross-section do.
+    int line = 0;
 };
 
 /// Evens a design out: whatever is rough becomes smooth with a probability, for each thing that can be

@@ -226,7 +226,7 @@ CREATE TABLE search_state (         -- what the next generation follows from
 INSERT INTO curve SELECT number, 0, 'p_x', top_crossover FROM generation;
 INSERT INTO curve SELECT number, 1, 'p_dm', top_mutation FROM generation;
 INSERT INTO curve SELECT number, 2, 'p_s', top_smoothing FROM generation;
-UPDATE study SET settings = json_set(settings, '$.evolution.search', 'genetic');
+UPDATE study SET settings = json_set(settings, '$.evolution.search', 'genetic', '$.track.traps', 'free-form');
 )sql";
 
 constexpr std::array<Migration, 8> kMigrations = {{{1, kVersion1},

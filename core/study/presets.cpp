@@ -55,6 +55,7 @@ base::Result<Settings> presetSettings(const std::string& name) {
 }
 
 Settings paperMode(Settings settings) {
+    settings.track.traps = "free-form";
     settings.track.encoding = PointEncoding::free;
     settings.track.shape.type = track::FeederType::bowl;
     settings.track.shape.bowlRadius = 175e-3;

@@ -6,7 +6,7 @@ namespace trapwright::study {
 
 bool operator==(const TrackSettings& a, const TrackSettings& b) {
     const auto fields = [](const TrackSettings& s) {
-        return std::tie(s.shape.type, s.shape.bowlRadius, s.shape.conveying, s.crossSections,
+        return std::tie(s.shape.type, s.shape.bowlRadius, s.shape.conveying, s.traps, s.crossSections,
                         s.pointsPerSection, s.minSegmentLength, s.maxSegmentLength, s.segmentWidth,
                         s.segmentHeight, s.leadInLength, s.startFromLeadInEnd, s.leadOutSegments,
                         s.baseThickness, s.encoding);

@@ -8,21 +8,22 @@
 #include "core/part/part.h"
 #include "core/part/symmetry.h"
 #include "core/search/methods.h"
-#include "core/track/encoding.h"
 #include "core/track/feeder_shape.h"
+#include "core/traps/trap_kind.h"
 #include "core/trial/batch.h"
 #include "core/trial/fitness.h"
 #include "core/trial/start.h"
 
 namespace trapwright::study {
 
-using PointEncoding = track::PointEncoding;
+using PointEncoding = traps::PointEncoding;
 
 /// The track's form (paper, Table 1 and section 3.1; decisions.md#surface-points and what follows). Lengths
 /// in metres.
 struct TrackSettings {
     track::FeederShape shape;
-    int crossSections = 5;  // functional ones
+    std::string traps = "free-form";  // kinds of trap, one after the other (traps::readTraps)
+    int crossSections = 5;            // functional ones of a free-form trap
     int pointsPerSection = 8;
     double minSegmentLength = 15e-3;
     double maxSegmentLength = 36e-3;

@@ -3,6 +3,8 @@
 #include "core/study/pose_weights.h"
 #include "core/study/settings.h"
 #include "core/study/settings_fields.h"
+#include "core/study/track_design.h"
+#include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
 
@@ -27,6 +29,10 @@ class RangeCheck {
         // A study may be set up before a part is chosen; an engine is always needed.
         if (key == "simulation.engine" && value.empty())
             problems.emplace_back("simulation.engine is empty; name an engine, e.g. simbody.");
+        if (key == "track.traps") {
+            if (const auto chain = traps::readTraps(value); !chain)
+                problems.push_back("track.traps is \"" + value + "\". " + chain.error().message);
+        }
         if (key == "part.droppedCounts" && !readCounts(value)) {
             problems.push_back("part.droppedCounts is \"" + value +
                                "\"; write how many drops ended in each stable pose, as in 129, 48, 23.");
@@ -85,8 +91,7 @@ std::vector<std::string> findTrackProblems(const TrackSettings& track) {
                                "; on a bowl it must be less than twice track.bowlRadius_mm, which is " +
                                shown(radius, FileUnit::millimetre) + ".");
         }
-        const double longest =
-            track.leadInLength + (track.crossSections + track.leadOutSegments) * track.maxSegmentLength;
+        const double longest = calcLongestTrack(track);
         const double turn = 2.0 * base::kPi * radius;
         if (longest >= turn) {
             problems.push_back("track.bowlRadius_mm is " + shown(radius, FileUnit::millimetre) +

@@ -57,6 +57,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.choice("track.conveying", s.track.shape.conveying,
              Choices<track::Conveying, 2>{{{"clockwise", track::Conveying::clockwise},
                                            {"anticlockwise", track::Conveying::anticlockwise}}});
+    v.text("track.traps", s.track.traps);
     v.count({"track.crossSections", 1, 200}, s.track.crossSections);
     v.count({"track.pointsPerSection", 2, 200}, s.track.pointsPerSection);
     v.number({"track.minSegmentLength_mm", mm, 0.1, 1000.0}, s.track.minSegmentLength);

@@ -1,26 +1,31 @@
 #include "core/study/track_design.h"
 
-#include "core/track/encoding.h"
-#include "core/track/smoothing.h"
 #include "core/track/track_builder.h"
+#include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
 
 namespace {
 
-constexpr int kBits = 10;  // of each number (paper, section 4.2.1)
-constexpr double kMillimetres = 1e3;
+/// What the settings say of the traps.
+struct Traps {
+    traps::TrapChain chain;
+    traps::TrapParameters parameters;
+};
 
-track::Encoding encodingOf(const TrackSettings& settings) {
-    track::Encoding encoding;
-    encoding.sections = settings.crossSections;
-    encoding.points = settings.pointsPerSection;
-    encoding.minLength = settings.minSegmentLength;
-    encoding.maxLength = settings.maxSegmentLength;
-    encoding.width = settings.segmentWidth;
-    encoding.height = settings.segmentHeight;
-    encoding.pointEncoding = settings.encoding;
-    return encoding;
+base::Result<Traps> trapsOf(const TrackSettings& settings) {
+    auto chain = traps::readTraps(settings.traps);
+    if (!chain) return chain.error();
+    Traps made{std::move(*chain), {}};
+    made.parameters.sections = settings.crossSections;
+    made.parameters.points = settings.pointsPerSection;
+    made.parameters.minLength = settings.minSegmentLength;
+    made.parameters.maxLength = settings.maxSegmentLength;
+    made.parameters.width = settings.segmentWidth;
+    made.parameters.height = settings.segmentHeight;
+    made.parameters.pointEncoding = settings.encoding;
+    if (const auto checked = traps::checkParameters(made.parameters); !checked) return checked.error();
+    return made;
 }
 
 track::TrackParameters parametersOf(const TrackSettings& settings) {
@@ -39,33 +44,14 @@ track::TrackParameters parametersOf(const TrackSettings& settings) {
 }  // namespace
 
 search::DesignSpace designSpace(const TrackSettings& settings) {
-    const track::Encoding encoding = encodingOf(settings);
-    search::DesignSpace space;
-    space.dimensions.reserve(encoding.pointValues() + encoding.lengthValues());
-    for (int section = 0; section < encoding.sections; ++section) {
-        for (int point = 0; point < encoding.points; ++point) {
-            const std::string place =
-                "section " + std::to_string(section + 1) + ", point " + std::to_string(point + 1);
-            const track::Interval across = track::spanAcross(encoding, point);
-            space.dimensions.push_back({place + ", y", "mm", kMillimetres * across.low,
-                                        kMillimetres * (across.low + across.size), kBits, true});
-            space.dimensions.push_back(
-                {place + ", z", "mm", 0.0, kMillimetres * encoding.height, kBits, true});
-        }
-    }
-    for (int section = 0; section < encoding.sections; ++section) {
-        space.dimensions.push_back({"length of segment " + std::to_string(section + 1), "mm",
-                                    kMillimetres * encoding.minLength, kMillimetres * encoding.maxLength,
-                                    kBits});
-    }
-    space.smooth = [encoding](search::Design design, double probability, base::Random& random) {
-        const std::vector<double> points =
-            track::smoothSurface(std::span(design).first(encoding.pointValues()), encoding.sections,
-                                 encoding.points, probability, random);
-        std::copy(points.begin(), points.end(), design.begin());
-        return design;
-    };
-    return space;
+    const auto traps = trapsOf(settings);
+    return traps ? traps::designSpace(traps->chain, traps->parameters) : search::DesignSpace();
+}
+
+double calcLongestTrack(const TrackSettings& settings) {
+    const auto traps = trapsOf(settings);
+    const double trap = traps ? traps::calcLongest(traps->chain, traps->parameters) : 0.0;
+    return settings.leadInLength + trap + settings.leadOutSegments * settings.maxSegmentLength;
 }
 
 search::SearchParameters searchParameters(const EvolutionSettings& settings) {
@@ -84,28 +70,26 @@ std::unique_ptr<search::Search> makeSearch(const Settings& settings) {
 }
 
 base::Result<track::Track> decodeTrack(const TrackSettings& settings, const search::Design& design) {
-    const track::Encoding encoding = encodingOf(settings);
-    if (const auto checked = track::checkEncoding(encoding); !checked) return checked.error();
-    if (const auto checked = designSpace(settings).check(design); !checked) return checked.error();
-    const std::span<const double> numbers(design);
-    return track::buildTrack(parametersOf(settings),
-                             track::decodeTrap(encoding, numbers.first(encoding.pointValues()),
-                                               numbers.subspan(encoding.pointValues())));
+    const auto traps = trapsOf(settings);
+    if (!traps) return traps.error();
+    if (const auto checked = traps::designSpace(traps->chain, traps->parameters).check(design); !checked)
+        return checked.error();
+    return track::buildTrack(parametersOf(settings), traps::build(traps->chain, traps->parameters, design));
 }
 
 base::Result<track::Track> buildLayout(const TrackSettings& settings) {
-    const track::Encoding encoding = encodingOf(settings);
-    if (const auto checked = track::checkEncoding(encoding); !checked) return checked.error();
-    const double length = 0.5 * (encoding.minLength + encoding.maxLength);
-    std::vector<track::CrossSection> trap;
-    for (int section = 1; section <= encoding.sections; ++section) {
-        track::CrossSection flat{section * length, {}};
-        for (int point = 0; point < encoding.points; ++point)
-            flat.points.emplace_back(encoding.width * (point / (encoding.points - 1.0) - 0.5),
-                                     0.5 * encoding.height);
-        trap.push_back(std::move(flat));
+    const auto traps = trapsOf(settings);
+    if (!traps) return traps.error();
+    std::vector<track::CrossSection> flat;
+    for (const double x : traps::layOut(traps->chain, traps->parameters)) {
+        track::CrossSection section{x, {}};
+        for (int point = 0; point < settings.pointsPerSection; ++point)
+            section.points.emplace_back(
+                settings.segmentWidth * (point / (settings.pointsPerSection - 1.0) - 0.5),
+                0.5 * settings.segmentHeight);
+        flat.push_back(std::move(section));
     }
-    return track::buildTrack(parametersOf(settings), trap);
+    return track::buildTrack(parametersOf(settings), flat);
 }
 
 }  // namespace trapwright::study

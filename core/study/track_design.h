@@ -9,10 +9,12 @@ namespace trapwright::study {
 
 /// Where the numbers of a search and the track's points meet.
 
-/// What there is to choose from with these settings (paper, section 4.2.1): y and z of each point, 10 bits
-/// each, section by section from the inner to the outer edge, then the length of each segment. It smooths
-/// surfaces (section 3.2) on the grid of sections and points.
+/// What there is to choose from with these settings: the dimensions of their traps, one after the other
+/// (core/traps). Empty if the settings give no track (findProblems tells why).
 search::DesignSpace designSpace(const TrackSettings& settings);
+
+/// How long a track of these settings can be. [m]
+double calcLongestTrack(const TrackSettings& settings);
 
 /// The settings as a search takes them.
 search::SearchParameters searchParameters(const EvolutionSettings& settings);

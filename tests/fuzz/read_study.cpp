@@ -5,6 +5,7 @@
 #include "core/store/compare.h"
 #include "core/store/study_file.h"
 #include "core/study/physical_validation.h"
+#include "core/study/track_design.h"
 #include "tests/fuzz/scratch_folder.h"
 
 namespace trapwright::fuzz {
@@ -28,6 +29,11 @@ void readGenerations(const store::StudyFile& study) {
         check(study.loadIndividual(i, 0));
     }
     check(study.loadSummaries());
+    if (const auto state = study.loadLearningState(); check(state) && *state) {
+        const auto settings = study.loadSettings();
+        if (settings && study::findProblems(*settings).empty())
+            check(study::makeSearch(*settings)->load((*state)->search));
+    }
     check(study.loadWinners());
     check(study.loadUncheckedWinners());
 }
@@ -35,8 +41,13 @@ void readGenerations(const store::StudyFile& study) {
 }  // namespace
 
 void readWholeStudy(const std::filesystem::path& path) {
-    const auto study = store::StudyFile::openReadOnly(path);
-    if (!check(study)) return;
+    auto study = store::StudyFile::openReadOnly(path);
+    if (!check(study)) {
+        // It may be one of an older program, to be brought up to date.
+        if (!check(store::StudyFile::open(path, "fuzz"))) return;
+        study = store::StudyFile::openReadOnly(path);
+        if (!check(study)) return;
+    }
     if (const auto settings = study->loadSettings(); check(settings)) study::findProblems(*settings);
     if (const auto part = study->loadPart(); check(part)) {
         for (const geometry::Triangle& triangle : part->mesh.triangles) {

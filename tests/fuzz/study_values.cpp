@@ -37,12 +37,15 @@ void addRow(SQLite::Database& database, const std::string& table) {
     std::string values;
     while (query.executeStep()) {
         const std::string type = query.getColumn(0).getString();
-        const bool isKey = query.getColumn(1).getString() == "id";
+        const std::string name = query.getColumn(1).getString();
+        const bool isKey = name == "id";
+        // A design of eight numbers, and one trait.
+        const char* blob = name == "traits" ? "x'000000000000e03f'" : "x'0800000001ff'";
         values += values.empty() ? "" : ", ";
         if (type == "INTEGER") {
             values += isKey ? "1" : "0";
         } else {
-            values += type == "REAL" ? "0.5" : type == "BLOB" ? "x'0800000055'" : "'1'";
+            values += type == "REAL" ? "0.5" : type == "BLOB" ? blob : "'1'";
         }
     }
     database.exec("INSERT INTO " + table + " VALUES (" + values + ")");

@@ -12,8 +12,7 @@ namespace trapwright::pages {
 namespace {
 
 constexpr double kLine = 12.0;
-constexpr double kMostHeight = 96.0;  // of the lines of points
-constexpr double kGap = 4.0;
+constexpr double kMostHeight = 120.0;  // of all lines
 
 QColor mixed(const QColor& from, const QColor& to, double share) {
     const auto mix = [share](int a, int b) { return static_cast<int>(a + share * (b - a)); };
@@ -28,25 +27,23 @@ DesignPicture::DesignPicture(QWidget* parent) : QWidget(parent) {
     setAccessibleName(tr("Design"));
 }
 
-void DesignPicture::show(const search::Design& design, const search::DesignSpace& space, int sections) {
+void DesignPicture::show(const search::Design& design, const search::DesignSpace& space) {
     design_ = design;
     dimensions_ = space.dimensions;
-    sections_ = std::max(sections, 1);
-    const auto ofPoints = std::count_if(dimensions_.begin(), dimensions_.end(),
-                                        [](const search::Dimension& dimension) { return dimension.ofPoint; });
-    setAccessibleDescription(tr("%1 numbers of points, %2 others")
-                                 .arg(ofPoints)
-                                 .arg(static_cast<qsizetype>(dimensions_.size()) - ofPoints));
+    lines_ = 1;
+    for (const search::Dimension& dimension : dimensions_)
+        lines_ = std::max(lines_, dimension.line + 1);
+    setAccessibleDescription(tr("%1 numbers in %2 lines").arg(dimensions_.size()).arg(lines_));
     updateGeometry();
     update();
 }
 
 double DesignPicture::lineHeight() const {
-    return std::min(kLine, kMostHeight / sections_);
+    return std::min(kLine, kMostHeight / lines_);
 }
 
 QSize DesignPicture::sizeHint() const {
-    return {240, static_cast<int>(sections_ * lineHeight() + kGap + kLine)};
+    return {240, static_cast<int>(lines_ * lineHeight())};
 }
 
 QSize DesignPicture::minimumSizeHint() const {
@@ -56,26 +53,20 @@ QSize DesignPicture::minimumSizeHint() const {
 std::vector<DesignPicture::Cell> DesignPicture::cells() const {
     std::vector<Cell> cells;
     if (design_.size() != dimensions_.size()) return cells;
-    const auto ofPoints =
-        static_cast<int>(std::count_if(dimensions_.begin(), dimensions_.end(),
-                                       [](const search::Dimension& dimension) { return dimension.ofPoint; }));
-    const int perLine = std::max(1, (ofPoints + sections_ - 1) / sections_);
-    const int others = static_cast<int>(dimensions_.size()) - ofPoints;
-    int point = 0;
-    int other = 0;
+    std::vector<int> counts(static_cast<std::size_t>(lines_), 0);
+    for (const search::Dimension& dimension : dimensions_)
+        ++counts[static_cast<std::size_t>(dimension.line)];
+    std::vector<int> next(counts.size(), 0);
     for (std::size_t i = 0; i < dimensions_.size(); ++i) {
         const search::Dimension& dimension = dimensions_[i];
-        const int column = dimension.ofPoint ? point % perLine : other;
-        const double each = static_cast<double>(width()) / (dimension.ofPoint ? perLine : others);
-        const double top =
-            dimension.ofPoint ? (point / perLine) * lineHeight() : sections_ * lineHeight() + kGap;
+        const auto line = static_cast<std::size_t>(dimension.line);
+        const double each = static_cast<double>(width()) / counts[line];
         const double physical = dimension.low + design_[i] * (dimension.high - dimension.low);
-        cells.push_back({QRectF(column * each, top, each, (dimension.ofPoint ? lineHeight() : kLine)),
+        cells.push_back({QRectF(next[line]++ * each, dimension.line * lineHeight(), each, lineHeight()),
                          design_[i],
                          tr("%1: %2 %3")
                              .arg(QString::fromStdString(dimension.key), look::numberText(physical),
                                   QString::fromStdString(dimension.unit))});
-        ++(dimension.ofPoint ? point : other);
     }
     return cells;
 }

@@ -6,15 +6,14 @@
 
 namespace trapwright::pages {
 
-/// The numbers of a design, the larger the darker: a line for each cross-section, then one for those that are
-/// of no point. Likeness of two individuals is seen at a glance.
+/// The numbers of a design, the larger the darker, in the lines of their dimensions: of a free-form trap one
+/// for each cross-section, then the segments' lengths. Likeness of two individuals is seen at a glance.
 class DesignPicture : public QWidget {
     Q_OBJECT
  public:
     explicit DesignPicture(QWidget* parent);
 
-    /// `sections` lines for the numbers of points, at least one.
-    void show(const search::Design& design, const search::DesignSpace& space, int sections);
+    void show(const search::Design& design, const search::DesignSpace& space);
 
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
@@ -35,7 +34,7 @@ class DesignPicture : public QWidget {
 
     search::Design design_;
     std::vector<search::Dimension> dimensions_;
-    int sections_ = 1;
+    int lines_ = 1;
 };
 
 }  // namespace trapwright::pages

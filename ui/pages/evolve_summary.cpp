@@ -29,8 +29,10 @@ Facts factsOf(const study::Settings& settings) {
             : EvolveSummary::tr("linear");
     return {
         {EvolveSummary::tr("Feeder"), feeder},
-        {EvolveSummary::tr("Trap"),
-         EvolveSummary::tr("%1 sections of %2 points").arg(track.crossSections).arg(track.pointsPerSection)},
+        {EvolveSummary::tr("Trap"), track.traps == "free-form" ? EvolveSummary::tr("%1 sections of %2 points")
+                                                                     .arg(track.crossSections)
+                                                                     .arg(track.pointsPerSection)
+                                                               : QString::fromStdString(track.traps)},
         {EvolveSummary::tr("Segments"),
          EvolveSummary::tr("%1 to %2 mm long")
              .arg(millimetres(track.minSegmentLength), millimetres(track.maxSegmentLength))},

@@ -28,12 +28,14 @@ IndividualCard::IndividualCard(QWidget* parent)
           this)),
       contents_(new QWidget(this)),
       success_(new FactList(contents_)),
+      numbers_(new FactList(contents_)),
       details_(new look::FoldingGroup("evolve.algorithm", tr("Details of the algorithm"), true, contents_)),
       scores_(new FactList(details_)),
       traits_(new FactList(details_)),
       lengths_(new QLabel(contents_)),
       design_(new DesignPicture(details_)) {
     success_->setObjectName("evolve.parts");
+    numbers_->setObjectName("evolve.numbers");
     empty_->setWordWrap(true);
     empty_->setForegroundRole(QPalette::PlaceholderText);
     scores_->setObjectName("evolve.scores");
@@ -45,6 +47,7 @@ IndividualCard::IndividualCard(QWidget* parent)
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(6);
     column->addWidget(success_);
+    column->addWidget(numbers_);
     column->addWidget(lengths_);
     column->addWidget(details_);
     for (QWidget* detail : std::initializer_list<QWidget*>{scores_, traits_, design_})
@@ -85,9 +88,29 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
     }
     traits_->show(traits);
     traits_->setVisible(!traits.empty());
-    design_->show(record.design, study::designSpace(settings.track), settings.track.crossSections);
+    const search::DesignSpace space = study::designSpace(settings.track);
+    design_->show(record.design, space);
+    showNumbers(space, record.design);
     empty_->hide();
     contents_->show();
+}
+
+void IndividualCard::showNumbers(const search::DesignSpace& space, const search::Design& design) {
+    constexpr std::size_t kFew = 12;  // to be read one by one
+    Facts numbers;
+    if (design.size() <= kFew && design.size() == space.dimensions.size()) {
+        for (std::size_t i = 0; i < design.size(); ++i) {
+            const search::Dimension& dimension = space.dimensions[i];
+            const QString key = QString::fromStdString(dimension.key);
+            const bool degrees = dimension.unit == "deg";
+            numbers.emplace_back(
+                key.left(1).toUpper() + key.mid(1),
+                fixed(dimension.low + design[i] * (dimension.high - dimension.low), 1) +
+                    (degrees ? QStringLiteral("°") : ' ' + QString::fromStdString(dimension.unit)));
+        }
+    }
+    numbers_->show(numbers);
+    numbers_->setVisible(!numbers.empty());
 }
 
 void IndividualCard::showTrack(const track::Track& track) {

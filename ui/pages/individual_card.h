@@ -31,9 +31,13 @@ class IndividualCard : public QWidget {
     void clear();
 
  private:
+    /// What a design of few numbers says.
+    void showNumbers(const search::DesignSpace& space, const search::Design& design);
+
     QLabel* empty_;
     QWidget* contents_;
     FactList* success_;
+    FactList* numbers_;
     look::FoldingGroup* details_;
     FactList* scores_;
     FactList* traits_;

@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "core/traps/trap_chain.h"
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
 #include "ui/pages/value_edit.h"
@@ -21,9 +22,28 @@ constexpr int kResetSize = 20;
 // Long enough not to take "1" for the value while "15" is typed.
 constexpr int kTypingPause = 250;  // [ms]
 
+/// Each kind of trap, and each two of them one after the other.
+std::vector<std::string> trapNames() {
+    std::vector<std::string> names;
+    for (const traps::TrapKind& kind : traps::trapKinds())
+        names.emplace_back(kind.key);
+    for (const traps::TrapKind& first : traps::trapKinds()) {
+        for (const traps::TrapKind& second : traps::trapKinds())
+            if (&first != &second) names.push_back(std::string(first.key) + ", " + std::string(second.key));
+    }
+    return names;
+}
+
+/// What people are told of a chain that a setting names.
+QString trapLabel(const std::string& name) {
+    const auto chain = traps::readTraps(name);
+    return QString::fromStdString(chain ? traps::describe(*chain) : name);
+}
+
 /// Names of a setting that is a choice for people but not a study::FieldKind::choice.
 std::vector<std::string> choiceNames(const study::FieldInfo& field) {
     if (field.kind == study::FieldKind::flag) return {"false", "true"};
+    if (field.key == "track.traps") return trapNames();
     if (field.key == "simulation.engine") return {"hybrid", "native", "simbody"};
     return field.choices;
 }
@@ -99,8 +119,8 @@ void SettingsRow::addEditor() {
     }
     combo_ = new QComboBox(this);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        combo_->addItem(i < text_.choices.size() ? text_.choices[i] : QString::fromStdString(names[i]),
-                        QString::fromStdString(names[i]));
+        const bool hasText = i < text_.choices.size();
+        combo_->addItem(hasText ? text_.choices[i] : trapLabel(names[i]), QString::fromStdString(names[i]));
     }
     connect(combo_, &QComboBox::activated, this, &SettingsRow::commit);
 }
@@ -110,6 +130,8 @@ void SettingsRow::show(const study::Settings& settings, const study::Settings& d
     default_ = QString::fromStdString(study::fieldText(defaults, field_.key));
     reset_->setVisible(shown_ != default_);
     if (combo_ != nullptr) {
+        // A chain of traps may be any.
+        if (combo_->findData(shown_) < 0) combo_->addItem(trapLabel(shown_.toStdString()), shown_);
         combo_->setCurrentIndex(combo_->findData(shown_));
         reset_->setToolTip(tr("Back to %1").arg(combo_->itemText(combo_->findData(default_))));
         return;

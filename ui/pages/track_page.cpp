@@ -303,6 +303,9 @@ void TrackPage::refresh() {
     const bool bowl = settings.track.shape.type == track::FeederType::bowl;
     form_->setVisible("track.bowlRadius_mm", bowl);
     form_->setVisible("track.conveying", bowl);
+    const bool freeForm = settings.track.traps.find("free-form") != std::string::npos;
+    for (const char* key : {"track.crossSections", "track.encoding"})
+        form_->setVisible(key, freeForm);
     const bool genetic = settings.evolution.search == search::Method::genetic;
     for (const char* key : {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
                             "evolution.smoothingLimit"})

@@ -26,6 +26,7 @@ Settings unusualSettings() {
               study::PoseWeights::dropped,
               "129, 48, 23"};
     s.track.shape = {track::FeederType::bowl, 0.1 + 0.2, track::Conveying::anticlockwise};
+    s.track.traps = "step, free-form";
     s.track.crossSections = 7;
     s.track.pointsPerSection = 11;
     s.track.minSegmentLength = 1.0 / 3.0;

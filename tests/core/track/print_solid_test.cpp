@@ -239,8 +239,8 @@ class PrintSolidTest : public QObject {
     }
 
     void surfacesThatOverhangAreClosedAllTheSame() {
-        track::Encoding encoding;
-        encoding.pointEncoding = track::PointEncoding::free;
+        traps::TrapParameters encoding;
+        encoding.pointEncoding = traps::PointEncoding::free;
         const Track track = track::buildTrack({}, testing::drawTrap(encoding, 5)).value();
         const auto solid = track::buildPrintSolid(track, makeOptions(5 * kMm, true, 4.5 * kMm));
         QVERIFY2(solid.ok(), solid.ok() ? "" : solid.error().message.c_str());

@@ -9,13 +9,13 @@
 using namespace trapwright;
 using track::Conveying;
 using track::CrossSection;
-using track::Encoding;
 using track::FeederShape;
-using track::PointEncoding;
 using track::TrackParameters;
+using traps::PointEncoding;
+using traps::TrapParameters;
 
 Q_DECLARE_METATYPE(FeederShape)
-Q_DECLARE_METATYPE(Encoding)
+Q_DECLARE_METATYPE(TrapParameters)
 Q_DECLARE_METATYPE(TrackParameters)
 
 namespace {
@@ -80,7 +80,7 @@ class TrackBuilderTest : public QObject {
 
  private slots:
     void layout() {
-        const Encoding encoding;
+        const TrapParameters encoding;
         const auto trap = testing::drawTrap(encoding, 7);
         const auto track = build({}, trap);
         QCOMPARE(track.sections.size(), std::size_t{2 + 5 + 2});
@@ -109,7 +109,7 @@ class TrackBuilderTest : public QObject {
     }
 
     void splitsQuadsAsFigure2() {
-        const auto track = build({}, testing::drawTrap(Encoding{}, 7));
+        const auto track = build({}, testing::drawTrap(TrapParameters{}, 7));
         const auto& mesh = track.solid;
         const auto point = [&](std::size_t i, std::size_t j) {
             const auto& section = track.sections[i];
@@ -130,23 +130,23 @@ class TrackBuilderTest : public QObject {
 
     void solidIsClosed_data() {
         QTest::addColumn<FeederShape>("shape");
-        QTest::addColumn<Encoding>("encoding");
+        QTest::addColumn<TrapParameters>("encoding");
         const FeederShape shapes[] = {FeederShape{}, testing::makeBowl(Conveying::clockwise),
                                       testing::makeBowl(Conveying::anticlockwise)};
         const char* shapeNames[] = {"linear", "clockwise", "anticlockwise"};
         for (std::size_t s = 0; s < 3; ++s) {
             for (const auto points : {PointEncoding::strip, PointEncoding::free}) {
-                Encoding encoding;
+                TrapParameters encoding;
                 encoding.pointEncoding = points;
                 QTest::addRow("%s, %s", shapeNames[s], points == PointEncoding::strip ? "strip" : "free")
                     << shapes[s] << encoding;
             }
-            QTest::addRow("%s, two points", shapeNames[s]) << shapes[s] << Encoding{1, 2};
+            QTest::addRow("%s, two points", shapeNames[s]) << shapes[s] << TrapParameters{1, 2};
         }
     }
     void solidIsClosed() {
         QFETCH(FeederShape, shape);
-        QFETCH(Encoding, encoding);
+        QFETCH(TrapParameters, encoding);
         TrackParameters parameters;
         parameters.shape = shape;
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -171,7 +171,7 @@ class TrackBuilderTest : public QObject {
         QFETCH(FeederShape, shape);
         TrackParameters parameters;
         parameters.shape = shape;
-        const auto track = build(parameters, testing::drawTrap(Encoding{}, 11));
+        const auto track = build(parameters, testing::drawTrap(TrapParameters{}, 11));
         double volume = 0.0;
         for (std::size_t t = 0; t < track.surfaceTriangles; ++t) {
             const auto& triangle = track.solid.triangles[t];
@@ -206,7 +206,7 @@ class TrackBuilderTest : public QObject {
 
     void sensesMirrorEachOther() {
         TrackParameters parameters;
-        const auto trap = testing::drawTrap(Encoding{}, 5);
+        const auto trap = testing::drawTrap(TrapParameters{}, 5);
         parameters.shape = testing::makeBowl(Conveying::clockwise);
         const auto clockwise = build(parameters, trap);
         parameters.shape = testing::makeBowl(Conveying::anticlockwise);
@@ -254,13 +254,13 @@ class TrackBuilderTest : public QObject {
     }
 
     void refusesBadTraps() {
-        auto trap = testing::drawTrap(Encoding{}, 1);
+        auto trap = testing::drawTrap(TrapParameters{}, 1);
         QVERIFY(!track::buildTrack({}, {}).ok());
         trap[2].x = trap[1].x;
         auto result = track::buildTrack({}, trap);
         QVERIFY(!result.ok());
         QVERIFY(result.error().message.find("Cross-section 3") != std::string::npos);
-        trap = testing::drawTrap(Encoding{}, 1);
+        trap = testing::drawTrap(TrapParameters{}, 1);
         trap[4].points.pop_back();
         QVERIFY(!track::buildTrack({}, trap).ok());
         trap = {CrossSection{20e-3, {base::Vec2(0.0, 0.0)}}};

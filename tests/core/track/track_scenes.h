@@ -1,21 +1,21 @@
 #pragma once
 
 #include "core/base/random.h"
-#include "core/track/encoding.h"
 #include "core/track/track_builder.h"
+#include "core/traps/free_form.h"
 
 namespace trapwright::testing {
 
 /// A trap with every gene value drawn at random.
-inline std::vector<track::CrossSection> drawTrap(const track::Encoding& encoding, std::uint64_t seed) {
+inline std::vector<track::CrossSection> drawTrap(const traps::TrapParameters& encoding, std::uint64_t seed) {
     base::Random random({seed, 0, 0, 0, base::Purpose::test});
-    std::vector<double> points(encoding.pointValues());
-    std::vector<double> lengths(encoding.lengthValues());
+    std::vector<double> points(2 * static_cast<std::size_t>(encoding.sections * encoding.points));
+    std::vector<double> lengths(static_cast<std::size_t>(encoding.sections));
     for (double& value : points)
         value = random.uniform();
     for (double& value : lengths)
         value = random.uniform();
-    return track::decodeTrap(encoding, points, lengths);
+    return traps::decodeTrap(encoding, points, lengths);
 }
 
 inline track::FeederShape makeBowl(track::Conveying conveying) {

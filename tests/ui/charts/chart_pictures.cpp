@@ -100,11 +100,11 @@ class Photographer {
         take(fitness, suffix + "-cursor", size);
         fitness.setShown("F_D", false);
         fitness.zoom(0.3);
-        strategy.zoom(0.3);
+        search.zoom(0.3);
         take(fitness, suffix + "-zoomed", size);
-        take(strategy, suffix + "-zoomed", size);
+        take(search, suffix + "-zoomed", size);
         saveAll(fitness, suffix);
-        saveAll(strategy, suffix);
+        saveAll(search, suffix);
         saveAll(orientation, suffix);
     }
 

@@ -1,25 +1,25 @@
-#include "core/track/encoding.h"
+#include "core/traps/free_form.h"
 
 #include <QtTest>
 #include <limits>
 
-#include "track_scenes.h"
+#include "tests/core/track/track_scenes.h"
 
 using namespace trapwright;
-using track::Encoding;
-using track::PointEncoding;
+using traps::PointEncoding;
+using traps::TrapParameters;
 
-Q_DECLARE_METATYPE(Encoding)
+Q_DECLARE_METATYPE(TrapParameters)
 
-class EncodingTest : public QObject {
+class FreeFormTest : public QObject {
     Q_OBJECT
 
  private slots:
     void extremesOfFree() {
-        const Encoding encoding{2, 2, 15e-3, 36e-3, 60e-3, 30e-3, PointEncoding::free};
+        const TrapParameters encoding{2, 2, 15e-3, 36e-3, 60e-3, 30e-3, PointEncoding::free};
         const std::vector<double> points = {0, 0, 1, 1, 1, 0, 0.5, 0.5};
         const std::vector<double> lengths = {0, 1};
-        const auto sections = track::decodeTrap(encoding, points, lengths);
+        const auto sections = traps::decodeTrap(encoding, points, lengths);
         QCOMPARE(sections.size(), std::size_t{2});
         QCOMPARE(sections[0].x, 15e-3);
         QCOMPARE(sections[1].x, 51e-3);
@@ -30,7 +30,7 @@ class EncodingTest : public QObject {
     }
 
     void stripPointsKeepToTheirStrips() {
-        const Encoding encoding;
+        const TrapParameters encoding;
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             for (const auto& section : testing::drawTrap(encoding, seed)) {
                 for (int j = 0; j < encoding.points; ++j) {
@@ -45,9 +45,9 @@ class EncodingTest : public QObject {
     }
 
     void checkNamesTheParameter_data() {
-        QTest::addColumn<Encoding>("encoding");
+        QTest::addColumn<TrapParameters>("encoding");
         QTest::addColumn<QString>("named");
-        Encoding e;
+        TrapParameters e;
         e.minLength = 40e-3;
         QTest::newRow("min > max") << e << "minimal segment length (40 mm) is greater";
         e = {};
@@ -64,15 +64,15 @@ class EncodingTest : public QObject {
         QTest::newRow("height") << e << "segment height is nan mm";
     }
     void checkNamesTheParameter() {
-        QFETCH(Encoding, encoding);
+        QFETCH(TrapParameters, encoding);
         QFETCH(QString, named);
-        QVERIFY(track::checkEncoding(Encoding{}).ok());
-        const auto status = track::checkEncoding(encoding);
+        QVERIFY(traps::checkParameters(TrapParameters{}).ok());
+        const auto status = traps::checkParameters(encoding);
         QVERIFY(!status.ok());
         QVERIFY2(QString::fromStdString(status.error().message).contains(named),
                  status.error().message.c_str());
     }
 };
 
-QTEST_APPLESS_MAIN(EncodingTest)
-#include "encoding_test.moc"
+QTEST_APPLESS_MAIN(FreeFormTest)
+#include "free_form_test.moc"

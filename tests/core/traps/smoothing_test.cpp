@@ -1,9 +1,9 @@
-#include "core/track/smoothing.h"
+#include "core/traps/free_form.h"
 
 #include <QtTest>
 #include <algorithm>
 
-#include "track_scenes.h"
+#include "tests/core/track/track_scenes.h"
 
 using namespace trapwright;
 
@@ -39,14 +39,14 @@ class SmoothingTest : public QObject {
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             const auto values = drawValues(seed);
             base::Random random = makeRandom(seed);
-            QCOMPARE(track::smoothSurface(values, kRows, kColumns, 0.0, random), values);
+            QCOMPARE(traps::smoothSurface(values, kRows, kColumns, 0.0, random), values);
         }
     }
 
     void oneGivesTheBilinearPatch() {
         const auto values = drawValues(1);
         base::Random random = makeRandom(1);
-        const auto smooth = track::smoothSurface(values, kRows, kColumns, 1.0, random);
+        const auto smooth = traps::smoothSurface(values, kRows, kColumns, 1.0, random);
         for (int i = 0; i < kRows; ++i) {
             for (int j = 0; j < kColumns; ++j) {
                 const double s = i / (kRows - 1.0);
@@ -68,7 +68,7 @@ class SmoothingTest : public QObject {
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             const auto values = drawValues(seed);
             base::Random random = makeRandom(seed);
-            const auto smooth = track::smoothSurface(values, kRows, kColumns, 0.4, random);
+            const auto smooth = traps::smoothSurface(values, kRows, kColumns, 0.4, random);
             base::Random decisions = makeRandom(seed);
             for (int i = 0; i < kRows; ++i) {
                 for (int j = 0; j < kColumns; ++j) {
@@ -89,7 +89,7 @@ class SmoothingTest : public QObject {
         for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
             const auto values = drawValues(seed);
             base::Random random = makeRandom(seed);
-            const auto smooth = track::smoothSurface(values, kRows, kColumns, 0.3, random);
+            const auto smooth = traps::smoothSurface(values, kRows, kColumns, 0.3, random);
             for (std::size_t i = 0; i < values.size(); i += 2)
                 removed += smooth[i] != values[i] ? 1 : 0;
         }
@@ -114,7 +114,7 @@ class SmoothingTest : public QObject {
         }
         for (std::uint64_t seed = 0; seed < 100; ++seed) {
             base::Random random = makeRandom(seed);
-            const auto smooth = track::smoothSurface(values, kRows, kColumns, probability, random);
+            const auto smooth = traps::smoothSurface(values, kRows, kColumns, probability, random);
             for (std::size_t k = 0; k < values.size(); ++k)
                 QVERIFY(std::abs(smooth[k] - values[k]) < 1e-14);
         }
@@ -124,7 +124,7 @@ class SmoothingTest : public QObject {
         for (std::uint64_t seed = 0; seed < 100; ++seed) {
             const auto values = drawValues(seed);
             base::Random random = makeRandom(seed);
-            const auto smooth = track::smoothSurface(values, kRows, kColumns, 0.6, random);
+            const auto smooth = traps::smoothSurface(values, kRows, kColumns, 0.6, random);
             const auto [low, high] = std::minmax_element(values.begin(), values.end());
             for (const double value : smooth)
                 QVERIFY(value >= *low && value <= *high);
@@ -133,21 +133,21 @@ class SmoothingTest : public QObject {
 
     // In strip encoding, smoothing gene values and smoothing the places that they stand for are the same.
     void stripValuesSmoothAsPlaces() {
-        const track::Encoding encoding;
+        const traps::TrapParameters encoding;
         const std::vector<double> lengths(5, 0.5);
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             const auto values = drawValues(seed);
             base::Random first = makeRandom(seed);
-            const auto smoothValues = track::smoothSurface(values, kRows, kColumns, 0.5, first);
-            const auto decodedAfter = track::decodeTrap(encoding, smoothValues, lengths);
+            const auto smoothValues = traps::smoothSurface(values, kRows, kColumns, 0.5, first);
+            const auto decodedAfter = traps::decodeTrap(encoding, smoothValues, lengths);
 
             std::vector<double> places;
-            for (const auto& section : track::decodeTrap(encoding, values, lengths)) {
+            for (const auto& section : traps::decodeTrap(encoding, values, lengths)) {
                 for (const auto& point : section.points)
                     places.insert(places.end(), {point.x(), point.y()});
             }
             base::Random second = makeRandom(seed);
-            const auto smoothPlaces = track::smoothSurface(places, kRows, kColumns, 0.5, second);
+            const auto smoothPlaces = traps::smoothSurface(places, kRows, kColumns, 0.5, second);
             for (int i = 0; i < kRows; ++i) {
                 for (int j = 0; j < kColumns; ++j) {
                     const base::Vec2& point =
@@ -174,7 +174,7 @@ class SmoothingTest : public QObject {
         for (std::size_t i = 0; i < values.size(); ++i)
             values[i] = static_cast<double>(i % 7);
         base::Random random = makeRandom(5);
-        const auto smooth = track::smoothSurface(values, rows, columns, 1.0, random);
+        const auto smooth = traps::smoothSurface(values, rows, columns, 1.0, random);
         // The first section is a straight line between its corners.
         const auto last = static_cast<std::size_t>(columns) - 1;
         for (std::size_t j = 0; j <= last; ++j) {

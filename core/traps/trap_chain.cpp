@@ -1,0 +1,168 @@
+#include "core/traps/trap_chain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "core/traps/free_form.h"
+#include "core/traps/step.h"
+
+namespace trapwright::traps {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+base::Error unknownKind(std::string_view name) {
+    std::string keys;
+    for (const TrapKind& kind : trapKinds())
+        keys += (keys.empty() ? "" : ", ") + std::string(kind.key);
+    return {fmt::format(
+        "There is no kind of trap named \"{}\". The kinds are: {}. Write several with commas between "
+        "them.",
+        name, keys)};
+}
+
+double inMillimetres(double length) {
+    return length / base::kMillimetre;
+}
+
+}  // namespace
+
+std::span<const TrapKind> trapKinds() {
+    static const std::array<TrapKind, 2> kinds = {freeForm(), step()};
+    return kinds;
+}
+
+base::Status checkParameters(const TrapParameters& parameters) {
+    if (parameters.sections < 1) {
+        return base::Error{
+            fmt::format("The number of cross-sections is {}; a trap needs at least 1.", parameters.sections)};
+    }
+    if (parameters.points < 2) {
+        return base::Error{fmt::format(
+            "The number of points per cross-section is {}; a surface needs at least 2.", parameters.points)};
+    }
+    const struct {
+        const char* name;
+        double value;
+    } lengths[] = {{"minimal segment length", parameters.minLength},
+                   {"maximal segment length", parameters.maxLength},
+                   {"segment width", parameters.width},
+                   {"segment height", parameters.height}};
+    for (const auto& [name, value] : lengths) {
+        if (!(value > 0.0 && std::isfinite(value))) {
+            return base::Error{
+                fmt::format("The {} is {:g} mm; it must be greater than 0.", name, inMillimetres(value))};
+        }
+    }
+    if (parameters.minLength > parameters.maxLength) {
+        return base::Error{fmt::format(
+            "The minimal segment length ({:g} mm) is greater than the maximal segment length ({:g} mm).",
+            inMillimetres(parameters.minLength), inMillimetres(parameters.maxLength))};
+    }
+    return base::success();
+}
+
+base::Result<TrapChain> readTraps(std::string_view text) {
+    TrapChain chain;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string_view name = trimmed(text.substr(begin, end - begin));
+        const auto kinds = trapKinds();
+        const auto found =
+            std::find_if(kinds.begin(), kinds.end(), [&](const TrapKind& kind) { return kind.key == name; });
+        if (found == kinds.end()) return unknownKind(name);
+        chain.push_back(&*found);
+        begin = end + 1;
+    }
+    return chain;
+}
+
+std::string describe(const TrapChain& chain) {
+    std::string text;
+    for (const TrapKind* kind : chain) {
+        std::string title(kind->title);
+        if (!text.empty())
+            title.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(title.front())));
+        text += (text.empty() ? "" : ", ") + title;
+    }
+    return text;
+}
+
+search::DesignSpace designSpace(const TrapChain& chain, const TrapParameters& parameters) {
+    search::DesignSpace space;
+    bool isSmoothed = false;
+    int lines = 0;  // of the traps before
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        int last = lines;
+        for (search::Dimension& dimension : chain[i]->dimensions(parameters)) {
+            if (chain.size() > 1) dimension.key = fmt::format("trap {}: {}", i + 1, dimension.key);
+            dimension.line += lines;
+            last = std::max(last, dimension.line);
+            space.dimensions.push_back(std::move(dimension));
+        }
+        lines = last + 1;
+        isSmoothed = isSmoothed || chain[i]->smooth != nullptr;
+    }
+    if (!isSmoothed) return space;
+    space.smooth = [chain, parameters](search::Design design, double probability, base::Random& random) {
+        std::size_t first = 0;
+        for (const TrapKind* kind : chain) {
+            const std::size_t count = kind->dimensions(parameters).size();
+            if (kind->smooth != nullptr) {
+                const std::vector<double> smoothed =
+                    kind->smooth(parameters, std::span(design).subspan(first, count), probability, random);
+                std::copy(smoothed.begin(), smoothed.end(),
+                          design.begin() + static_cast<std::ptrdiff_t>(first));
+            }
+            first += count;
+        }
+        return design;
+    };
+    return space;
+}
+
+std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
+                                       const search::Design& design) {
+    std::vector<track::CrossSection> sections;
+    std::size_t first = 0;
+    for (const TrapKind* kind : chain) {
+        const std::size_t count = kind->dimensions(parameters).size();
+        const double begin = sections.empty() ? 0.0 : sections.back().x;
+        for (track::CrossSection& section :
+             kind->build(parameters, std::span(design).subspan(first, count))) {
+            section.x += begin;
+            sections.push_back(std::move(section));
+        }
+        first += count;
+    }
+    return sections;
+}
+
+std::vector<double> layOut(const TrapChain& chain, const TrapParameters& parameters) {
+    std::vector<double> places;
+    for (const TrapKind* kind : chain) {
+        const double begin = places.empty() ? 0.0 : places.back();
+        for (const double x : kind->layOut(parameters))
+            places.push_back(begin + x);
+    }
+    return places;
+}
+
+double calcLongest(const TrapChain& chain, const TrapParameters& parameters) {
+    double longest = 0.0;
+    for (const TrapKind* kind : chain)
+        longest += kind->longest(parameters);
+    return longest;
+}
+
+}  // namespace trapwright::traps

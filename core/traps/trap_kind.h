@@ -1,0 +1,60 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/search/design_space.h"
+#include "core/track/track.h"
+
+namespace trapwright::traps {
+
+/// How a free-form point's y value becomes a place across the track (decisions.md#surface-points).
+enum class PointEncoding {
+    strip,  // point j keeps within its own strip of width / points, so a section never crosses itself
+    free    // the paper's: any place in the box, so a surface may overhang or cross itself
+};
+
+/// The room that a trap has, and how finely it is shaped. Each kind takes what it needs.
+struct TrapParameters {
+    int sections = 5;          // functional ones of a free-form trap
+    int points = 8;            // of every cross-section
+    double minLength = 15e-3;  // of a segment [m]
+    double maxLength = 36e-3;  // of a segment [m]
+    double width = 60e-3;      // of a segment [m]
+    double height = 30e-3;     // of a segment; the lead-in lies at half of it [m]
+    PointEncoding pointEncoding = PointEncoding::strip;
+};
+
+/// An error that names the first parameter that is out of its range.
+base::Status checkParameters(const TrapParameters& parameters);
+
+/// One kind of trap: what there is to choose, and the surface that a choice stands for. Knows no physics.
+struct TrapKind {
+    std::string_view key;    // in files and on the command line: "free-form"
+    std::string_view title;  // "Free form"
+    std::string_view help;   // a sentence
+
+    /// What there is to choose, in the order in which the numbers come.
+    std::vector<search::Dimension> (*dimensions)(const TrapParameters& parameters);
+    /// The functional cross-sections of these numbers (as many as dimensions, in [0, 1]); x is measured from
+    /// where the trap begins and rises, y in [-width / 2, width / 2], z in [0, height], each section has
+    /// `points` points.
+    std::vector<track::CrossSection> (*build)(const TrapParameters& parameters,
+                                              std::span<const double> numbers);
+    /// Where the cross-sections of a typical one are: x from where the trap begins. [m]
+    std::vector<double> (*layOut)(const TrapParameters& parameters);
+    /// The longest that it can be. [m]
+    double (*longest)(const TrapParameters& parameters);
+    /// Smoothing of its numbers with a probability for each thing that can be smoothed
+    /// (search::SmoothDesign); null: there is nothing to be smoothed.
+    std::vector<double> (*smooth)(const TrapParameters& parameters, std::span<const double> numbers,
+                                  double probability, base::Random& random) = nullptr;
+};
+
+/// The kinds that there are. A new one is its own file and its entry in trap_chain.cpp.
+std::span<const TrapKind> trapKinds();
+
+}  // namespace trapwright::traps
