@@ -27,6 +27,7 @@ core/trial      core/base core/part core/track core/trial
 core/verify     core/base core/calibration core/geometry core/part core/stats core/study core/track core/trial core/verify
 core/workflow   core/base core/geometry core/part core/search core/store core/study core/track core/trial core/workflow
 sim/contact     core/base core/geometry core/part core/track core/trial sim/contact
+sim/engines     core/base core/trial sim/engines sim/native sim/simbody
 sim/native      core/base core/geometry core/part core/track core/trial sim/contact sim/native
 sim/simbody     core/base core/geometry core/part core/track core/trial sim/contact sim/simbody
 ui              core ui

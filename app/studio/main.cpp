@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
+#include "sim/engines/registry.h"
 #include "ui/pages/field_texts.h"
 #include "ui/scene/scene_view.h"
 #include "ui/transports/make_drive.h"
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
     }
     const std::filesystem::path data =
         toPath(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-    window::MainWindow window({app::makeWorkEngine,
+    window::MainWindow window({engines::registry(),
                                app::kProgram,
                                data / "running",
                                {transports::makeDrive, serveFeeder, data / "drives"},

@@ -3,21 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/trapwright/bench_report.h"
-#include "app/trapwright/engines.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
-#include "core/workflow/study_engines.h"
+#include "core/bench/benchmark.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
 namespace {
 
 /// Hundreds of times slower than the others: timed only if named.
-constexpr const char* kCertifying = "simbody-certifying";
+bool isSlow(const trial::EngineKind& kind) {
+    return kind.role == trial::EngineRole::certifying;
+}
 
 template <class Named>
 std::string listNames(std::span<const Named> items) {
@@ -36,25 +40,21 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
 }
 
 /// The engines in the order in which they were named; the first is what the others are compared with.
-Attempt<std::vector<bench::Contender>> chooseContenders(const std::string& engines,
-                                                        std::span<const bench::Contender> known) {
-    std::vector<bench::Contender> chosen;
-    if (engines == "all") {
-        for (const bench::Contender& contender : known)
-            if (contender.name != kCertifying) chosen.push_back(contender);
-    }
-    std::vector<std::string> names = splitAtCommas(engines == "all" ? "" : engines);
-    if (engines == "hybrid")
-        names = {workflow::engineFor(engines, workflow::EngineUse::learning),
-                 *workflow::referenceFor(engines)};
+Attempt<std::vector<trial::EngineKind>> chooseContenders(const std::string& wanted,
+                                                         std::span<const trial::EngineKind> known) {
+    std::vector<trial::EngineKind> chosen;
+    if (wanted == "all") std::ranges::copy_if(known, std::back_inserter(chosen), std::not_fn(isSlow));
+    std::vector<std::string> names = splitAtCommas(wanted == "all" ? "" : wanted);
+    if (wanted == trial::kHybrid)
+        names = {engines::registry().quick().name, engines::registry().reference().name};
     for (const std::string& name : names) {
-        const auto found = std::find_if(known.begin(), known.end(), [&](const bench::Contender& contender) {
+        const auto found = std::find_if(known.begin(), known.end(), [&](const trial::EngineKind& contender) {
             return contender.name == name;
         });
         if (found == known.end()) {
             return Failure{ExitCode::usage,
                            fmt::format("--engine {}: there is no engine named \"{}\". The engines are: {}.",
-                                       engines, name, listNames(known))};
+                                       wanted, name, listNames(known))};
         }
         chosen.push_back(*found);
     }
@@ -84,21 +84,15 @@ void addBenchOptions(Command command, BenchOptions& options) {
         .range(1, 1000);
     command.addOption("--scene", options.filter, "Only the scenes with this in their name");
     command.addOption("--step", options.step, "Of simulated time in ms (each engine's own)").range(1e-4, 2.0);
+    std::vector<trial::EngineKind> slow;
+    std::ranges::copy_if(engines::registry().kinds(), std::back_inserter(slow), isSlow);
     command.addOption("--engine", options.engines,
-                      fmt::format("Engines side by side: A,B, hybrid for the two that it stands for, or "
+                      fmt::format("Engines side by side: A,B, {} for the two that it stands for, or "
                                   "\"all\", which leaves {} out (all)",
-                                  kCertifying));
+                                  trial::kHybrid, listNames(std::span<const trial::EngineKind>(slow))));
 }
 
-std::vector<bench::Contender> listContenders() {
-    std::vector<bench::Contender> contenders;
-    for (const std::string& name : engineNames()) {
-        if (auto factory = findEngine(name)) contenders.push_back({name, *factory});
-    }
-    return contenders;
-}
-
-Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const bench::Contender> known,
+Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const trial::EngineKind> known,
                            const Console& console) {
     auto contenders = chooseContenders(options.engines, known);
     if (!contenders) return contenders.failure();

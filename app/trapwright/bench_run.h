@@ -7,7 +7,7 @@
 #include "app/trapwright/console.h"
 #include "app/trapwright/exit_codes.h"
 #include "app/trapwright/options.h"
-#include "core/bench/benchmark.h"
+#include "core/trial/engine_registry.h"
 
 namespace trapwright::app {
 
@@ -23,12 +23,9 @@ struct BenchOptions {
 /// Adds --trials, --repeats, --scene, --step and --engine to a command.
 void addBenchOptions(Command command, BenchOptions& options);
 
-/// The program's own engines.
-std::vector<bench::Contender> listContenders();
-
 /// Times the engines that the options name among `known` on the scenes that they name, with progress and
-/// Ctrl-C, and prints the table. "all" are those that are quick enough to learn with.
-Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const bench::Contender> known,
+/// Ctrl-C, and prints the table. "all" leaves out what is too slow to learn with.
+Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const trial::EngineKind> known,
                            const Console& console);
 
 }  // namespace trapwright::app

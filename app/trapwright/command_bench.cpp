@@ -2,6 +2,7 @@
 
 #include "app/trapwright/bench_run.h"
 #include "app/trapwright/command.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -10,8 +11,9 @@ void addBenchCommand(CLI::App& program, Invocation& invocation) {
     Command command = addCommand(
         program, invocation, "bench",
         "What a trial costs on this machine: named scenes, engines side by side, one thread, CPU time.",
-        "trapwright bench --trials 500 --json",
-        [options](const Console& console) { return runBench(*options, listContenders(), console); });
+        "trapwright bench --trials 500 --json", [options](const Console& console) {
+            return runBench(*options, engines::registry().kinds(), console);
+        });
     addBenchOptions(command, *options);
 }
 

@@ -70,7 +70,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!study) return study.failure();
     const auto before = study->file.generationCount();
     if (!before) return Failure{ExitCode::badInput, before.error().message};
-    auto inputs = makeInputs(*study, std::nullopt, workflow::EngineUse::learning, options.threads);
+    auto inputs = makeInputs(*study, std::nullopt, trial::EngineUse::learning, options.threads);
     if (!inputs) return inputs.failure();
 
     console.print(fmt::format(
@@ -87,7 +87,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                        fmt::format("Stopped. Go on with: trapwright evolve {} --resume", path)};
     }
 
-    inputs = makeInputs(*study, std::nullopt, workflow::EngineUse::judging, options.threads);
+    inputs = makeInputs(*study, std::nullopt, trial::EngineUse::judging, options.threads);
     if (!inputs) return inputs.failure();
     inputs->settings.validation.selectionWinners = kSelectionWinners;
     inputs->settings.validation.selectionTrials = options.selectionTrials;

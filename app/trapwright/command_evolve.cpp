@@ -10,6 +10,7 @@
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_options.h"
 #include "core/trial/fitness.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -54,10 +55,10 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) 
     return loadStudy(std::move(*file));
 }
 
-/// "native, winners checked by simbody"
+/// The engine that learns, and "winners checked by ...".
 std::string describeEngines(const OpenStudy& study, const study::StudyInputs& inputs) {
-    const auto reference = workflow::referenceFor(study.settings.simulation.engine);
-    return inputs.engine->name() + (reference ? ", winners checked by " + *reference : "");
+    const auto* reference = engines::registry().referenceFor(study.settings.simulation.engine);
+    return inputs.engine->name() + (reference != nullptr ? ", winners checked by " + reference->name : "");
 }
 
 std::string describeStart(const OpenStudy& study, const study::StudyInputs& inputs) {
@@ -86,7 +87,7 @@ std::string_view endName(study::LearningEnd end) {
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openOrCreate(options, console);
     if (!study) return study.failure();
-    auto inputs = makeInputs(*study, std::nullopt, workflow::EngineUse::learning, options.threads);
+    auto inputs = makeInputs(*study, std::nullopt, trial::EngineUse::learning, options.threads);
     if (!inputs) return inputs.failure();
     console.print(describeStart(*study, *inputs));
 
@@ -99,10 +100,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     console.print(fmt::format("{}: {} generations in {}, {} trials in {:.1f} s ({:.1f}/s)\n",
                               ran->interrupted ? "Stopped" : "Done", summaries->size(), options.study,
                               report.trials, report.seconds, rate));
-    const auto reference = workflow::referenceFor(study->settings.simulation.engine);
+    const auto* reference = engines::registry().referenceFor(study->settings.simulation.engine);
     const auto unchecked = study->file.loadUncheckedWinners();
     if (!unchecked) return Failure{ExitCode::badInput, unchecked.error().message};
-    if (reference && !unchecked->empty())
+    if (reference != nullptr && !unchecked->empty())
         console.print(
             fmt::format("{} winners are not checked yet; evolve --resume does that.\n", unchecked->size()));
     if (ran->interrupted && !console.json())
@@ -113,17 +114,17 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json generations = nlohmann::ordered_json::array();
     for (const study::GenerationSummary& summary : *summaries)
         generations.push_back(toJson(summary));
-    console.emit(
-        {{"study", options.study},
-         {"engine", inputs->engine->name()},
-         {"reference_engine", reference ? nlohmann::ordered_json(*reference) : nlohmann::ordered_json()},
-         {"threads", inputs->threads},
-         {"end", endName(report.end)},
-         {"trials", report.trials},
-         {"seconds", report.seconds},
-         {"trials_per_second", rate},
-         {"generations", generations},
-         {"checks", toJson(*checks)}});
+    console.emit({{"study", options.study},
+                  {"engine", inputs->engine->name()},
+                  {"reference_engine",
+                   reference != nullptr ? nlohmann::ordered_json(reference->name) : nlohmann::ordered_json()},
+                  {"threads", inputs->threads},
+                  {"end", endName(report.end)},
+                  {"trials", report.trials},
+                  {"seconds", report.seconds},
+                  {"trials_per_second", rate},
+                  {"generations", generations},
+                  {"checks", toJson(*checks)}});
     return ran->interrupted ? ExitCode::interrupted : ExitCode::ok;
 }
 

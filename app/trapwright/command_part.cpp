@@ -17,6 +17,7 @@
 #include "core/study/presets.h"
 #include "core/study/settings.h"
 #include "core/trial/fitness.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -32,7 +33,7 @@ struct Options {
     std::optional<double> friction;  // kinetic, and static unless that is given
     std::optional<double> restitution;
     std::uint64_t seed = 1;
-    std::string engine = "simbody";
+    std::string engine = engines::registry().reference().name;
 };
 
 constexpr double kPerMm3 = 1e9;
@@ -289,7 +290,10 @@ void addPartCommand(CLI::App& program, Invocation& invocation) {
         .needs(drop);
     command.addOption("--restitution", options->restitution, "(0.2)").range(0.0, 1.0).needs(drop);
     command.addOption("--seed", options->seed, "Of the drops (1)").needs(drop);
-    command.addOption("--engine", options->engine, "What simulates the drops: simbody or native (simbody)")
+    command
+        .addOption("--engine", options->engine,
+                   fmt::format("What simulates the drops: {0} or {1} ({0})", options->engine,
+                               engines::registry().quick().name))
         .needs(drop);
 }
 

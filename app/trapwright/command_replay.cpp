@@ -13,6 +13,7 @@
 #include "app/trapwright/work_display.h"
 #include "core/base/file.h"
 #include "core/workflow/study_trials.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -86,7 +87,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.failure();
     const workflow::TrialsRequest request = makeRequest(options, *individual);
-    const auto trials = workflow::findStoredTrials(study->file, study->settings, request);
+    const auto trials =
+        workflow::findStoredTrials(study->file, study->settings, engines::registry(), request);
     if (!trials) return Failure{ExitCode::badInput, trials.error().message};
     if (options.trial < 0 || options.trial >= trials->count)
         return refuseTrial(options, *individual, trials->count);

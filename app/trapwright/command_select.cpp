@@ -26,7 +26,7 @@ struct Options {
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openStudy(options.study, Access::write);
     if (!study) return study.failure();
-    auto inputs = makeInputs(*study, options.engine, workflow::EngineUse::judging, options.threads);
+    auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
     if (!inputs) return inputs.failure();
     study::ValidationSettings& validation = inputs->settings.validation;
     validation.selectionWinners = options.winners.value_or(validation.selectionWinners);

@@ -12,7 +12,7 @@
 #include "app/trapwright/work_display.h"
 #include "core/study/settings.h"
 #include "core/verify/conveying.h"
-#include "core/workflow/study_engines.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -27,7 +27,7 @@ struct Options {
     double angle = 12.0;      // [deg]
     std::optional<double> friction;
     std::optional<double> restitution;
-    std::string engine = "simbody";
+    std::string engine = engines::registry().reference().name;
 };
 
 trial::Vibration driveFor(const Options& options, int row) {
@@ -51,7 +51,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         return Failure{ExitCode::usage, fmt::format("--step {} is too fine.", options.step)};
     auto loaded = loadPart(options.part, console);
     if (!loaded) return loaded.failure();
-    auto engine = makeEngine(workflow::engineFor(options.engine, workflow::EngineUse::judging), {});
+    auto engine = makeJudge(options.engine, {});
     if (!engine) return engine.failure();
 
     verify::ConveyingScene scene;
@@ -108,7 +108,7 @@ void addSweepCommand(CLI::App& program, Invocation& invocation) {
     command.addOption("--angle", options->angle, "Of the vibration in degrees (12)").range(0.1, 89.0);
     command.addOption("--friction", options->friction, "Static and kinetic (0.5)").range(0.0, 2.0);
     command.addOption("--restitution", options->restitution, "(0.3)").range(0.0, 1.0);
-    command.addOption("--engine", options->engine, "What simulates (simbody)");
+    command.addOption("--engine", options->engine, fmt::format("What simulates ({})", options->engine));
 }
 
 }  // namespace trapwright::app

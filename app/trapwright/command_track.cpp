@@ -14,7 +14,7 @@
 #include "core/study/evaluator.h"
 #include "core/study/track_trials.h"
 #include "core/track/track_file.h"
-#include "core/workflow/study_engines.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -30,7 +30,7 @@ struct Options {
     std::optional<double> restitution;
     double step = 0.0;        // [ms]; 0: the engine's own
     double tolerance = 25.0;  // [deg]
-    std::string engine = "simbody";
+    std::string engine = engines::registry().reference().name;
     unsigned threads = 0;
 };
 
@@ -63,8 +63,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!file) return Failure{ExitCode::badInput, file.error().message};
     auto loaded = loadPart(options.part, console);
     if (!loaded) return loaded.failure();
-    auto engine = makeEngine(workflow::engineFor(options.engine, workflow::EngineUse::judging),
-                             {options.threads, options.step * 1e-3});
+    auto engine = makeJudge(options.engine, {options.threads, options.step * 1e-3});
     if (!engine) return engine.failure();
     const std::shared_ptr<const part::Part> part = loaded->part;
     const study::Settings settings = settingsFor(options, file->track);
@@ -129,7 +128,7 @@ void addTrackCommand(CLI::App& program, Invocation& invocation) {
     command.addOption("--restitution", options->restitution, "From 0 to 1 (0.3)");
     command.addOption("--step", options->step, "Of simulated time in ms (the engine's own)").range(1e-4, 2.0);
     command.addOption("--tolerance", options->tolerance, "Of the orientation in degrees (25)");
-    command.addOption("--engine", options->engine, "What simulates (simbody)");
+    command.addOption("--engine", options->engine, fmt::format("What simulates ({})", options->engine));
     command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }
 

@@ -41,7 +41,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!study) return study.failure();
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.failure();
-    auto inputs = makeInputs(*study, options.engine, workflow::EngineUse::judging, options.threads);
+    auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
     if (!inputs) return inputs.failure();
     study::ValidationSettings& validation = inputs->settings.validation;
     validation.trialsPerPose = options.trials.value_or(validation.trialsPerPose);

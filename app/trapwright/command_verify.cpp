@@ -9,27 +9,28 @@
 #include "app/trapwright/engines.h"
 #include "app/trapwright/work_display.h"
 #include "core/verify/verify.h"
-#include "core/workflow/study_engines.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
 namespace {
 
 struct Options {
-    std::string engine = "simbody";
+    std::string engine = engines::registry().reference().name;
     std::string filter;
     bool withoutAgreement = false;
     AgreementOptions agreement;
 };
 
 // The reference is what the other is held against, and the certifying mode is too slow for so many trials.
-bool wantsAgreement(const Options& options) {
-    return options.engine == "native" && !options.withoutAgreement &&
+bool wantsAgreement(const Options& options, const trial::EngineKind& kind) {
+    return kind.role != trial::EngineRole::reference && kind.role != trial::EngineRole::certifying &&
+           !options.withoutAgreement &&
            std::string_view("agreement").find(options.filter) != std::string_view::npos;
 }
 
 // Prints the cases' rows as they come.
-Attempt<nlohmann::ordered_json> runCases(const EngineFactory& factory, const std::string& filter,
+Attempt<nlohmann::ordered_json> runCases(const trial::EngineKind& kind, const std::string& filter,
                                          const Console& console) {
     constexpr const char* kRow = "{:<48} {:<40} {:<40} {}\n";
     base::RunControl control;
@@ -40,7 +41,7 @@ Attempt<nlohmann::ordered_json> runCases(const EngineFactory& factory, const std
         watch.interrupted = [control](int) mutable { control.cancel(); };
         WorkDisplay display(console, watch);
         display.print(fmt::format(fmt::runtime(kRow), "Case", "Expected", "Got", "Verdict"));
-        verify::runCases(factory, filter, control, [&](const verify::Row& row) {
+        verify::runCases(kind, filter, control, [&](const verify::Row& row) {
             display.print(fmt::format(fmt::runtime(kRow), row.name, row.expected, row.got,
                                       row.passed ? "pass" : "FAIL"));
             rows.push_back(
@@ -51,28 +52,27 @@ Attempt<nlohmann::ordered_json> runCases(const EngineFactory& factory, const std
     return rows;
 }
 
-Attempt<ExitCode> run(Options options, const Console& console) {
+Attempt<ExitCode> run(const Options& options, const Console& console) {
     // What learns is what has to agree.
-    options.engine = workflow::engineFor(options.engine, workflow::EngineUse::learning);
-    auto factory = findEngine(options.engine);
-    if (!factory) return factory.failure();
+    auto kind = findEngine(engines::registry().nameFor(options.engine, trial::EngineUse::learning));
+    if (!kind) return kind.failure();
     std::string names;
     bool anyCase = false;
     for (const verify::Case& one : verify::allCases()) {
         anyCase = anyCase || one.name.find(options.filter) != std::string::npos;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", one.name);
     }
-    const bool agreement = wantsAgreement(options);
+    const bool agreement = wantsAgreement(options, *kind);
     if (!anyCase && !agreement) {
         return Failure{ExitCode::usage,
                        fmt::format("--case {}: no case has that in its name. The cases are: {}; "
-                                   "with --engine native also agreement.",
-                                   options.filter, names)};
+                                   "with --engine {} also agreement.",
+                                   options.filter, names, engines::registry().quick().name)};
     }
 
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     if (anyCase) {
-        auto done = runCases(*factory, options.filter, console);
+        auto done = runCases(*kind, options.filter, console);
         if (!done) return done.failure();
         rows = *done;
     }
@@ -81,12 +81,11 @@ Attempt<ExitCode> run(Options options, const Console& console) {
     bool passed = failed == 0;
     if (anyCase) {
         console.print(fmt::format("{} of {} rows pass with {}\n",
-                                  rows.size() - static_cast<std::size_t>(failed), rows.size(),
-                                  options.engine));
+                                  rows.size() - static_cast<std::size_t>(failed), rows.size(), kind->name));
     }
-    nlohmann::ordered_json answer = {{"engine", options.engine}, {"passed", passed}, {"rows", rows}};
+    nlohmann::ordered_json answer = {{"engine", kind->name}, {"passed", passed}, {"rows", rows}};
     if (agreement) {
-        auto table = runAgreement(options.agreement, console);
+        auto table = runAgreement(*kind, options.agreement, console);
         if (!table) return table.failure();
         passed = passed && (*table)["passed"].get<bool>();
         answer["passed"] = passed;
@@ -94,6 +93,17 @@ Attempt<ExitCode> run(Options options, const Console& console) {
     }
     console.emit(answer);
     return passed ? ExitCode::ok : ExitCode::no;
+}
+
+std::string describeEngines() {
+    const trial::EngineRegistry& all = engines::registry();
+    std::string text =
+        fmt::format("{0} (default); {1} or {2}, which is held against {0} as well (case agreement)",
+                    all.reference().name, all.quick().name, trial::kHybrid);
+    for (const trial::EngineKind& kind : all.kinds())
+        if (kind.role == trial::EngineRole::certifying)
+            text += fmt::format("; or {}: {}", kind.name, kind.about);
+    return text;
 }
 
 }  // namespace
@@ -104,13 +114,9 @@ void addVerifyCommand(CLI::App& program, Invocation& invocation) {
         addCommand(program, invocation, "verify",
                    "Runs an engine against known physics: case, expected, got, verdict. Exit code 1 if "
                    "any case fails.",
-                   "trapwright verify --engine simbody --case ridge",
+                   fmt::format("trapwright verify --engine {} --case ridge", options->engine),
                    [options](const Console& console) { return run(*options, console); });
-    command.addOption(
-        "--engine", options->engine,
-        "simbody (default); native or hybrid, which is held against simbody as well (case agreement); or "
-        "simbody-certifying: the continuous contact law under an error-controlled integrator, some hundred "
-        "times slower");
+    command.addOption("--engine", options->engine, describeEngines());
     command.addOption("--case", options->filter, "Only the cases with this in their name");
     command.addFlag("--no-agreement", options->withoutAgreement, "Leave out the case agreement");
     command

@@ -5,11 +5,11 @@
 #include <chrono>
 #include <mutex>
 
-#include "app/trapwright/engines.h"
 #include "app/trapwright/work_display.h"
 #include "app/trapwright/work_failure.h"
 #include "core/stats/binomial.h"
 #include "core/workflow/learning.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -141,7 +141,7 @@ Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inp
     const base::RunControl control;
     WorkDisplay display(console, watchTrials("Checking winners", workflow::countCheckTrials(left), control));
     const auto checked = workflow::checkWinners(
-        file, inputs, makeWorkEngine, left,
+        file, inputs, engines::registry(), left,
         [&](const study::CheckRecord& record) { display.print(describeCheck(record)); }, control);
     if (checked) return true;
     if (checked.error().kind == workflow::FailureKind::cancelled) return false;
@@ -181,7 +181,7 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
             }
         };
         events.checked = [&](const study::CheckRecord& record) { display.print(describeCheck(record)); };
-        return workflow::learn(file, inputs, makeWorkEngine, events, control);
+        return workflow::learn(file, inputs, engines::registry(), events, control);
     }();
     if (!learned) return toFailure(learned.error(), file);
     LearningRun ran{std::move(*learned), false};

@@ -4,12 +4,12 @@
 #include <array>
 #include <string_view>
 
-#include "app/trapwright/engines.h"
 #include "core/part/bundled.h"
 #include "core/part/import.h"
 #include "core/part/materials.h"
 #include "core/part/units.h"
 #include "core/study/presets.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -58,8 +58,9 @@ std::vector<std::string> collectNames(const Range& range, Projection name) {
 }
 
 std::vector<std::string> studyEngineNames() {
-    std::vector<std::string> names = engineNames();
-    names.emplace_back("hybrid");  // stands for two (workflow::engineFor)
+    std::vector<std::string> names =
+        collectNames(engines::registry().kinds(), [](const trial::EngineKind& kind) { return kind.name; });
+    names.emplace_back(trial::kHybrid);
     return names;
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/study/selection.h"
 #include "core/workflow/study_design.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -111,9 +112,9 @@ Attempt<study::Individual> findIndividual(const store::StudyFile& file, const In
 }
 
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       workflow::EngineUse use, unsigned threads) {
-    auto made = makeEngine(workflow::engineFor(engine.value_or(study.settings.simulation.engine), use),
-                           {threads, 0.0});
+                                       trial::EngineUse use, unsigned threads) {
+    auto made = makeEngine(
+        engines::registry().nameFor(engine.value_or(study.settings.simulation.engine), use), {threads, 0.0});
     if (!made) return made.failure();
     return study::StudyInputs{study.settings, study.part, *made,
                               threads == 0 ? base::availableThreads() : threads};

@@ -8,7 +8,7 @@
 #include "app/trapwright/options.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
-#include "core/workflow/study_engines.h"
+#include "core/trial/engine_registry.h"
 
 namespace trapwright::app {
 
@@ -49,6 +49,6 @@ Attempt<study::Individual> findIndividual(const store::StudyFile& file, const In
 /// The engine for this use that the study's setting, or the one named, means; made for these threads (0:
 /// all).
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
-                                       workflow::EngineUse use, unsigned threads);
+                                       trial::EngineUse use, unsigned threads);
 
 }  // namespace trapwright::app

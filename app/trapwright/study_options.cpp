@@ -10,6 +10,7 @@
 #include "core/base/file.h"
 #include "core/study/evaluator.h"
 #include "core/study/presets.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -116,7 +117,8 @@ void addSettingOptions(Command command, SettingOptions& options) {
     command.addOption("--seed", options.seed, "Of all random numbers");
     command.addOption(
         "--engine", options.engine,
-        "What simulates: native, simbody, or hybrid (native, each generation's winner checked by simbody)");
+        fmt::format("What simulates: {0}, {1}, or {2} ({0}, each generation's winner checked by {1})",
+                    engines::registry().quick().name, engines::registry().reference().name, trial::kHybrid));
 }
 
 Attempt<study::Settings> applySettings(study::Settings settings, const SettingOptions& options) {
@@ -134,9 +136,10 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
     evolution.seed = options.seed.value_or(evolution.seed);
     settings.simulation.engine = options.engine.value_or(settings.simulation.engine);
     if (auto engine =
-            findEngine(workflow::engineFor(settings.simulation.engine, workflow::EngineUse::learning));
+            findEngine(engines::registry().nameFor(settings.simulation.engine, trial::EngineUse::learning));
         !engine)
-        return Failure{engine.failure().code, engine.failure().message + " A study also takes hybrid."};
+        return Failure{engine.failure().code,
+                       engine.failure().message + fmt::format(" A study also takes {}.", trial::kHybrid)};
     return settings;
 }
 

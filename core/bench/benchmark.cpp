@@ -25,10 +25,10 @@ int countShareTrials(const Plan& plan) {
 
 class SceneRun {
  public:
-    SceneRun(const Scene& scene, std::span<const Contender> contenders, const Plan& plan,
+    SceneRun(const Scene& scene, std::span<const trial::EngineKind> contenders, const Plan& plan,
              base::RunControl control)
         : scene_(scene), plan_(plan), control_(std::move(control)), batch_(makeBatch(scene, plan.trials)) {
-        for (const Contender& contender : contenders) {
+        for (const trial::EngineKind& contender : contenders) {
             engines_.push_back(contender.make({1, plan.step, nullptr}));
             Measurement& measured = measurements_.emplace_back();
             measured.engine = contender.name;
@@ -43,7 +43,7 @@ class SceneRun {
         }
     }
 
-    void measureShares(std::span<const Contender> contenders) {
+    void measureShares(std::span<const trial::EngineKind> contenders) {
         trial::TrialBatch fewer = batch_;
         fewer.trials.resize(static_cast<std::size_t>(countShareTrials(plan_)));
         for (std::size_t e = 0; e < contenders.size(); ++e) {
@@ -104,7 +104,8 @@ double Measurement::stepsPerTrial() const {
     return counts.simulatedTime / step / counts.trials;
 }
 
-base::Result<std::vector<Measurement>> runScene(const Scene& scene, std::span<const Contender> contenders,
+base::Result<std::vector<Measurement>> runScene(const Scene& scene,
+                                                std::span<const trial::EngineKind> contenders,
                                                 const Plan& plan, const base::RunControl& control) {
     SceneRun run(scene, contenders, plan, control);
     run.time();

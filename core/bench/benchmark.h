@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,15 +9,9 @@
 #include "core/bench/bench_scenes.h"
 #include "core/study/track_trials.h"
 #include "core/trial/costs.h"
-#include "core/trial/engine.h"
+#include "core/trial/engine_registry.h"
 
 namespace trapwright::bench {
-
-/// An engine that can be had with any options.
-struct Contender {
-    std::string name;
-    std::function<std::unique_ptr<trial::Engine>(const trial::EngineOptions&)> make;
-};
 
 struct Plan {
     int trials = 200;   // of each scene, engine and repeat
@@ -50,7 +42,8 @@ struct Measurement {
 /// busy machine the wall clock would measure the others too. The shares of the cost come from a shorter run
 /// of their own, since telling them apart takes time. `control` advances by one per trial. An error only if
 /// cancelled.
-base::Result<std::vector<Measurement>> runScene(const Scene& scene, std::span<const Contender> contenders,
+base::Result<std::vector<Measurement>> runScene(const Scene& scene,
+                                                std::span<const trial::EngineKind> contenders,
                                                 const Plan& plan, const base::RunControl& control);
 
 }  // namespace trapwright::bench

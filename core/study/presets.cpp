@@ -67,7 +67,7 @@ Settings paperMode(Settings settings) {
     settings.evolution.racingTrials = 0;
     settings.evolution.commonRandomNumbers = false;
     settings.evolution.learningStuckTime = settings.simulation.termination.stuckTime;
-    settings.simulation.engine = "simbody";
+    settings.simulation.engine = "simbody";  // a setting like the others: the one that judges every trial
     return settings;
 }
 

@@ -70,7 +70,7 @@ struct SimulationSettings {
     trial::Termination termination;
     trial::StartPolicy start;  // of learning trials
     double gravity = base::kStandardGravity;
-    std::string engine = "hybrid";
+    std::string engine = "hybrid";  // a text of the study; what it means is trial::EngineRegistry's
 
     friend bool operator==(const SimulationSettings& a, const SimulationSettings& b);
 };

@@ -28,7 +28,8 @@ class RangeCheck {
     void text(std::string_view key, const std::string& value) {
         // A study may be set up before a part is chosen; an engine is always needed.
         if (key == "simulation.engine" && value.empty())
-            problems.emplace_back("simulation.engine is empty; name an engine, e.g. simbody.");
+            problems.push_back("simulation.engine is empty; name an engine, e.g. " +
+                               SimulationSettings().engine + ".");
         if (key == "track.traps") {
             if (const auto chain = traps::readTraps(value); !chain)
                 problems.push_back("track.traps is \"" + value + "\". " + chain.error().message);

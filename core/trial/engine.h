@@ -32,7 +32,7 @@ class Engine {
     Engine& operator=(const Engine&) = delete;
     virtual ~Engine() = default;
 
-    /// "simbody", "native".
+    /// As in studies, on the command line and in an EngineRegistry.
     [[nodiscard]] virtual std::string name() const = 0;
     /// The step of simulated time when none is asked for. [s]
     [[nodiscard]] virtual double defaultStep() const = 0;

@@ -74,8 +74,8 @@ double measureFlight(const trial::Engine& engine, double throwNumber, const base
 
 }  // namespace
 
-std::vector<Row> runStickSlip(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     std::vector<Row> rows;
     for (const double halfStroke : {0.25e-3, 0.35e-3, 0.45e-3}) {
         for (const double friction : {0.3, 0.5}) {
@@ -96,8 +96,8 @@ std::vector<Row> runStickSlip(const EngineFactory& factory, const base::RunContr
 }
 
 // Half-strokes at which the motion becomes periodic; a chaotic one has no speed to agree on.
-std::vector<Row> runHopping(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runHopping(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     std::vector<Row> rows;
     constexpr int kPeriods = 50;
     for (const double halfStroke : {0.62e-3, 0.7e-3, 0.8e-3}) {
@@ -118,8 +118,8 @@ std::vector<Row> runHopping(const EngineFactory& factory, const base::RunControl
     return rows;
 }
 
-std::vector<Row> runLiftOff(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runLiftOff(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     const bool early = leavesTrack(*engine, 0.47e-3, control);
     const bool late = leavesTrack(*engine, 0.49e-3, control);
     return {{"lift-off at 50 Hz, 12 deg", "first flight between 0.47 and 0.49 mm",
@@ -127,8 +127,8 @@ std::vector<Row> runLiftOff(const EngineFactory& factory, const base::RunControl
              !early && late}};
 }
 
-std::vector<Row> runPlasticHop(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runPlasticHop(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     const double expected = std::sqrt(1.0 + base::kPi * base::kPi);
     double low = 0.95 * expected;
     double high = 1.05 * expected;
@@ -143,15 +143,15 @@ std::vector<Row> runPlasticHop(const EngineFactory& factory, const base::RunCont
              std::abs(got / expected - 1.0) < 0.02}};
 }
 
-std::vector<Row> runStepHalved(const EngineFactory& factory, const base::RunControl& control) {
+std::vector<Row> runStepHalved(const trial::EngineKind& kind, const base::RunControl& control) {
     std::vector<Row> rows;
-    const double step = factory({})->defaultStep();
+    const double step = kind.make({})->defaultStep();
     for (const double halfStroke : {0.4e-3, 0.62e-3, 0.7e-3, 0.8e-3, 0.9e-3}) {
         trial::Vibration drive;
         drive.halfStroke = halfStroke;
         const trial::TrialBatch scene = makeLying(drive, 1.31);
-        const double whole = measureSpeed(*factory({0, step}), scene, 25, 65, control);
-        const double half = measureSpeed(*factory({0, 0.5 * step}), scene, 25, 65, control);
+        const double whole = measureSpeed(*kind.make({0, step}), scene, 25, 65, control);
+        const double half = measureSpeed(*kind.make({0, 0.5 * step}), scene, 25, 65, control);
         rows.push_back({fmt::format("step halved, flat speed at half-stroke {:g} mm", halfStroke * 1e3),
                         "changes < 3 %",
                         fmt::format("{:.2f} and {:.2f} mm/s ({:+.2f} %)", whole * 1e3, half * 1e3,

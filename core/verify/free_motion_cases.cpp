@@ -13,11 +13,6 @@ using base::Vec3;
 
 namespace {
 
-/// Largest relative deviation that a tumbling body may show in 10 s.
-double tumblingTolerance(const std::string& engine) {
-    return engine == "simbody" ? 1e-6 : 1e-3;
-}
-
 /// Rebound over impact speed of a part dropped so that it hits a plane at `speed`: from the heights of its
 /// centre.
 double measureRebound(const trial::Engine& engine, const base::Quaternion& rotation, double speed,
@@ -43,8 +38,8 @@ double measureRebound(const trial::Engine& engine, const base::Quaternion& rotat
 
 }  // namespace
 
-std::vector<Row> runTumbling(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runTumbling(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     trial::TrialBatch scene =
         makeStillScene(makeFlat(), makePaperCuboid(),
                        {base::Quaternion(0.9, 0.3, -0.2, 0.1).normalized(), Vec3(0.1, 0, 0.1)}, 10.0);
@@ -64,7 +59,7 @@ std::vector<Row> runTumbling(const EngineFactory& factory, const base::RunContro
         energyError = std::max(energyError, std::abs(calcEnergy(scene, sample) / energy0 - 1.0));
         momentumError = std::max(momentumError, (momentum(sample) - momentum0).norm() / momentum0.norm());
     }
-    const double tolerance = tumblingTolerance(engine->name());
+    const double tolerance = kind.freeMotionTolerance;
     const bool whole = trajectory.outcome.time > 9.9;
     return {{"tumbling for 10 s: energy", fmt::format("within {:.0e}", tolerance),
              fmt::format("{:.1e}", energyError), whole && energyError < tolerance},
@@ -72,8 +67,8 @@ std::vector<Row> runTumbling(const EngineFactory& factory, const base::RunContro
              fmt::format("{:.1e}", momentumError), whole && momentumError < tolerance}};
 }
 
-std::vector<Row> runBounce(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runBounce(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     std::vector<Row> rows;
     const base::Quaternion onCorner = base::Quaternion::FromTwoVectors(Vec3(2, 4, 6), Vec3::UnitZ());
     for (const double restitution : {0.0, 0.3, 0.6}) {

@@ -42,8 +42,8 @@ const trial::TrajectorySample& sampleAt(const trial::Trajectory& trajectory, dou
 
 }  // namespace
 
-std::vector<Row> runSlope(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runSlope(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     double creep = 0.0;
     double worst = 0.0;
     for (const bool along : {true, false}) {
@@ -74,8 +74,8 @@ std::vector<Row> runSlope(const EngineFactory& factory, const base::RunControl& 
              fmt::format("off by {:+.3f} %", worst * 100), std::abs(worst) < 0.01}};
 }
 
-std::vector<Row> runSliding(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runSliding(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     double least = 1e300;
     double most = 0.0;
     for (const double heading : {0.0, 45.0, 90.0, 20.0}) {
@@ -96,8 +96,8 @@ std::vector<Row> runSliding(const EngineFactory& factory, const base::RunControl
              most - least < 0.005 * expected && std::abs(most / expected - 1.0) < 0.01}};
 }
 
-std::vector<Row> runToppling(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runToppling(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     // 8 mm wide, 12 mm high: topples about its lower edge from atan(8 / 12) on.
     const double limit = std::atan2(8.0, 12.0);
     const auto topples = [&](double angle) {

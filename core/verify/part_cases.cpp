@@ -9,7 +9,7 @@
 
 namespace trapwright::verify {
 
-std::vector<Row> runStablePoses(const EngineFactory&, const base::RunControl&) {
+std::vector<Row> runStablePoses(const trial::EngineKind&, const base::RunControl&) {
     const auto cuboid = makePaperCuboid();
     std::vector<double> got;
     for (const part::StablePose& pose : part::computeStablePoses(cuboid->hull, cuboid->symmetry, true))

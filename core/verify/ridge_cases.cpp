@@ -69,8 +69,8 @@ constexpr double kEnergyNoise = 2e-3;
 
 }  // namespace
 
-std::vector<Row> runRidgeBalance(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runRidgeBalance(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     // Off the crest by a tenth of a millimetre the part must tip that way, on both sides alike; on it, stay.
     const auto tilt = [&](double offset) {
         const trial::TrialBatch scene = makeStillScene(
@@ -89,8 +89,8 @@ std::vector<Row> runRidgeBalance(const EngineFactory& factory, const base::RunCo
                  std::abs(forward + backward) < 0.1 * forward}};
 }
 
-std::vector<Row> runRidgeDrop(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runRidgeDrop(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     double deepest = 0.0;
     double gain = -1.0;
     base::Random random({1, 0, 0, 0, base::Purpose::test});
@@ -113,8 +113,8 @@ std::vector<Row> runRidgeDrop(const EngineFactory& factory, const base::RunContr
              fmt::format("by {:.1e} at most", gain), gain < kEnergyNoise}};
 }
 
-std::vector<Row> runRidgeSlide(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runRidgeSlide(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     double deepest = 0.0;
     double gain = -1.0;
     double least = 1e300;
@@ -138,8 +138,8 @@ std::vector<Row> runRidgeSlide(const EngineFactory& factory, const base::RunCont
              gain < kEnergyNoise}};
 }
 
-std::vector<Row> runThinWall(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runThinWall(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     // A blade 0.1 mm thick at its foot and 15 mm high; parts flung against it at 1 m/s.
     const auto track =
         makeSurface({0.0, kRidgeX - 0.05e-3, kRidgeX, kRidgeX + 0.05e-3, 0.3}, {-0.03, -0.01, 0.01, 0.03},
@@ -164,8 +164,8 @@ std::vector<Row> runThinWall(const EngineFactory& factory, const base::RunContro
              fmt::format("{} passed", through), through == 0}};
 }
 
-std::vector<Row> runStillTrack(const EngineFactory& factory, const base::RunControl& control) {
-    const auto engine = factory({});
+std::vector<Row> runStillTrack(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
     double drift = 0.0;
     base::Random random({3, 0, 0, 0, base::Purpose::test});
     const auto track = makeRough();

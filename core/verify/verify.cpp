@@ -25,14 +25,14 @@ std::vector<Case> allCases() {
             {"stable-poses", runStablePoses}};
 }
 
-bool runCases(const EngineFactory& factory, const std::string& filter, const base::RunControl& control,
+bool runCases(const trial::EngineKind& kind, const std::string& filter, const base::RunControl& control,
               const std::function<void(const Row&)>& report) {
     bool passed = true;
     for (const Case& test : allCases()) {
         if (test.name.find(filter) == std::string::npos) continue;
         if (control.cancelled()) return false;
         try {
-            for (const Row& row : test.run(factory, control)) {
+            for (const Row& row : test.run(kind, control)) {
                 passed = passed && row.passed;
                 report(row);
             }

@@ -6,11 +6,11 @@
 namespace trapwright::workflow {
 
 Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& inputs,
-                             const EngineMaker& makeEngine, const LearnEvents& events,
+                             const trial::EngineRegistry& engines, const LearnEvents& events,
                              const study::LearningControl& control) {
     const auto last = file.loadLearningState();
     if (!last) return Failure{FailureKind::reading, last.error().message};
-    const auto started = WinnerChecks::start(file, inputs, makeEngine, control.checks);
+    const auto started = WinnerChecks::start(file, inputs, engines, control.checks);
     if (!started) return started.error();
     WinnerChecks* const checks = started->get();
 

@@ -7,8 +7,8 @@
 #include "core/store/study_file.h"
 #include "core/study/learning_control.h"
 #include "core/study/runner.h"
+#include "core/trial/engine_registry.h"
 #include "core/workflow/failure.h"
-#include "core/workflow/study_engines.h"
 #include "core/workflow/winner_checks.h"
 
 namespace trapwright::workflow {
@@ -32,7 +32,7 @@ struct LearningReport {
 /// Learns from the last generation in the file on and saves each in it. If the study's engine setting has a
 /// reference, winners are checked meanwhile; what is left of that at the end is not waited for.
 Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& inputs,
-                             const EngineMaker& makeEngine, const LearnEvents& events,
+                             const trial::EngineRegistry& engines, const LearnEvents& events,
                              const study::LearningControl& control);
 
 }  // namespace trapwright::workflow

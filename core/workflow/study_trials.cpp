@@ -8,7 +8,6 @@
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "core/trial/orientation_metric.h"
-#include "core/workflow/study_engines.h"
 
 namespace trapwright::workflow {
 
@@ -49,12 +48,13 @@ base::Result<StoredTrials> findValidationTrials(const store::StudyFile& file,
 }  // namespace
 
 base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const study::Settings& settings,
+                                            const trial::EngineRegistry& engines,
                                             const TrialsRequest& request) {
     if (request.kind == TrialKind::selection) return findSelectionTrials(file, settings, request.winner);
     if (request.kind == TrialKind::validation)
         return findValidationTrials(file, request.winner, request.poses);
     return StoredTrials{request.winner.record.trials,
-                        engineFor(settings.simulation.engine, EngineUse::learning), std::nullopt,
+                        engines.nameFor(settings.simulation.engine, trial::EngineUse::learning), std::nullopt,
                         settings.validation.tolerance};
 }
 

@@ -12,6 +12,7 @@
 #include "core/study/records.h"
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
+#include "core/trial/engine_registry.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::workflow {
@@ -38,6 +39,7 @@ struct StoredTrials {
 
 /// Of a selection or validation the last one that the individual was in. `settings` are the study's.
 base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const study::Settings& settings,
+                                            const trial::EngineRegistry& engines,
                                             const TrialsRequest& request);
 
 /// These trials, made anew with the same bits. More than are stored only where they are numbered on: not of a

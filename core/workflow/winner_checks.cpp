@@ -9,22 +9,17 @@ WinnerChecks::WinnerChecks(store::StudyFile& file, std::unique_ptr<study::Backgr
 
 Result<std::unique_ptr<WinnerChecks>> WinnerChecks::start(store::StudyFile& file,
                                                           const study::StudyInputs& inputs,
-                                                          const EngineMaker& makeEngine,
+                                                          const trial::EngineRegistry& engines,
                                                           const base::RunControl& control) {
-    const std::string& setting = inputs.settings.simulation.engine;
-    const auto reference = referenceFor(setting);
-    if (!reference) return std::unique_ptr<WinnerChecks>();
+    const trial::EngineKind* reference = engines.referenceFor(inputs.settings.simulation.engine);
+    if (reference == nullptr) return std::unique_ptr<WinnerChecks>();
     auto unchecked = file.loadUncheckedWinners();
     if (!unchecked) return Failure{FailureKind::reading, unchecked.error().message};
-    auto judging = makeEngine(*reference, {1, 0.0});
-    if (!judging) return Failure{FailureKind::settings, judging.error().message};
-    auto learning = makeEngine(engineFor(setting, EngineUse::learning), {1, 0.0});
-    if (!learning) return Failure{FailureKind::settings, learning.error().message};
     study::StudyInputs aside = inputs;
-    aside.engine = std::move(*learning);
+    aside.engine = engines.quick().make({1, 0.0});
 
     auto background =
-        std::make_unique<study::BackgroundChecks>(std::move(aside), std::move(*judging), control);
+        std::make_unique<study::BackgroundChecks>(std::move(aside), reference->make({1, 0.0}), control);
     for (study::Individual& winner : *unchecked)
         background->add(std::move(winner));
     return std::unique_ptr<WinnerChecks>(new WinnerChecks(file, std::move(background)));
@@ -57,15 +52,14 @@ std::int64_t countCheckTrials(const std::vector<study::Individual>& winners) {
 }
 
 Result<std::monostate> checkWinners(store::StudyFile& file, const study::StudyInputs& inputs,
-                                    const EngineMaker& makeEngine,
+                                    const trial::EngineRegistry& engines,
                                     const std::vector<study::Individual>& winners, const CheckSaved& saved,
                                     const base::RunControl& control) {
-    const auto reference = referenceFor(inputs.settings.simulation.engine);
-    if (!reference || winners.empty()) return std::monostate{};
-    const auto engine = makeEngine(*reference, {inputs.threads, 0.0});
-    if (!engine) return Failure{FailureKind::settings, engine.error().message};
+    const trial::EngineKind* reference = engines.referenceFor(inputs.settings.simulation.engine);
+    if (reference == nullptr || winners.empty()) return std::monostate{};
+    const auto engine = reference->make({inputs.threads, 0.0});
     for (const study::Individual& winner : winners) {
-        const auto record = study::checkWinner(inputs, **engine, winner, control);
+        const auto record = study::checkWinner(inputs, *engine, winner, control);
         if (control.cancelled())
             return Failure{FailureKind::cancelled, "The checks of winners were cancelled."};
         if (!record) return Failure{FailureKind::simulation, record.error().message};

@@ -8,8 +8,8 @@
 #include "core/store/study_file.h"
 #include "core/study/background_checks.h"
 #include "core/study/evaluator.h"
+#include "core/trial/engine_registry.h"
 #include "core/workflow/failure.h"
-#include "core/workflow/study_engines.h"
 
 namespace trapwright::workflow {
 
@@ -23,7 +23,7 @@ class WinnerChecks {
     /// reference. Refers to `file`.
     static Result<std::unique_ptr<WinnerChecks>> start(store::StudyFile& file,
                                                        const study::StudyInputs& inputs,
-                                                       const EngineMaker& makeEngine,
+                                                       const trial::EngineRegistry& engines,
                                                        const base::RunControl& control);
 
     /// Has the generation's winner checked, if it was simulated.
@@ -46,7 +46,7 @@ std::int64_t countCheckTrials(const std::vector<study::Individual>& winners);
 /// Checks these winners with all threads of the inputs and saves each check. Winners that are left when it is
 /// cancelled or fails stay to be done. The study's engine setting has a reference.
 Result<std::monostate> checkWinners(store::StudyFile& file, const study::StudyInputs& inputs,
-                                    const EngineMaker& makeEngine,
+                                    const trial::EngineRegistry& engines,
                                     const std::vector<study::Individual>& winners, const CheckSaved& saved,
                                     const base::RunControl& control);
 

@@ -12,11 +12,12 @@ namespace trapwright::native {
 /// threads.
 class NativeEngine : public trial::Engine {
  public:
+    static constexpr const char* kName = "native";
     static constexpr double kDefaultStep = 2e-4;  // [s]
 
     explicit NativeEngine(const trial::EngineOptions& options);
 
-    [[nodiscard]] std::string name() const override { return "native"; }
+    [[nodiscard]] std::string name() const override { return kName; }
     [[nodiscard]] double defaultStep() const override { return kDefaultStep; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;

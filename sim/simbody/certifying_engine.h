@@ -12,12 +12,13 @@ namespace trapwright::simbody {
 /// integrator, some hundred times slower than SimbodyEngine, which it is there to be held against.
 class CertifyingEngine : public trial::Engine {
  public:
+    static constexpr const char* kName = "simbody-certifying";
     static constexpr double kDefaultStep = 2e-3;  // [s]
 
     /// options.step is the interval at which the ending is looked for; the integrator chooses its own steps.
     explicit CertifyingEngine(const trial::EngineOptions& options = {});
 
-    [[nodiscard]] std::string name() const override { return "simbody-certifying"; }
+    [[nodiscard]] std::string name() const override { return kName; }
     [[nodiscard]] double defaultStep() const override { return kDefaultStep; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;

@@ -14,12 +14,13 @@ namespace trapwright::simbody {
 /// own and takes the next trial as soon as one has ended.
 class SimbodyEngine : public trial::Engine {
  public:
+    static constexpr const char* kName = "simbody";
     static constexpr double kDefaultStep = 2e-4;  // [s]
     static constexpr int kBodiesPerSystem = 16;
 
     explicit SimbodyEngine(const trial::EngineOptions& options = {});
 
-    [[nodiscard]] std::string name() const override { return "simbody"; }
+    [[nodiscard]] std::string name() const override { return kName; }
     [[nodiscard]] double defaultStep() const override { return kDefaultStep; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;

@@ -2,6 +2,7 @@
 #include <exception>
 
 #include "app/trapwright/bench_run.h"
+#include "sim/engines/registry.h"
 #include "tests/peers/mujoco_engine.h"
 #include "tests/peers/ode_engine.h"
 
@@ -10,7 +11,7 @@ namespace {
 using namespace trapwright;
 
 template <class EngineType>
-bench::Contender makePeer(const std::string& name) {
+trial::EngineKind makePeer(const std::string& name) {
     return {name, [](const trial::EngineOptions& options) { return std::make_unique<EngineType>(options); }};
 }
 
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
     program.add_flag("--json", json, "Print one JSON document for machines and nothing else");
     CLI11_PARSE(program, argc, argv);
 
-    std::vector<bench::Contender> known = app::listContenders();
+    std::vector<trial::EngineKind> known = engines::registry().kinds();
     known.push_back(makePeer<peers::OdeEngine>("ode"));
     known.push_back(makePeer<peers::MujocoEngine>("mujoco"));
     const app::Console console(json);

@@ -20,11 +20,11 @@ std::unique_ptr<trial::Engine> makeEngine(const QString& name, const trial::Engi
 
 /// Whether the rows of verification with this in their name come out right.
 bool agrees(const QString& engine, double step, const std::string& filter) {
-    const verify::EngineFactory factory = [&](trial::EngineOptions options) {
-        if (options.step == 0.0) options.step = step;
-        return makeEngine(engine, options);
-    };
-    return verify::runCases(factory, filter, {}, [](const verify::ContactConstraint& row) {
+    const trial::EngineKind kind{engine.toStdString(), [&](trial::EngineOptions options) {
+                                     if (options.step == 0.0) options.step = step;
+                                     return makeEngine(engine, options);
+                                 }};
+    return verify::runCases(kind, filter, {}, [](const verify::Row& row) {
         if (!row.passed)
             qWarning("%s: expected %s, got %s", row.name.c_str(), row.expected.c_str(), row.got.c_str());
     });

@@ -62,8 +62,8 @@ SpeedChart::SpeedChart(QWidget* parent) : StudyChart("speed", tr("Speed"), &spee
 
 EngineChart::EngineChart(QWidget* parent) : StudyChart("engines", tr("Engines"), &engineSheet, parent) {
     setEmptyText(
-        tr("With the engine \"hybrid\" each generation's winner is simulated again by Simbody; what came out "
-           "appears here."));
+        tr("With the engine \"hybrid\" each generation's winner is simulated again by the reference engine; "
+           "what came out appears here."));
 }
 
 }  // namespace trapwright::charts

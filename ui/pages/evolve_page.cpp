@@ -194,6 +194,7 @@ void EvolvePage::setSession(StudySession* session) {
     log_->setSession(session);
     strip_->setSession(session);
     if (session_) {
+        form_->offer("simulation.engine", engineChoices(session_->engines()));
         session_->setThreads(static_cast<unsigned>(threads_->value()));
         connect(session_, &StudySession::settingsChanged, this, &EvolvePage::refresh);
         connect(session_, &StudySession::partChanged, this, &EvolvePage::refresh);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/study/field_text.h"
+#include "core/traps/trap_chain.h"
 
 namespace trapwright::pages {
 
@@ -80,7 +81,7 @@ const RawText kTexts[] = {
     {"simulation.start.tilt_deg", TEXT("Start tilt"), TEXT("How far parts are tilted at the start when one pose is set; the standard deviation.")},
     {"simulation.start.lateral_mm", TEXT("Start offset"), TEXT("Parts start up to this far beside the middle.")},
     {"simulation.gravity_m_s2", TEXT("Gravity"), TEXT("9.81 on Earth.")},
-    {"simulation.engine", TEXT("Engine"), TEXT("Hybrid learns with the quick engine and has each winner checked by Simbody."), {TEXT("Hybrid"), TEXT("Native"), TEXT("Simbody")}},
+    {"simulation.engine", TEXT("Engine"), TEXT("Hybrid learns with the quick engine and has each winner checked by the reference engine.")},
 
     {"validation.selectionWinners", TEXT("Winners"), TEXT("How many of the best are simulated again to choose the final one.")},
     {"validation.selectionTrials", TEXT("Trials of each"), TEXT("Parts that are simulated for each of these winners.")},
@@ -135,6 +136,32 @@ FieldText findFieldText(std::string_view key) {
     for (const char* choice : found->choices)
         if (choice != nullptr) text.choices.push_back(translated(choice));
     return text;
+}
+
+std::vector<Choice> trapChoices() {
+    std::vector<Choice> choices;
+    const auto add = [&](const std::string& value) {
+        if (const auto chain = traps::readTraps(value))
+            choices.push_back({value, QString::fromStdString(traps::describe(*chain))});
+    };
+    for (const traps::TrapKind& kind : traps::trapKinds())
+        add(std::string(kind.key));
+    for (const traps::TrapKind& first : traps::trapKinds()) {
+        for (const traps::TrapKind& second : traps::trapKinds())
+            if (&first != &second) add(std::string(first.key) + ", " + std::string(second.key));
+    }
+    return choices;
+}
+
+std::vector<Choice> engineChoices(const trial::EngineRegistry& engines) {
+    std::vector<Choice> choices;
+    for (const std::string& setting : engines.settings()) {
+        const trial::EngineKind* kind = engines.find(setting);
+        choices.push_back({setting, kind != nullptr ? QString::fromStdString(kind->title)
+                                                    : translated(QT_TRANSLATE_NOOP(
+                                                          "trapwright::pages::FieldTexts", "Hybrid"))});
+    }
+    return choices;
 }
 
 QString unitOf(std::string_view key) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/trial/engine_registry.h"
+
 namespace trapwright::pages {
 
 /// What people are told of one setting.
@@ -17,6 +19,18 @@ struct FieldText {
 
 /// The text of a setting. The key must be one of study::listFields().
 FieldText findFieldText(std::string_view key);
+
+/// A value that can be chosen for a setting: as study::setField takes it, and as people read it.
+struct Choice {
+    std::string value;
+    QString label;
+};
+
+/// What track.traps can be: each kind of trap, and each two of them one after the other.
+std::vector<Choice> trapChoices();
+
+/// What simulation.engine can be.
+std::vector<Choice> engineChoices(const trial::EngineRegistry& engines);
 
 /// The unit for people that a key ends with: "mm", "°", "kg/m³"; empty for a bare number.
 QString unitOf(std::string_view key);

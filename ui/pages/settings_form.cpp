@@ -62,6 +62,11 @@ void SettingsForm::addRow(Group& group, const std::string& key) {
     });
 }
 
+void SettingsForm::offer(const std::string& key, const std::vector<Choice>& choices) {
+    for (SettingsRow* row : rows_)
+        if (row->field().key == key) row->offer(choices);
+}
+
 void SettingsForm::show(const study::Settings& settings) {
     settings_ = settings;
     for (SettingsRow* row : rows_)

@@ -28,6 +28,8 @@ class SettingsForm : public QWidget {
     /// `defaults` is what reset goes back to.
     SettingsForm(const std::vector<FieldGroup>& groups, study::Settings defaults, QWidget* parent = nullptr);
 
+    /// What a setting that is a text can be.
+    void offer(const std::string& key, const std::vector<Choice>& choices);
     void show(const study::Settings& settings);
     /// Sentences of study::findProblems, findPartProblems (`problems`) and findRecommendations (`advice`).
     /// Those that concern no field of this form are left out.

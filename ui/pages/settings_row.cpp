@@ -8,7 +8,6 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "core/traps/trap_chain.h"
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
 #include "ui/pages/value_edit.h"
@@ -22,30 +21,15 @@ constexpr int kResetSize = 20;
 // Long enough not to take "1" for the value while "15" is typed.
 constexpr int kTypingPause = 250;  // [ms]
 
-/// Each kind of trap, and each two of them one after the other.
-std::vector<std::string> trapNames() {
-    std::vector<std::string> names;
-    for (const traps::TrapKind& kind : traps::trapKinds())
-        names.emplace_back(kind.key);
-    for (const traps::TrapKind& first : traps::trapKinds()) {
-        for (const traps::TrapKind& second : traps::trapKinds())
-            if (&first != &second) names.push_back(std::string(first.key) + ", " + std::string(second.key));
-    }
-    return names;
-}
-
-/// What people are told of a chain that a setting names.
-QString trapLabel(const std::string& name) {
-    const auto chain = traps::readTraps(name);
-    return QString::fromStdString(chain ? traps::describe(*chain) : name);
-}
-
-/// Names of a setting that is a choice for people but not a study::FieldKind::choice.
-std::vector<std::string> choiceNames(const study::FieldInfo& field) {
-    if (field.kind == study::FieldKind::flag) return {"false", "true"};
-    if (field.key == "track.traps") return trapNames();
-    if (field.key == "simulation.engine") return {"hybrid", "native", "simbody"};
-    return field.choices;
+/// Of a setting of which it is known; a text is chosen from what the form offers.
+std::vector<Choice> choicesOf(const study::FieldInfo& field, const FieldText& text) {
+    const std::vector<std::string> names =
+        field.kind == study::FieldKind::flag ? std::vector<std::string>{"false", "true"} : field.choices;
+    std::vector<Choice> choices;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        choices.push_back(
+            {names[i], i < text.choices.size() ? text.choices[i] : QString::fromStdString(names[i])});
+    return choices;
 }
 
 }  // namespace
@@ -102,8 +86,8 @@ SettingsRow::SettingsRow(study::FieldInfo field, QWidget* parent)
 }
 
 void SettingsRow::addEditor() {
-    const std::vector<std::string> names = choiceNames(field_);
-    if (names.empty()) {
+    const std::vector<Choice> choices = choicesOf(field_, text_);
+    if (choices.empty() && field_.kind != study::FieldKind::text) {
         const bool whole = field_.kind != study::FieldKind::number;
         const bool seed = field_.kind == study::FieldKind::seed;
         edit_ = new ValueEdit(unitOf(field_.key), field_.low, seed ? 1e15 : field_.high, whole, this);
@@ -118,11 +102,15 @@ void SettingsRow::addEditor() {
         return;
     }
     combo_ = new QComboBox(this);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const bool hasText = i < text_.choices.size();
-        combo_->addItem(hasText ? text_.choices[i] : trapLabel(names[i]), QString::fromStdString(names[i]));
-    }
+    offer(choices);
     connect(combo_, &QComboBox::activated, this, &SettingsRow::commit);
+}
+
+void SettingsRow::offer(const std::vector<Choice>& choices) {
+    combo_->clear();
+    for (const Choice& choice : choices)
+        combo_->addItem(choice.label, QString::fromStdString(choice.value));
+    combo_->setCurrentIndex(combo_->findData(shown_));
 }
 
 void SettingsRow::show(const study::Settings& settings, const study::Settings& defaults) {
@@ -130,8 +118,9 @@ void SettingsRow::show(const study::Settings& settings, const study::Settings& d
     default_ = QString::fromStdString(study::fieldText(defaults, field_.key));
     reset_->setVisible(shown_ != default_);
     if (combo_ != nullptr) {
-        // A chain of traps may be any.
-        if (combo_->findData(shown_) < 0) combo_->addItem(trapLabel(shown_.toStdString()), shown_);
+        // A text may be other than what is offered: a longer chain of traps.
+        if (field_.kind == study::FieldKind::text && combo_->findData(shown_) < 0)
+            combo_->addItem(shown_, shown_);
         combo_->setCurrentIndex(combo_->findData(shown_));
         reset_->setToolTip(tr("Back to %1").arg(combo_->itemText(combo_->findData(default_))));
         return;

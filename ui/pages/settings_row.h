@@ -23,6 +23,8 @@ class SettingsRow : public QWidget {
     [[nodiscard]] const study::FieldInfo& field() const { return field_; }
     [[nodiscard]] const FieldText& text() const { return text_; }
 
+    /// What the setting, which is a text, can be. Its row has nothing to choose before.
+    void offer(const std::vector<Choice>& choices);
     /// The value of these settings, and what reset goes back to. What is being typed stays if it means the
     /// same.
     void show(const study::Settings& settings, const study::Settings& defaults);

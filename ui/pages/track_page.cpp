@@ -51,6 +51,7 @@ TrackPage::TrackPage(RunActions& run, QWidget* parent)
     column->setSpacing(8);
     column->addWidget(makeHead());
     column->addWidget(form_);
+    form_->offer("track.traps", trapChoices());
     column->addStretch(1);
     auto* scroll = new QScrollArea(this);
     scroll->setWidget(contents);
@@ -263,6 +264,7 @@ void TrackPage::setSession(session::StudySession* session) {
     track_.reset();
     build_.cancel();
     if (session_) {
+        form_->offer("simulation.engine", engineChoices(session_->engines()));
         library_ = readMaterials(*session_);
         using session::StudySession;
         connect(session_, &StudySession::settingsChanged, this, &TrackPage::refresh);

@@ -9,7 +9,7 @@
 #include "core/drive/address.h"
 #include "core/drive/drive.h"
 #include "core/drive/profile.h"
-#include "core/workflow/study_engines.h"
+#include "core/trial/engine_registry.h"
 
 namespace trapwright::session {
 
@@ -32,8 +32,8 @@ struct DriveAccess {
 
 /// What the program hands to every study.
 struct Environment {
-    workflow::EngineMaker makeEngine;  // called on the threads that work
-    std::string program;               // name and version, noted in the study's file
+    trial::EngineRegistry engines;
+    std::string program;  // name and version, noted in the study's file
     /// Where a RecoveryNote is kept while a study learns; empty: none is.
     std::filesystem::path stateFolder{};
     DriveAccess drives{};

@@ -65,9 +65,10 @@ base::Error StudySession::State::cannotRead() const {
 base::Result<study::StudyInputs> StudySession::State::makeInputs(const Environment& environment,
                                                                  const study::Settings& settings,
                                                                  std::shared_ptr<const part::Part> part,
-                                                                 workflow::EngineUse use, unsigned threads) {
+                                                                 trial::EngineUse use, unsigned threads) {
     const unsigned count = threads == 0 ? base::availableThreads() : threads;
-    auto engine = environment.makeEngine(workflow::engineFor(settings.simulation.engine, use), {count, 0.0});
+    auto engine =
+        environment.engines.make(environment.engines.nameFor(settings.simulation.engine, use), {count, 0.0});
     if (!engine) return engine.error();
     return study::StudyInputs{settings, std::move(part), std::move(*engine), count};
 }
@@ -127,6 +128,10 @@ StudySession::~StudySession() {
 
 const std::filesystem::path& StudySession::path() const {
     return state_->path;
+}
+
+const trial::EngineRegistry& StudySession::engines() const {
+    return state_->environment.engines;
 }
 
 const std::filesystem::path& StudySession::ownMaterials() const {

@@ -83,6 +83,8 @@ class StudySession : public QObject {
 
     [[nodiscard]] const std::filesystem::path& path() const;
     [[nodiscard]] const study::Settings& settings() const;
+    /// Those that its settings can name.
+    [[nodiscard]] const trial::EngineRegistry& engines() const;
     /// The user's own folder of materials (part::readMaterials).
     [[nodiscard]] const std::filesystem::path& ownMaterials() const;
     [[nodiscard]] std::shared_ptr<const part::Part> part() const;

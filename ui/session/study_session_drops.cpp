@@ -38,8 +38,8 @@ void StudySession::startDrops(const study::DropSettings& settings) {
     const unsigned threads = state_->threads == 0 ? base::availableThreads() : state_->threads;
     dropSome(std::make_shared<const Dropping>(
         Dropping{settings, state_->part.part,
-                 workflow::engineFor(state_->settings.simulation.engine, workflow::EngineUse::judging),
-                 threads, state_->dropping}));
+                 engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging), threads,
+                 state_->dropping}));
     emit dropsChanged();
 }
 
@@ -48,7 +48,7 @@ void StudySession::dropSome(const std::shared_ptr<const Dropping>& dropping) {
     postSimulation(dropsFailed(), dropping->control,
                    [this, dropping, first = state_->drops->sofar.drops()]() -> Deliver {
                        const auto dropped = [&]() -> base::Result<study::DropResult> {
-                           auto engine = state_->environment.makeEngine(dropping->engine, {1, 0.0});
+                           auto engine = state_->environment.engines.make(dropping->engine, {1, 0.0});
                            if (!engine) return engine.error();
                            return study::simulateDrops(
                                **engine, dropping->part, dropping->settings, dropping->threads,

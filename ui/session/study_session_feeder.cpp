@@ -104,9 +104,9 @@ void StudySession::requestSpeedTable() {
         tr("The conveying speeds could not be simulated"), state_->speedTable,
         [this, settings = calibratedSettings(calibrationChanges(0.0)), part = state_->part.part,
          control = state_->speedTable]() -> Deliver {
-            const std::string name =
-                workflow::engineFor(settings.simulation.engine, workflow::EngineUse::learning);
-            auto engine = state_->environment.makeEngine(name, {1, 0.0});
+            const trial::EngineRegistry& engines = state_->environment.engines;
+            auto engine = engines.make(
+                engines.nameFor(settings.simulation.engine, trial::EngineUse::learning), {1, 0.0});
             if (!engine) return engine.error();
             verify::ConveyingScene scene;
             scene.part = part;

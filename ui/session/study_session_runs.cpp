@@ -109,9 +109,9 @@ std::optional<workflow::Failure> StudySession::learn(Run& run, const study::Sett
                                                      const std::shared_ptr<const part::Part>& part,
                                                      unsigned threads) {
     const RecoveryNote note(state_->environment.stateFolder, state_->writer.file().path());
-    const workflow::EngineMaker& makeEngine = state_->environment.makeEngine;
+    const trial::EngineRegistry& engines = state_->environment.engines;
     const auto inputs =
-        State::makeInputs(state_->environment, settings, part, workflow::EngineUse::learning, threads);
+        State::makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
     if (!inputs) return settingsFailure(inputs.error());
 
     workflow::LearnEvents events;
@@ -136,7 +136,7 @@ std::optional<workflow::Failure> StudySession::learn(Run& run, const study::Sett
             emit checkSaved(check.generation);
         });
     };
-    const auto report = workflow::learn(state_->writer.file(), *inputs, makeEngine, events, run.learning);
+    const auto report = workflow::learn(state_->writer.file(), *inputs, engines, events, run.learning);
     if (!report) return report.error();
     // Who asked to stop did not ask for the checks that are left.
     if (report->end != study::LearningEnd::completed || run.learning.stopRequested()) return std::nullopt;
@@ -144,7 +144,7 @@ std::optional<workflow::Failure> StudySession::learn(Run& run, const study::Sett
         state_->run->plan.reset();
         state_->run->total = total;
     });
-    const auto checked = workflow::checkWinners(state_->writer.file(), *inputs, makeEngine, report->unchecked,
+    const auto checked = workflow::checkWinners(state_->writer.file(), *inputs, engines, report->unchecked,
                                                 events.checked, run.trials);
     if (!checked) return checked.error();
     return std::nullopt;
@@ -154,7 +154,7 @@ void StudySession::startSelection() {
     const auto work = [this, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            State::makeInputs(state_->environment, settings, part, workflow::EngineUse::judging, threads);
+            State::makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
         if (!inputs) return settingsFailure(inputs.error());
         auto candidates = workflow::findCandidates(state_->writer.file(), *inputs);
         if (!candidates) return candidates.error();
@@ -177,7 +177,7 @@ void StudySession::startValidation(const study::Individual& winner,
     const auto work = [this, winner, expected, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            State::makeInputs(state_->environment, settings, part, workflow::EngineUse::judging, threads);
+            State::makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
         if (!inputs) return settingsFailure(inputs.error());
         tell(this, [this, total = workflow::countValidationTrials(*inputs)] { state_->run->total = total; });
         auto record = workflow::validateAndSave(state_->writer.file(), *inputs, winner, expected, run.trials);

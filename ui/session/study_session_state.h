@@ -13,7 +13,6 @@
 #include "core/base/run_control.h"
 #include "core/study/evaluator.h"
 #include "core/study/learning_control.h"
-#include "core/workflow/study_engines.h"
 #include "ui/session/design_commands.h"
 #include "ui/session/opened_study.h"
 #include "ui/session/study_session.h"
@@ -110,8 +109,7 @@ struct StudySession::State {
     [[nodiscard]] static base::Result<study::StudyInputs> makeInputs(const Environment& environment,
                                                                      const study::Settings& settings,
                                                                      std::shared_ptr<const part::Part> part,
-                                                                     workflow::EngineUse use,
-                                                                     unsigned threads);
+                                                                     trial::EngineUse use, unsigned threads);
 };
 
 /// Has the GUI thread call `act`, unless the session is gone by then.

@@ -27,14 +27,13 @@ void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest&
         emit failed(what, QString::fromStdString(state_->cannotRead().message));
         return;
     }
-    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, request);
+    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, engines(), request);
     if (!stored || (stored->count == 0 && request.count == 0)) {
         emit failed(what, stored ? noTrials() : QString::fromStdString(stored.error().message));
         return;
     }
     if (stored->engine.empty())
-        stored->engine =
-            workflow::engineFor(state_->settings.simulation.engine, workflow::EngineUse::judging);
+        stored->engine = engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging);
     if (!request.engine.empty()) stored->engine = request.engine;
     postSimulation(
         what, state_->simulated,
@@ -42,7 +41,7 @@ void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest&
          settings = state_->settings, part = state_->part.part, control = state_->simulated]() -> Deliver {
             auto batch = workflow::makeTrials(settings, part, request, stored);
             if (!batch) return batch.error();
-            auto engine = state_->environment.makeEngine(stored.engine, {threads, 0.0});
+            auto engine = state_->environment.engines.make(stored.engine, {threads, 0.0});
             if (!engine) return engine.error();
             return simulate(std::make_shared<const Simulation>(
                 Simulation{settings, part, stored, std::move(*batch), std::move(*engine), control}));
@@ -140,7 +139,7 @@ void StudySession::requestEstimate() {
                               part = state_->part.part, threads = state_->threads] {
         if (control.cancelled()) return;
         const auto inputs =
-            State::makeInputs(state_->environment, settings, part, workflow::EngineUse::learning, threads);
+            State::makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
         if (!inputs) return;
         const auto seconds = workflow::timeTrial(*inputs, kEstimateBudget, control);
         if (!seconds) return;

@@ -52,10 +52,10 @@ StateFace faceOf(RunState state, bool problems) {
     return {};
 }
 
-/// "simbody" -> "Simbody"
-QString engineName(const std::string& engine) {
-    QString name = QString::fromStdString(engine);
-    return name.replace(0, 1, name.left(1).toUpper());
+/// The engine's title; one that is not there any more is called by its name.
+QString engineTitle(const trial::EngineRegistry& engines, const std::string& name) {
+    const trial::EngineKind* kind = engines.find(name);
+    return QString::fromStdString(kind != nullptr ? kind->title : name);
 }
 
 }  // namespace
@@ -194,10 +194,13 @@ void StatusLine::updateEngines() {
     if (!session_) return;
     if (session_->checks().empty()) {
         // Only this engine has its winners checked.
-        if (session_->settings().simulation.engine != "hybrid" || session_->summaries().empty()) return;
-        engines_->setText(tr("Simbody: not checked yet"));
+        const auto* reference = session_->engines().referenceFor(session_->settings().simulation.engine);
+        if (reference == nullptr || session_->summaries().empty()) return;
+        const QString title = QString::fromStdString(reference->title);
+        engines_->setText(tr("%1: not checked yet").arg(title));
         engines_->setToolTip(
-            tr("Each generation's winner is simulated again by Simbody, the reference, in the background"));
+            tr("Each generation's winner is simulated again by %1, the reference, in the background")
+                .arg(title));
         return;
     }
     const study::CheckRecord& check = session_->checks().back();
@@ -211,7 +214,8 @@ void StatusLine::updateEngines() {
     const QString text = !alike ? tr("%1 differs: %2 % and %3 %")
                          : near ? tr("%1 agrees: %2 % and %3 %")
                                 : tr("%1: %2 % and %3 %, too few trials to tell");
-    engines_->setText(text.arg(engineName(check.reference.engine), models::percent(learned, check.trials),
+    engines_->setText(text.arg(engineTitle(session_->engines(), check.reference.engine),
+                               models::percent(learned, check.trials),
                                models::percent(checked, check.trials)));
     engines_->setToolTip(
         tr("Success on the same %1 trials of generation %2's winner: %3 in the "
@@ -220,9 +224,9 @@ void StatusLine::updateEngines() {
             .arg(check.trials)
             .arg(check.generation)
             .arg(learned)
-            .arg(engineName(check.learning.engine))
+            .arg(engineTitle(session_->engines(), check.learning.engine))
             .arg(checked)
-            .arg(engineName(check.reference.engine)));
+            .arg(engineTitle(session_->engines(), check.reference.engine)));
 }
 
 }  // namespace trapwright::window

@@ -105,8 +105,8 @@ class BenchmarkTest : public QObject {
         return {"flat", verify::makeFlat(), verify::makePaperCuboid(), {}, 0.0, {}};
     }
 
-    std::vector<bench::Contender> contenders(const std::vector<std::string>& names) {
-        std::vector<bench::Contender> list;
+    std::vector<trial::EngineKind> contenders(const std::vector<std::string>& names) {
+        std::vector<trial::EngineKind> list;
         list.reserve(names.size());
         for (const std::string& name : names) {
             list.push_back({name, [this, name](const trial::EngineOptions& options) {

@@ -8,7 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/study/evaluator.h"
 #include "core/study/presets.h"
-#include "core/trial/engine.h"
+#include "core/trial/engine_registry.h"
 
 /// QVERIFY for a Result, with its message.
 #define VERIFY_OK(result)                                                                                 \
@@ -97,6 +97,29 @@ inline trial::Outcome waveLaw(const trial::TrialBatch& batch, const trial::Trial
                                   : (random.boolean() ? trial::Ending::stuck : trial::Ending::fellOff);
     outcome.time = random.uniform(1.0, 2.0);
     return outcome;
+}
+
+/// The engines "native", the quick one, and "simbody", the reference, both made like this.
+template <class Make>
+trial::EngineRegistry enginesMadeBy(Make make) {
+    const auto kind = [&](const std::string& name, const std::string& title, trial::EngineRole role) {
+        return trial::EngineKind{
+            name, [make, name](const trial::EngineOptions& options) { return make(name, options); }, title,
+            role};
+    };
+    return trial::EngineRegistry({kind("native", "Native", trial::EngineRole::quick),
+                                  kind("simbody", "Simbody", trial::EngineRole::reference)});
+}
+
+/// Both judge by the law.
+inline trial::EngineRegistry lawEngines(const Law& law = waveLaw,
+                                        const std::function<void()>& afterTrial = {}) {
+    return enginesMadeBy([=](const std::string& name, const trial::EngineOptions& options) {
+        auto engine = std::make_unique<FakeEngine>(law, options.threads);
+        engine->title = name;
+        engine->afterTrial = afterTrial;
+        return engine;
+    });
 }
 
 /// The 4 x 8 x 12 mm block, as far as these tests need it.

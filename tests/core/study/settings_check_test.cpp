@@ -191,7 +191,7 @@ class SettingsCheckTest : public QObject {
             "simulation.start.nearPose has the length 2; a rotation [w, x, y, z] must have the length 1.");
         row(
             "no engine", [](Settings& s) { s.simulation.engine.clear(); },
-            "simulation.engine is empty; name an engine, e.g. simbody.");
+            "simulation.engine is empty; name an engine, e.g. hybrid.");
         row(
             "wide bowl",
             [](Settings& s) {

@@ -21,7 +21,7 @@ class LearningTest : public QObject {
             told.push_back(record);
             QCOMPARE(study.file->generationCount().value(), record.index + 1);
         };
-        const auto report = workflow::learn(*study.file, study.inputs, fake::engineMaker(), events, {});
+        const auto report = workflow::learn(*study.file, study.inputs, fake::lawEngines(), events, {});
         QVERIFY(report.ok());
         QCOMPARE(report->end, study::LearningEnd::completed);
         QVERIFY(report->unchecked.empty());
@@ -47,16 +47,16 @@ class LearningTest : public QObject {
 
     void goesOnFromTheFile() {
         fake::WaveStudy whole("native", 5);
-        QVERIFY(workflow::learn(*whole.file, whole.inputs, fake::engineMaker(), {}, {}).ok());
+        QVERIFY(workflow::learn(*whole.file, whole.inputs, fake::lawEngines(), {}, {}).ok());
         fake::WaveStudy broken("native", 5);
         study::LearningControl control;
         workflow::LearnEvents events;
         events.saved = [&](const study::GenerationRecord&) { control.stopAfterGeneration(); };
-        const auto first = workflow::learn(*broken.file, broken.inputs, fake::engineMaker(), events, control);
+        const auto first = workflow::learn(*broken.file, broken.inputs, fake::lawEngines(), events, control);
         QVERIFY(first.ok());
         QCOMPARE(first->end, study::LearningEnd::stopped);
         QCOMPARE(broken.file->generationCount().value(), 1);
-        QVERIFY(workflow::learn(*broken.file, broken.inputs, fake::engineMaker(), {}, {}).ok());
+        QVERIFY(workflow::learn(*broken.file, broken.inputs, fake::lawEngines(), {}, {}).ok());
         QCOMPARE(broken.file->loadGeneration(4).value().individuals,
                  whole.file->loadGeneration(4).value().individuals);
     }
@@ -66,7 +66,7 @@ class LearningTest : public QObject {
         int checked = 0;
         workflow::LearnEvents events;
         events.checked = [&](const study::CheckRecord&) { ++checked; };
-        const auto report = workflow::learn(*study.file, study.inputs, fake::engineMaker(), events, {});
+        const auto report = workflow::learn(*study.file, study.inputs, fake::lawEngines(), events, {});
         QVERIFY(report.ok());
         int simulated = 0;
         const std::vector<study::Individual> winners = study.file->loadWinners().value();
@@ -75,7 +75,7 @@ class LearningTest : public QObject {
         QCOMPARE(checked + static_cast<int>(report->unchecked.size()), simulated);
         QCOMPARE(workflow::countCheckTrials(report->unchecked),
                  static_cast<std::int64_t>(2 * 6 * report->unchecked.size()));
-        QVERIFY(workflow::checkWinners(*study.file, study.inputs, fake::engineMaker(), report->unchecked,
+        QVERIFY(workflow::checkWinners(*study.file, study.inputs, fake::lawEngines(), report->unchecked,
                                        events.checked, {})
                     .ok());
         QCOMPARE(checked, simulated);
@@ -84,15 +84,9 @@ class LearningTest : public QObject {
 
     void failuresTellTheirKind() {
         fake::WaveStudy study("hybrid", 2);
-        const auto onlyNative = [](const std::string& name, const trial::EngineOptions& options) {
-            return name == "native" ? fake::engineMaker()(name, options)
-                                    : base::Result<std::shared_ptr<const trial::Engine>>(base::Error{"none"});
-        };
-        QCOMPARE(kindOf(workflow::learn(*study.file, study.inputs, onlyNative, {}, {})),
-                 FailureKind::settings);
         auto reader = store::StudyFile::openReadOnly(study.path);
         VERIFY_OK(reader);
-        QCOMPARE(kindOf(workflow::learn(*reader, study.inputs, fake::engineMaker(), {}, {})),
+        QCOMPARE(kindOf(workflow::learn(*reader, study.inputs, fake::lawEngines(), {}, {})),
                  FailureKind::saving);
         study::StudyInputs broken = study.inputs;
         broken.engine = std::make_shared<fake::FakeEngine>(
@@ -101,11 +95,11 @@ class LearningTest : public QObject {
                 outcome.farthest.position.x() = std::nan("");
                 return outcome;
             });
-        QCOMPARE(kindOf(workflow::learn(*study.file, broken, fake::engineMaker(), {}, {})),
+        QCOMPARE(kindOf(workflow::learn(*study.file, broken, fake::lawEngines(), {}, {})),
                  FailureKind::simulation);
 
         QCOMPARE(kindOf(workflow::findCandidates(*study.file, study.inputs)), FailureKind::reading);
-        QVERIFY(workflow::learn(*study.file, study.inputs, fake::engineMaker(), {}, {}).ok());
+        QVERIFY(workflow::learn(*study.file, study.inputs, fake::lawEngines(), {}, {}).ok());
         auto candidates = workflow::findCandidates(*study.file, study.inputs);
         QVERIFY(candidates.ok());
         base::RunControl cancelled;

@@ -20,7 +20,7 @@ class StudyTrialsTest : public QObject {
         study::Settings& settings = study_->inputs.settings;
         settings.validation.selectionTrials = 9;
         settings.validation.trialsPerPose = 5;
-        QVERIFY(workflow::learn(*study_->file, study_->inputs, fake::engineMaker(), {}, {}).ok());
+        QVERIFY(workflow::learn(*study_->file, study_->inputs, fake::lawEngines(), {}, {}).ok());
         winner_ = study_->file->loadWinners().value().back();
         QVERIFY(workflow::validateAndSave(*study_->file, study_->inputs, winner_, std::nullopt, {}).ok());
         QVERIFY(workflow::selectAndSave(*study_->file, study_->inputs, {winner_}, {}).ok());
@@ -100,7 +100,8 @@ class StudyTrialsTest : public QObject {
 
  private:
     workflow::StoredTrials find(const workflow::TrialsRequest& request) {
-        const auto stored = workflow::findStoredTrials(*study_->file, study_->inputs.settings, request);
+        const auto stored =
+            workflow::findStoredTrials(*study_->file, study_->inputs.settings, fake::lawEngines(), request);
         [&] { VERIFY_OK(stored); }();
         return *stored;
     }

@@ -3,24 +3,28 @@
 #include <QtTest>
 #include <memory>
 
-#include "sim/native/native_engine.h"
-#include "sim/simbody/simbody_engine.h"
+#include "sim/engines/registry.h"
 
-/// For tests of what every engine must do: initTestCase_data() calls addEngines(), and so each test function
-/// is run with each engine.
+/// For tests of what every engine must do that can learn: initTestCase_data() calls addEngines(), and so each
+/// test function is run with each engine.
 namespace trapwright::testing {
 
 inline void addEngines() {
-    QTest::addColumn<bool>("native");
-    QTest::newRow("simbody") << false;
-    QTest::newRow("native") << true;
+    QTest::addColumn<QString>("engine");
+    for (const trial::EngineKind& kind : engines::registry().kinds())
+        if (kind.role != trial::EngineRole::certifying)
+            QTest::newRow(kind.name.c_str()) << QString::fromStdString(kind.name);
 }
 
 /// The engine that the running test function is for.
+inline const trial::EngineKind& engineKind() {
+    QFETCH_GLOBAL(QString, engine);
+    return *engines::registry().find(engine.toStdString());
+}
+
+/// The same, made with these options.
 inline std::unique_ptr<trial::Engine> makeEngine(const trial::EngineOptions& options = {}) {
-    QFETCH_GLOBAL(bool, native);
-    if (native) return std::make_unique<native::NativeEngine>(options);
-    return std::make_unique<simbody::SimbodyEngine>(options);
+    return engineKind().make(options);
 }
 
 }  // namespace trapwright::testing

@@ -9,10 +9,6 @@ using namespace trapwright;
 class VerifyTest : public QObject {
     Q_OBJECT
 
-    static verify::EngineFactory makeFactory() {
-        return [](const trial::EngineOptions& options) { return testing::makeEngine(options); };
-    }
-
  private slots:
     void initTestCase_data() { testing::addEngines(); }
 
@@ -25,12 +21,14 @@ class VerifyTest : public QObject {
         QFETCH(QString, name);
         int rows = 0;
         bool passed = true;
-        const bool all = verify::runCases(makeFactory(), name.toStdString(), {}, [&](const verify::Row& row) {
-            ++rows;
-            passed = passed && row.passed;
-            if (!row.passed)
-                qWarning("%s: expected %s, got %s", row.name.c_str(), row.expected.c_str(), row.got.c_str());
-        });
+        const bool all =
+            verify::runCases(testing::engineKind(), name.toStdString(), {}, [&](const verify::Row& row) {
+                ++rows;
+                passed = passed && row.passed;
+                if (!row.passed)
+                    qWarning("%s: expected %s, got %s", row.name.c_str(), row.expected.c_str(),
+                             row.got.c_str());
+            });
         QVERIFY(rows > 0);
         QVERIFY(passed);
         QVERIFY(all);
@@ -40,7 +38,7 @@ class VerifyTest : public QObject {
         base::RunControl control;
         control.cancel();
         int rows = 0;
-        QVERIFY(!verify::runCases(makeFactory(), "", control, [&](const verify::Row&) { ++rows; }));
+        QVERIFY(!verify::runCases(testing::engineKind(), "", control, [&](const verify::Row&) { ++rows; }));
         QCOMPARE(rows, 0);
     }
 
@@ -48,11 +46,12 @@ class VerifyTest : public QObject {
         // Cancelled after it has begun: the engine's error becomes a row.
         base::RunControl control;
         int failed = 0;
-        const verify::EngineFactory factory = [&](const trial::EngineOptions& options) {
+        trial::EngineKind kind = testing::engineKind();
+        kind.make = [&](const trial::EngineOptions& options) {
             control.cancel();
             return testing::makeEngine(options);
         };
-        QVERIFY(!verify::runCases(factory, "bounce", control, [&](const verify::Row& row) {
+        QVERIFY(!verify::runCases(kind, "bounce", control, [&](const verify::Row& row) {
             failed += row.passed ? 0 : 1;
             QVERIFY(row.got.find("cancelled") != std::string::npos);
         }));

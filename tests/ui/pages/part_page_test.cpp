@@ -21,6 +21,7 @@
 #include "core/study/presets.h"
 #include "core/workflow/part_source.h"
 #include "sim/native/native_engine.h"
+#include "tests/core/study/fake_engine.h"
 #include "ui/pages/materials_dialog.h"
 #include "ui/pages/run_actions.h"
 #include "ui/pages/track_page.h"
@@ -36,11 +37,9 @@ session::Environment environment(const std::filesystem::path& own) {
     session::Environment environment;
     environment.program = "trapwright 0.0-test";
     environment.ownMaterials = own;
-    environment.makeEngine =
-        [](const std::string&,
-           const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
-        return std::shared_ptr<const trial::Engine>(std::make_shared<native::NativeEngine>(options));
-    };
+    environment.engines = fake::enginesMadeBy([](const std::string&, const trial::EngineOptions& options) {
+        return std::make_unique<native::NativeEngine>(options);
+    });
     return environment;
 }
 

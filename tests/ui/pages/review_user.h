@@ -18,11 +18,9 @@ inline constexpr int kPatience = 60000;  // [ms] for what happens in the backgro
 inline session::Environment nativeEnvironment() {
     session::Environment environment;
     environment.program = "trapwright test";
-    environment.makeEngine =
-        [](const std::string&,
-           const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
-        return std::shared_ptr<const trial::Engine>(std::make_shared<native::NativeEngine>(options));
-    };
+    environment.engines = fake::enginesMadeBy([](const std::string&, const trial::EngineOptions& options) {
+        return std::make_unique<native::NativeEngine>(options);
+    });
     return environment;
 }
 

@@ -3,8 +3,7 @@
 #include <QtTest>
 #include <algorithm>
 
-#include "sim/native/native_engine.h"
-#include "sim/simbody/simbody_engine.h"
+#include "sim/engines/registry.h"
 #include "tests/ui/session/event_loop_probe.h"
 #include "tests/ui/session/session_fixture.h"
 
@@ -18,13 +17,7 @@ constexpr double kBound = 50.0;  // the studio promises not to be later [ms]
 /// The engines of the program, on all processors.
 Environment realEnvironment(const SessionFixture& fixture) {
     Environment environment = fixture.environment();
-    environment.makeEngine =
-        [](const std::string& name,
-           const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
-        if (name == "native")
-            return std::shared_ptr<const trial::Engine>(std::make_shared<native::NativeEngine>(options));
-        return std::shared_ptr<const trial::Engine>(std::make_shared<simbody::SimbodyEngine>(options));
-    };
+    environment.engines = engines::registry();
     return environment;
 }
 

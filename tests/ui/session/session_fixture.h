@@ -51,16 +51,9 @@ class SessionFixture {
         Environment environment;
         environment.program = kProgram;
         environment.stateFolder = path("state");
-        environment.makeEngine =
-            [time = trialTime](
-                const std::string& name,
-                const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
-            if (name != "native" && name != "simbody") return base::Error{"There is no engine " + name + "."};
-            auto engine = std::make_shared<fake::FakeEngine>(fake::waveLaw, options.threads);
-            engine->title = name;
-            if (time.count() > 0) engine->afterTrial = [time] { std::this_thread::sleep_for(time); };
-            return std::shared_ptr<const trial::Engine>(engine);
-        };
+        environment.engines = fake::lawEngines(fake::waveLaw, [time = trialTime] {
+            if (time.count() > 0) std::this_thread::sleep_for(time);
+        });
         return environment;
     }
 

@@ -233,11 +233,10 @@ class StudyFeederTest : public QObject {
     // The half-stroke that is set is found again from the speed at which the part is conveyed at it.
     void simulatedSpeedGivesTheHalfStroke() {
         Environment environment = fixture_->environment();
-        environment.makeEngine =
-            [](const std::string&,
-               const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
-            return std::shared_ptr<const trial::Engine>(std::make_shared<native::NativeEngine>(options));
-        };
+        environment.engines =
+            fake::enginesMadeBy([](const std::string&, const trial::EngineOptions& options) {
+                return std::make_unique<native::NativeEngine>(options);
+            });
         auto made = StudySession::create(fixture_->path("a.trap"), smallSettings(), cuboid(), environment);
         VERIFY_OK(made);
         StudySession& session = **made;

@@ -12,11 +12,9 @@ namespace {
 
 Environment nativeEnvironment(const SessionFixture& fixture) {
     Environment environment = fixture.environment();
-    environment.makeEngine =
-        [](const std::string&,
-           const trial::EngineOptions& options) -> base::Result<std::shared_ptr<const trial::Engine>> {
-        return std::shared_ptr<const trial::Engine>(std::make_shared<native::NativeEngine>(options));
-    };
+    environment.engines = fake::enginesMadeBy([](const std::string&, const trial::EngineOptions& options) {
+        return std::make_unique<native::NativeEngine>(options);
+    });
     return environment;
 }
 

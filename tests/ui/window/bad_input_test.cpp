@@ -8,9 +8,9 @@
 #include <QToolButton>
 #include <csignal>
 
-#include "app/trapwright/engines.h"
 #include "core/study/presets.h"
 #include "core/workflow/part_source.h"
+#include "sim/engines/registry.h"
 #include "tests/ui/window/user.h"
 #include "ui/pages/value_edit.h"
 
@@ -295,7 +295,7 @@ class BadInputTest : public QObject {
     // What was learned stays, the study is still open, and goes on when there is space again.
     void aDiskThatFillsUpWhileItLearns() {
         makeStudy("filled.trap");
-        window::MainWindow window{{app::makeWorkEngine, "trapwright test", {}}};
+        window::MainWindow window{{engines::registry(), "trapwright test", {}}};
         window.show();
         window.openFile(path("filled.trap").toStdString());
         QTRY_VERIFY_WITH_TIMEOUT(window.desk().session() != nullptr, kPatience);

@@ -6,9 +6,9 @@
 #include <QTextBrowser>
 #include <QToolButton>
 
-#include "app/trapwright/engines.h"
 #include "core/store/study_file.h"
 #include "core/study/track_design.h"
+#include "sim/engines/registry.h"
 #include "tests/ui/window/user.h"
 #include "ui/help/help_window.h"
 #include "ui/window/study_card.h"
@@ -350,7 +350,7 @@ class FirstRunTest : public QObject {
     }
 
     void whatLearningTakesIsToldBeforeItStarts() {
-        WindowUser user({app::makeWorkEngine, "trapwright test", {}});
+        WindowUser user({engines::registry(), "trapwright test", {}});
         user.window.openFile(tests::bundled("cuboid"));
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
         user.window.showPage("track");
@@ -374,7 +374,7 @@ class FirstRunTest : public QObject {
     }
 
     void startedOnReviewThePageStays() {
-        WindowUser user({app::makeWorkEngine, "trapwright test", {}});
+        WindowUser user({engines::registry(), "trapwright test", {}});
         user.window.openFile(tests::bundled("cuboid"));
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
         user.window.showPage("review");
@@ -391,7 +391,7 @@ class FirstRunTest : public QObject {
     }
 
     void theExampleLearnsByOneKey() {
-        WindowUser user({app::makeWorkEngine, "trapwright test", {}});
+        WindowUser user({engines::registry(), "trapwright test", {}});
         QTRY_COMPARE(focused(user), QString("welcome.example"));
         QElapsedTimer clock;
         clock.start();

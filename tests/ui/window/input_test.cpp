@@ -28,6 +28,14 @@ namespace {
 
 constexpr std::array kPages = {"part", "track", "evolve", "review", "export", "validate"};
 
+struct BrokenEngine : fake::FakeEngine {
+    using FakeEngine::FakeEngine;
+    [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
+        std::span<const trial::TrialBatch>, base::RunControl) const override {
+        return base::Error{"The engine is broken."};
+    }
+};
+
 struct User : tests::WindowUser {
     User() : WindowUser(pages::nativeEnvironment()) {}
     explicit User(const QString& study, const QString& page = "part") : User() {
@@ -279,11 +287,9 @@ class InputTest : public QObject {
     // Whoever looks elsewhere while the study works has to know that it stopped.
     void theEndOfARunIsToldOnEveryPage() {
         session::Environment environment = pages::nativeEnvironment();
-        environment.makeEngine =
-            [](const std::string&,
-               const trial::EngineOptions&) -> base::Result<std::shared_ptr<const trial::Engine>> {
-            return base::Error{"The engine is broken."};
-        };
+        environment.engines = fake::enginesMadeBy([](const std::string&, const trial::EngineOptions&) {
+            return std::make_unique<BrokenEngine>(fake::waveLaw);
+        });
         tests::WindowUser user(environment);
         QVERIFY(user.open(study_.toStdString(), "review"));
         user.action("review.validate")->trigger();

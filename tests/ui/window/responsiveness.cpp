@@ -18,7 +18,7 @@
 #include <string>
 #include <utility>
 
-#include "app/trapwright/engines.h"
+#include "sim/engines/registry.h"
 #include "tests/ui/session/event_loop_probe.h"
 #include "ui/scene/scene_view.h"
 #include "ui/window/main_window.h"
@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
     }
     const auto generations = static_cast<std::size_t>(arguments[2].toInt());
 
-    window::MainWindow window({app::makeWorkEngine, "trapwright", {}});
+    window::MainWindow window({engines::registry(), "trapwright", {}});
     window.resize(1280, 720);
     window.show();
     if (!QTest::qWaitForWindowExposed(&window)) return 1;

@@ -4,9 +4,9 @@
 #include <QPushButton>
 #include <optional>
 
-#include "app/trapwright/engines.h"
 #include "core/study/presets.h"
 #include "core/study/selection.h"
+#include "sim/engines/registry.h"
 #include "tests/ui/window/user.h"
 #include "ui/models/numbers.h"
 #include "ui/session/part_import.h"
@@ -32,7 +32,7 @@ class RunningTest : public QObject {
     }
 
     void startPauseResumeAndStop() {
-        window::MainWindow window{{app::makeWorkEngine, "trapwright test", state_}};
+        window::MainWindow window{{engines::registry(), "trapwright test", state_}};
         open(window);
         auto* session = window.desk().session();
         auto* state = window.findChild<QLabel*>("status.state");
@@ -65,7 +65,7 @@ class RunningTest : public QObject {
     }
 
     void closingWhileItRunsAsks() {
-        window::MainWindow window{{app::makeWorkEngine, "trapwright test", state_}};
+        window::MainWindow window{{engines::registry(), "trapwright test", state_}};
         open(window);
         auto* session = window.desk().session();
         const std::size_t before = session->summaries().size();
@@ -85,7 +85,7 @@ class RunningTest : public QObject {
     }
 
     void stoppingNowClosesAtOnce() {
-        window::MainWindow window{{app::makeWorkEngine, "trapwright test", state_}};
+        window::MainWindow window{{engines::registry(), "trapwright test", state_}};
         open(window);
         action(window, "run.start")->trigger();
         QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
@@ -97,7 +97,7 @@ class RunningTest : public QObject {
     void aStudyThatIsDeletedWhileItLearnsIsSavedElsewhere() {
         const QString study = folder_.filePath("gone.trap");
         QVERIFY(QFile::copy(QString::fromStdString(study_), study));
-        window::MainWindow window{{app::makeWorkEngine, "trapwright test", state_}};
+        window::MainWindow window{{engines::registry(), "trapwright test", state_}};
         window.show();
         window.openFile(study.toStdString());
         QTRY_VERIFY_WITH_TIMEOUT(window.desk().session() != nullptr, kPatience);
@@ -132,7 +132,7 @@ class RunningTest : public QObject {
     // The note of a program that is gone: its lock is free, its file is there.
     void afterABadEndItOffersToGoOn() {
         {
-            window::MainWindow window{{app::makeWorkEngine, "trapwright test", state_}};
+            window::MainWindow window{{engines::registry(), "trapwright test", state_}};
             open(window);
             action(window, "run.start")->trigger();
             QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
@@ -142,7 +142,7 @@ class RunningTest : public QObject {
         std::filesystem::remove_all(state_);
         std::filesystem::copy(copy_, state_, std::filesystem::copy_options::recursive);
 
-        window::MainWindow window{{app::makeWorkEngine, "trapwright test", state_}};
+        window::MainWindow window{{engines::registry(), "trapwright test", state_}};
         window.show();
         auto* message = window.findChild<look::MessageBar*>("messageBar");
         QTRY_VERIFY_WITH_TIMEOUT(message->text().contains("study was learning"), kPatience);

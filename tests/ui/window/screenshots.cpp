@@ -14,7 +14,7 @@
 #include <QTest>
 #include <cstdio>
 
-#include "app/trapwright/engines.h"
+#include "sim/engines/registry.h"
 #include "ui/look/message_bar.h"
 #include "ui/pages/page.h"
 #include "ui/scene/scene_view.h"
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     QSettings().setValue("theme", arguments[4]);
     Camera camera(arguments[1], arguments[5]);
 
-    window::MainWindow window({app::makeWorkEngine, "trapwright", {}});
+    window::MainWindow window({engines::registry(), "trapwright", {}});
     window.resize(size.at(0).toInt(), size.at(1).toInt());
     window.show();
     if (!QTest::qWaitForWindowExposed(&window)) {

@@ -15,7 +15,7 @@
 #include <ctime>
 #include <vector>
 
-#include "app/trapwright/engines.h"
+#include "sim/engines/registry.h"
 #include "tests/ui/footprint.h"
 #include "ui/look/message_bar.h"
 #include "ui/pages/page.h"
@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
         std::fputs("soak learn STUDY GENERATIONS | soak restart STUDY TIMES | soak open STUDY\n", stderr);
         return 2;
     }
-    window::MainWindow window({app::makeWorkEngine, "trapwright", home.filePath("running").toStdString()});
+    window::MainWindow window({engines::registry(), "trapwright", home.filePath("running").toStdString()});
     window.resize(1280, 720);
     window.show();
     if (!QTest::qWaitForWindowExposed(&window)) return fail("the window was not shown", window);

@@ -15,11 +15,6 @@ namespace trapwright::tests {
 
 inline constexpr int kPatience = 20000;  // [ms] for what happens in the background, on a busy machine
 
-inline base::Result<std::shared_ptr<const trial::Engine>> noEngine(const std::string&,
-                                                                   const trial::EngineOptions&) {
-    return base::Error{"There is no engine in this test."};
-}
-
 inline std::filesystem::path bundled(const char* name) {
     return part::findBundledFile(part::findBundledPart(name).value());
 }
@@ -33,9 +28,9 @@ inline void useFolder(const QTemporaryDir& folder, const QString& program) {
     QCoreApplication::setApplicationName(program);
 }
 
-/// The window and what a user does in it.
+/// The window, which has no engine, and what a user does in it.
 struct User : WindowUser {
-    User() : WindowUser({noEngine, "trapwright test", {}}) {}
+    User() : WindowUser({trial::EngineRegistry(), "trapwright test", {}}) {}
 
     bool import(const char* name) {
         window.openFile(bundled(name));

@@ -1,0 +1,35 @@
+#include "sim/engines/registry.h"
+
+#include "sim/native/native_engine.h"
+#include "sim/simbody/certifying_engine.h"
+#include "sim/simbody/simbody_engine.h"
+
+namespace trapwright::engines {
+
+namespace {
+
+using trial::EngineRole;
+
+template <class EngineType>
+trial::EngineKind describe(std::string title, EngineRole role, double freeMotionTolerance,
+                           std::string about = {}) {
+    const auto make = [](const trial::EngineOptions& options) {
+        return std::make_unique<EngineType>(options);
+    };
+    return {EngineType::kName, make, std::move(title), role, freeMotionTolerance, std::move(about)};
+}
+
+}  // namespace
+
+const trial::EngineRegistry& registry() {
+    static const trial::EngineRegistry engines({
+        describe<simbody::SimbodyEngine>("Simbody", EngineRole::reference, 1e-6),
+        describe<native::NativeEngine>("Native", EngineRole::quick, 1e-3),
+        describe<simbody::CertifyingEngine>(
+            "Simbody, certifying", EngineRole::certifying, 1e-3,
+            "the continuous contact law under an error-controlled integrator, some hundred times slower"),
+    });
+    return engines;
+}
+
+}  // namespace trapwright::engines
