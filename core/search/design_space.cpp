@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/base/bytes.h"
+#include "core/base/byte_archive.h"
 
 namespace trapwright::search {
 
@@ -58,11 +58,10 @@ double roundToBits(double value, int bits) {
 std::string packDesign(const Design& design) {
     base::ByteWriter writer;
     const int bits = findBits(design);
-    writer.put32(static_cast<std::uint32_t>(design.size()));
-    writer.put8(static_cast<std::uint8_t>(bits));
+    writer(static_cast<std::uint32_t>(design.size()), static_cast<std::uint8_t>(bits));
     if (bits == 0) {
         for (const double value : design)
-            writer.putDouble(value);
+            writer(value);
         return writer.bytes();
     }
     std::string packed(bytesFor(design.size(), bits), '\0');
@@ -74,33 +73,33 @@ std::string packDesign(const Design& design) {
                 packed[at / kBitsPerByte] |= static_cast<char>(1U << (at % kBitsPerByte));
         }
     }
-    writer.putBytes(packed);
+    writer.appendBytes(packed);
     return writer.bytes();
 }
 
 std::optional<Design> unpackDesign(std::string_view bytes) {
     base::ByteReader reader(bytes);
-    const std::size_t count = reader.get32();
-    const int bits = reader.get8();
-    if (!reader.ok() || bits > kMostPackedBits || count > kMostNumbers) return std::nullopt;
-    if (reader.left() != (bits == 0 ? count * sizeof(double) : bytesFor(count, bits))) return std::nullopt;
-    Design design;
-    design.reserve(count);
+    std::uint32_t count = 0;
+    std::uint8_t bits = 0;
+    reader(count, bits);
+    if (reader.failed() || bits > kMostPackedBits || count > kMostNumbers) return std::nullopt;
+    if (reader.left() != (bits == 0 ? std::size_t{count} * sizeof(double) : bytesFor(count, bits))) return std::nullopt;
+    Design design(count);
     if (bits == 0) {
-        for (std::size_t i = 0; i < count; ++i)
-            design.push_back(reader.getDouble());
+        for (double& value : design)
+            reader(value);
         return design;
     }
-    const std::string_view packed = reader.getBytes(reader.left());
+    const std::string_view packed = reader.takeBytes(reader.left());
     std::size_t at = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (double& value : design) {
         std::uint32_t number = 0;
         for (int k = 0; k < bits; ++k, ++at) {
             const auto byte = static_cast<unsigned char>(packed[at / kBitsPerByte]);
             number |= static_cast<std::uint32_t>((byte >> (at % kBitsPerByte)) & 1U)
                       << static_cast<unsigned>(k);
         }
-        design.push_back(number / largestOf(bits));
+        value = number / largestOf(bits);
     }
     return design;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/bytes.h"
+#include "core/base/byte_archive.h"
 #include "core/stats/samples.h"
 
 namespace trapwright::search {
@@ -57,18 +57,17 @@ std::vector<NamedNumber> RandomSearch::report() const {
 
 std::string RandomSearch::save() const {
     base::ByteWriter writer;
-    writer.put8(kStateVersion);
-    writer.put32(generation_);
-    writer.putDouble(best_);
+    writer(kStateVersion, generation_, best_);
     return writer.bytes();
 }
 
 base::Status RandomSearch::load(std::string_view state) {
     base::ByteReader reader(state);
-    const std::uint8_t version = reader.get8();
-    const std::uint32_t generation = reader.get32();
-    const double best = reader.getDouble();
-    if (!reader.atEnd() || version != kStateVersion || std::isnan(best))
+    std::uint8_t version = 0;
+    std::uint32_t generation = 0;
+    double best = 0.0;
+    reader(version, generation, best);
+    if (!reader.finished() || version != kStateVersion || std::isnan(best))
         return base::Error{"This is not the state of a random search."};
     generation_ = generation;
     best_ = best;

@@ -1,13 +1,13 @@
 #include "core/store/packing.h"
 
-#include "core/base/bytes.h"
+#include "core/base/byte_archive.h"
 
 namespace trapwright::store {
 
 std::string packNumbers(std::span<const double> numbers) {
     base::ByteWriter writer;
     for (const double number : numbers)
-        writer.putDouble(number);
+        writer(number);
     return writer.bytes();
 }
 
@@ -16,16 +16,14 @@ std::optional<std::vector<double>> unpackNumbers(std::string_view blob) {
     base::ByteReader reader(blob);
     std::vector<double> numbers(blob.size() / sizeof(double));
     for (double& number : numbers)
-        number = reader.getDouble();
+        reader(number);
     return numbers;
 }
 
 std::string packVertices(const std::vector<base::Vec3>& vertices) {
     base::ByteWriter writer;
-    for (const base::Vec3& vertex : vertices) {
-        for (int k = 0; k < 3; ++k)
-            writer.putDouble(vertex[k]);
-    }
+    for (const base::Vec3& vertex : vertices)
+        writer(vertex);
     return writer.bytes();
 }
 
@@ -34,10 +32,8 @@ std::optional<std::vector<base::Vec3>> unpackVertices(std::string_view blob) {
     if (blob.size() % kSize != 0) return std::nullopt;
     base::ByteReader reader(blob);
     std::vector<base::Vec3> vertices(blob.size() / kSize);
-    for (base::Vec3& vertex : vertices) {
-        for (int k = 0; k < 3; ++k)
-            vertex[k] = reader.getDouble();
-    }
+    for (base::Vec3& vertex : vertices)
+        reader(vertex);
     return vertices;
 }
 
@@ -45,7 +41,7 @@ std::string packTriangles(const std::vector<geometry::Triangle>& triangles) {
     base::ByteWriter writer;
     for (const geometry::Triangle& triangle : triangles) {
         for (const int index : triangle)
-            writer.put32(static_cast<std::uint32_t>(index));
+            writer(static_cast<std::uint32_t>(index));
     }
     return writer.bytes();
 }
@@ -58,7 +54,8 @@ std::optional<std::vector<geometry::Triangle>> unpackTriangles(std::string_view 
     std::vector<geometry::Triangle> triangles(blob.size() / kSize);
     for (geometry::Triangle& triangle : triangles) {
         for (int& index : triangle) {
-            const std::uint32_t read = reader.get32();
+            std::uint32_t read = 0;
+            reader(read);
             if (read >= vertexCount) return std::nullopt;
             index = static_cast<int>(read);
         }

@@ -102,19 +102,21 @@ void encodeDesign(const Design& design, const DesignSpace& space, Chromosome& ch
 
 std::string packBits(const Bits& bits) {
     base::ByteWriter writer;
-    writer.put32(static_cast<std::uint32_t>(bits.size()));
+    writer(static_cast<std::uint32_t>(bits.size()));
     std::string packed((bits.size() + kBitsPerByte - 1) / kBitsPerByte, '\0');
     for (std::size_t i = 0; i < bits.size(); ++i) {
         if (bits[i] != 0) packed[i / kBitsPerByte] |= static_cast<char>(1U << (i % kBitsPerByte));
     }
-    writer.putBytes(packed);
+    writer.appendBytes(packed);
     return writer.bytes();
 }
 
 std::optional<Bits> getBits(base::ByteReader& reader) {
-    const std::size_t count = reader.get32();
-    const std::string_view packed = reader.getBytes((count + kBitsPerByte - 1) / kBitsPerByte);
-    if (!reader.ok()) return std::nullopt;
+    std::uint32_t count = 0;
+    reader(count);
+    const std::string_view packed =
+        reader.takeBytes((std::size_t{count} + kBitsPerByte - 1) / kBitsPerByte);
+    if (reader.failed()) return std::nullopt;
     Bits bits(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto byte = static_cast<unsigned char>(packed[i / kBitsPerByte]);
@@ -126,7 +128,7 @@ std::optional<Bits> getBits(base::ByteReader& reader) {
 std::optional<Bits> unpackBits(std::string_view bytes) {
     base::ByteReader reader(bytes);
     auto bits = getBits(reader);
-    if (!reader.atEnd()) return std::nullopt;
+    if (!reader.finished()) return std::nullopt;
     return bits;
 }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/bytes.h"
+#include "core/base/byte_archive.h"
 #include "core/search/design_space.h"
 
 /// The paper's genetic algorithm: its strings of bits are known to nobody else.

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/base/bytes.h"
+#include "core/base/byte_archive.h"
 #include "core/search/ranking.h"
 
 namespace trapwright::search::ga {
@@ -79,13 +79,14 @@ std::string GeneticSearch::save() const {
 base::Status GeneticSearch::load(std::string_view state) {
     const base::Error strange{"This is not the state of a genetic search."};
     base::ByteReader reader(state);
-    if (reader.get8() != kStateVersion) return strange;
-    const std::uint32_t generation = reader.get32();
-    const std::uint32_t count = reader.get32();
-    if (!reader.ok() || count == 0 || count > kMostIndividuals) return strange;
+    std::uint8_t version = 0;
+    std::uint32_t generation = 0;
+    std::uint32_t count = 0;
+    reader(version, generation, count);
+    if (reader.failed() || version != kStateVersion || count == 0 || count > kMostIndividuals) return strange;
     std::vector<Chromosome> population;
     std::vector<double> scores;
-    for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+    for (std::uint32_t i = 0; i < count && !reader.failed(); ++i) {
         Chromosome chromosome;
         for (Bits* gene : {&chromosome.points, &chromosome.singles, &chromosome.strategy}) {
             auto bits = getBits(reader);
@@ -100,10 +101,10 @@ base::Status GeneticSearch::load(std::string_view state) {
                 "was learned with."};
         }
         population.push_back(std::move(chromosome));
-        scores.push_back(reader.getDouble());
+        reader(scores.emplace_back());
         if (std::isnan(scores.back())) return strange;
     }
-    if (!reader.atEnd()) return strange;
+    if (!reader.finished()) return strange;
     generation_ = generation;
     population_ = std::move(population);
     scores_ = std::move(scores);
@@ -118,13 +119,11 @@ StrategyValues GeneticSearch::strategyOf(const Chromosome& chromosome) const {
 std::string packState(std::uint32_t generation, std::span<const Chromosome> population,
                       std::span<const double> scores) {
     base::ByteWriter writer;
-    writer.put8(kStateVersion);
-    writer.put32(generation);
-    writer.put32(static_cast<std::uint32_t>(population.size()));
+    writer(kStateVersion, generation, static_cast<std::uint32_t>(population.size()));
     for (std::size_t i = 0; i < population.size(); ++i) {
         for (const Bits* gene : {&population[i].points, &population[i].singles, &population[i].strategy})
-            writer.putBytes(packBits(*gene));
-        writer.putDouble(scores[i]);
+            writer.appendBytes(packBits(*gene));
+        writer(scores[i]);
     }
     return writer.bytes();
 }
