@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "core/trial/batch_codec.h"
 #include "tests/sim/engines/each_engine.h"
 #include "tests/sim/engines/engine_scenes.h"
 
@@ -119,6 +120,30 @@ class EngineTest : public QObject {
         QCOMPARE(outcomes.size(), 2U);
         QVERIFY(outcomes[0].empty());
         QVERIFY(outcomes[1] == outcomes_);
+    }
+
+    // As it is sent to another process or machine, which puts track and part in again.
+    void aBatchThatTravelledAsBytesGivesTheSameBits() {
+        const trial::TrialBatch bowl =
+            testing::makeLyingOn({track::FeederType::bowl, 0.175, track::Conveying::anticlockwise}, 0.3, 0.2);
+        const std::vector<trial::TrialBatch> batches = {batch_, bowl};
+        const Outcomes here = simulate(batches, 1);
+        std::vector<trial::TrialBatch> there;
+        for (const trial::TrialBatch& batch : batches) {
+            auto decoded = trial::decodeBatch(trial::encode(batch));
+            QVERIFY2(decoded.ok(), decoded.ok() ? "" : decoded.error().message.c_str());
+            decoded->track =
+                std::make_shared<const track::Track>(trial::decodeTrack(trial::encode(*batch.track)).value());
+            decoded->part =
+                std::make_shared<const part::Part>(trial::decodePart(trial::encode(*batch.part)).value());
+            there.push_back(std::move(*decoded));
+        }
+        const Outcomes outcomes = simulate(there, 2);
+        QCOMPARE(outcomes.size(), here.size());
+        for (std::size_t b = 0; b < here.size(); ++b) {
+            QVERIFY(!here[b].empty());
+            QVERIFY(trial::decodeOutcomes(trial::encode(outcomes[b])).value() == here[b]);
+        }
     }
 
     void replayIsTheTrialBitForBit() {
