@@ -83,7 +83,8 @@ std::optional<Design> unpackDesign(std::string_view bytes) {
     std::uint8_t bits = 0;
     reader(count, bits);
     if (reader.failed() || bits > kMostPackedBits || count > kMostNumbers) return std::nullopt;
-    if (reader.left() != (bits == 0 ? std::size_t{count} * sizeof(double) : bytesFor(count, bits))) return std::nullopt;
+    if (reader.left() != (bits == 0 ? std::size_t{count} * sizeof(double) : bytesFor(count, bits)))
+        return std::nullopt;
     Design design(count);
     if (bits == 0) {
         for (double& value : design)

@@ -114,8 +114,7 @@ std::string packBits(const Bits& bits) {
 std::optional<Bits> getBits(base::ByteReader& reader) {
     std::uint32_t count = 0;
     reader(count);
-    const std::string_view packed =
-        reader.takeBytes((std::size_t{count} + kBitsPerByte - 1) / kBitsPerByte);
+    const std::string_view packed = reader.takeBytes((std::size_t{count} + kBitsPerByte - 1) / kBitsPerByte);
     if (reader.failed()) return std::nullopt;
     Bits bits(count);
     for (std::size_t i = 0; i < count; ++i) {

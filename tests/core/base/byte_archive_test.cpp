@@ -103,6 +103,20 @@ class ByteArchiveTest : public QObject {
         QVERIFY(isRefused<std::vector<Shape>>(bytesOf(std::uint32_t{0xffffffffU}, Shape())));
         QVERIFY(isRefused<std::optional<std::string>>(text({1, 9, 0, 0, 0})));
     }
+
+    void bytesAsTheyAre() {
+        base::ByteWriter writer;
+        writer(std::uint8_t{7});
+        writer.appendBytes("xyz");
+        QCOMPARE(writer.bytes(), std::string("\x07xyz"));
+        base::ByteReader reader(writer.bytes());
+        std::uint8_t number = 0;
+        reader(number);
+        QCOMPARE(reader.left(), std::size_t{3});
+        QVERIFY(reader.takeBytes(2) == "xy" && !reader.finished());
+        QVERIFY(reader.takeBytes(2).empty() && reader.failed());
+        QVERIFY(reader.takeBytes(0).empty() && reader.failed());
+    }
 };
 
 QTEST_APPLESS_MAIN(ByteArchiveTest)
