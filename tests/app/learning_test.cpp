@@ -209,6 +209,47 @@ class LearningTest : public QObject {
         QVERIFY2(changed.code == 2 && changed.errors.contains("Only evolution.generations"), changed.all());
     }
 
+    /// Other searches and other traps than the paper's: learned, resumed, exported like it.
+    void otherSearchesAndTraps_data() {
+        QTest::addColumn<QString>("search");
+        QTest::addColumn<QString>("traps");
+        QTest::addColumn<QStringList>("curves");
+        const QStringList strategy{"p_x", "p_dm", "p_s"};
+        const QStringList scores{"best_so_far", "median_score"};
+        QTest::newRow("random") << "random"
+                                << "free-form" << scores;
+        QTest::newRow("step") << "genetic"
+                              << "step" << strategy;
+        QTest::newRow("both") << "random"
+                              << "step, free-form" << scores;
+    }
+    void otherSearchesAndTraps() {
+        QFETCH(QString, search);
+        QFETCH(QString, traps);
+        QFETCH(QStringList, curves);
+        const QStringList with{"--set", "evolution.search=" + search, "--set", "track.traps=" + traps};
+        QVERIFY(learn(quickStudy("whole.trap", 4) + with).code == 0);
+        QVERIFY(learn(quickStudy("pieces.trap", 2) + with).code == 0);
+        const Ran ran = learn({"evolve", "pieces.trap", "--resume", "--generations", "4", "--json"});
+        QVERIFY2(ran.code == 0, ran.all());
+        QCOMPARE(dumpOf("pieces.trap"), dumpOf("whole.trap"));
+        const QJsonObject generation = ran.json()["generations"].toArray()[3].toObject();
+        for (const char* key : {"p_x", "p_dm", "p_s", "best_so_far", "median_score"})
+            QCOMPARE(generation.contains(QLatin1String(key)), curves.contains(QLatin1String(key)));
+        const Ran solid = learn({"export", "whole.trap", "track.stl"});
+        QVERIFY2(solid.code == 0 && solid.output.contains("closed and manifold"), solid.all());
+        const Ran changed =
+            learn({"evolve", "whole.trap", "--resume", "--set",
+                   search == "random" ? "evolution.search=genetic" : "track.traps=free-form"});
+        QVERIFY2(changed.code == 2 && changed.errors.contains("Only evolution.generations"), changed.all());
+    }
+
+    void unknownTrapsAreRefused() {
+        const Ran ran = learn(quickStudy("none.trap", 1) + QStringList{"--set", "track.traps=ledge"});
+        QVERIFY2(ran.code != 0 && ran.errors.contains("The kinds are: free-form, step"), ran.all());
+        QVERIFY(!QFile::exists(folder_->filePath("none.trap")));
+    }
+
  private:
     [[nodiscard]] Ran learn(const QStringList& arguments) const { return run(folder_->path(), arguments); }
     [[nodiscard]] QByteArray dumpOf(const QString& study) const { return learn({"dump", study}).output; }

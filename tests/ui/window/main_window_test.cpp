@@ -51,6 +51,28 @@ class MainWindowTest : public QObject {
         QCOMPARE(user.session()->settings().track.segmentWidth, 70e-3);
     }
 
+    // What another search or another trap does not have is not shown; the scene follows.
+    void searchAndTrapsAreChosen() {
+        User user;
+        QVERIFY(user.import("cuboid") && user.show("track"));
+        auto* scene = user.find<scene::SceneView>("scene");
+        QTRY_VERIFY_WITH_TIMEOUT(scene->contents().track != nullptr, kPatience);
+        const auto sections = [&] { return scene->contents().track->sections.size(); };
+        QCOMPARE(sections(), std::size_t{2 + 5 + 2});
+        user.choose("track.traps", "Step");
+        QCOMPARE(user.session()->settings().track.traps, std::string("step"));
+        QTRY_COMPARE_WITH_TIMEOUT(sections(), std::size_t{2 + 2 + 2}, kPatience);
+        QVERIFY(!user.find<QWidget>("row.track.crossSections")->isVisible());
+        user.choose("track.traps", "Step, free form");
+        QTRY_COMPARE_WITH_TIMEOUT(sections(), std::size_t{2 + 2 + 5 + 2}, kPatience);
+        QVERIFY(user.find<QWidget>("row.track.crossSections")->isVisible());
+        user.choose("evolution.search", "Random");
+        QVERIFY(user.session()->settings().evolution.search == search::Method::random);
+        QVERIFY(user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
+        user.choose("evolution.search", "Genetic");
+        QVERIFY(!user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
+    }
+
     void theSceneFollowsAnEdit() {
         User user;
         QVERIFY(user.import("cuboid") && user.show("track"));

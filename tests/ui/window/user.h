@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QApplication>
+#include <QComboBox>
 #include <QLineEdit>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -39,6 +40,14 @@ struct User : WindowUser {
     bool show(const QString& page) {
         window.showPage(page);
         return QTest::qWaitFor([&] { return find<pages::Page>("page." + page)->isVisible(); });
+    }
+    /// From a list, as people read it.
+    void choose(const QString& field, const QString& text) {
+        auto* list = find<QComboBox>("field." + field);
+        const int at = list->findText(text);
+        QVERIFY2(at >= 0, qPrintable(text));
+        list->setCurrentIndex(at);
+        emit list->activated(at);
     }
     void type(const QString& field, const QString& text) {
         auto* edit = find<QLineEdit>("field." + field);
