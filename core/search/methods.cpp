@@ -42,6 +42,7 @@ std::optional<double> findNumber(std::span<const NamedNumber> numbers, std::stri
 const MethodInfo& describeMethod(Method method) {
     static const std::vector<MethodInfo> all = [] {
         std::vector<MethodInfo> infos;
+        infos.reserve(kEntries.size());
         for (const Entry& entry : kEntries)
             infos.push_back(entry.describe());
         return infos;

@@ -53,6 +53,7 @@ bool same(const std::vector<search::Proposal>& a, const std::vector<search::Prop
 
 std::vector<std::string> keysOf(const std::vector<search::NamedNumber>& numbers) {
     std::vector<std::string> keys;
+    keys.reserve(numbers.size());
     for (const search::NamedNumber& number : numbers)
         keys.push_back(number.key);
     return keys;
@@ -60,6 +61,7 @@ std::vector<std::string> keysOf(const std::vector<search::NamedNumber>& numbers)
 
 std::vector<std::string> keysOf(const std::vector<search::NumberInfo>& infos) {
     std::vector<std::string> keys;
+    keys.reserve(infos.size());
     for (const search::NumberInfo& info : infos)
         keys.push_back(info.key);
     return keys;
