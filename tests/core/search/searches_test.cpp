@@ -234,6 +234,7 @@ class SearchesTest : public QObject {
         const auto judgements = judge(proposals);
         search->tell(judgements);
         std::vector<double> scores;
+        scores.reserve(judgements.size());
         for (const search::Judgement& judgement : judgements)
             scores.push_back(judgement.score);
         for (const char* key : {"p_x", "p_dm", "p_s"}) {
