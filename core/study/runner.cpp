@@ -67,7 +67,8 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
     const Settings& settings = inputs.settings;
     const std::unique_ptr<search::Search> search = makeSearch(settings);
     if (last) {
-        if (const auto loaded = search->load(last->search); !loaded) return loaded.error();
+        if (const auto loaded = search->load(last->search); !loaded)
+            return base::Error{loaded.error().message, base::ErrorKind::damaged};
     }
 
     for (int index = last ? last->index + 1 : 0;

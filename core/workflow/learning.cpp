@@ -33,6 +33,12 @@ Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& i
     const auto end = study::evolve(inputs, *last, watch, control);
     if (!end) {
         if (kind == FailureKind::saving) return describeSaving(end.error());
+        if (end.error().kind == base::ErrorKind::damaged) {
+            return Failure{FailureKind::reading, "The study " + file.path().string() +
+                                                     " is damaged: learning cannot go on after its last "
+                                                     "generation. " +
+                                                     end.error().message + " Restore it from a copy."};
+        }
         return Failure{kind, end.error().message};
     }
 

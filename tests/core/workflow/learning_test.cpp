@@ -2,6 +2,7 @@
 
 #include <QtTest>
 
+#include "core/study/track_design.h"
 #include "core/workflow/judging.h"
 #include "tests/core/workflow/workflow_fixture.h"
 
@@ -59,6 +60,26 @@ class LearningTest : public QObject {
         QVERIFY(workflow::learn(*broken.file, broken.inputs, fake::lawEngines(), {}, {}).ok());
         QCOMPARE(broken.file->loadGeneration(4).value().individuals,
                  whole.file->loadGeneration(4).value().individuals);
+    }
+
+    void aSearchThatCannotGoOnIsDamage() {
+        fake::WaveStudy study("native", 2);
+        study::GenerationRecord record;
+        for (const search::Proposal& proposal : study::makeSearch(study.inputs.settings)->ask()) {
+            record.individuals.emplace_back();
+            record.individuals.back().design = proposal.design;
+            record.individuals.back().traits = proposal.traits;
+        }
+        record.searchState = "of nothing";
+        QVERIFY(study.file->saveGeneration(record).ok());
+        const auto report = workflow::learn(*study.file, study.inputs, fake::lawEngines(), {}, {});
+        QVERIFY(!report.ok());
+        QCOMPARE(report.error().kind, FailureKind::reading);
+        const QString message = QString::fromStdString(report.error().message);
+        QVERIFY2(message.contains(QString::fromStdString(study.file->path().string())) &&
+                     message.contains("not the state of a genetic search") && message.contains("copy"),
+                 qPrintable(message));
+        QCOMPARE(study.file->generationCount().value(), 1);
     }
 
     void winnersThatAreLeftAreChecked() {
