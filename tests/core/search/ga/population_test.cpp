@@ -5,28 +5,12 @@
 
 #include "core/search/ga/operators.h"
 #include "core/search/ranking.h"
+#include "tests/core/search/ga/chromosomes.h"
 
 using namespace trapwright;
 namespace ga = trapwright::search::ga;
 using ga::Bits;
-
-namespace {
-
-/// 40 points of 10 bits, and 5 numbers.
-const ga::ChromosomeLayout kLayout{std::vector<int>(80, 10), std::vector<int>(5, 10)};
-
-ga::Chromosome keep(ga::Chromosome child, double /*probability*/, base::Random& /*random*/) {
-    return child;
-}
-
-double countDifferent(const Bits& a, const Bits& b) {
-    double count = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        count += a[i] != b[i] ? 1.0 : 0.0;
-    return count;
-}
-
-}  // namespace
+using sample::countDifferent, sample::keep, sample::kLayout;
 
 class PopulationTest : public QObject {
     Q_OBJECT

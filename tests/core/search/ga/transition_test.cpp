@@ -8,24 +8,19 @@
 #include "core/search/ga/genes.h"
 #include "core/search/ga/operators.h"
 #include "core/search/ga/population.h"
+#include "tests/core/search/ga/chromosomes.h"
 
 using namespace trapwright;
 namespace ga = trapwright::search::ga;
 using ga::Bits;
 using ga::Chromosome;
 using ga::TransitionParameters;
+using sample::countDifferent, sample::keep, sample::kLayout;
 
 namespace {
 
-/// 40 points of 10 bits, and 5 numbers.
-const ga::ChromosomeLayout kLayout{std::vector<int>(80, 10), std::vector<int>(5, 10)};
-
 base::Random makeRandom(std::uint64_t seed) {
     return base::Random({seed, 0, 0, 0, base::Purpose::test});
-}
-
-ga::Chromosome keep(ga::Chromosome child, double /*probability*/, base::Random& /*random*/) {
-    return child;
 }
 
 /// Points and numbers of 10 bits, or of fewer where there are not as many.
@@ -36,13 +31,6 @@ ga::ChromosomeLayout layoutOf(const Chromosome& chromosome) {
 
 Bits encodeStrategy(double crossover, double mutation, double smoothing) {
     return ga::encodeGray(std::array{crossover, mutation, smoothing}, ga::kStrategyBits);
-}
-
-double countDifferent(const Bits& a, const Bits& b) {
-    double count = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        count += a[i] != b[i] ? 1.0 : 0.0;
-    return count;
 }
 
 }  // namespace
