@@ -16,11 +16,12 @@ core/bench      core/base core/bench core/part core/stats core/study core/track 
 core/calibration core/base core/calibration core/stats core/trial
 core/drive      core/base core/drive
 core/geometry   core/base core/geometry
+core/objectives core/base core/objectives core/part core/stats core/track core/trial
 core/part       core/base core/geometry core/part
 core/search     core/base core/search core/stats
 core/stats      core/base core/stats
-core/store      core/base core/calibration core/drive core/geometry core/part core/search core/store core/study
-core/study      core/base core/geometry core/part core/search core/stats core/study core/track core/traps core/trial
+core/store      core/base core/calibration core/drive core/geometry core/objectives core/part core/search core/store core/study
+core/study      core/base core/geometry core/objectives core/part core/search core/stats core/study core/track core/traps core/trial
 core/track      core/base core/geometry core/track
 core/traps      core/base core/search core/track core/traps
 core/trial      core/base core/part core/track core/trial

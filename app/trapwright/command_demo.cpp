@@ -79,7 +79,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         *before == 0 ? "Learning" : fmt::format("Going on from generation {} with", *before - 1), path,
         study->settings.evolution.populationSize, study->settings.evolution.trialsPerEvaluation,
         inputs->engine->name(), inputs->threads, options.minutes,
-        learningHeading(inputs->settings.evolution.search)));
+        learningHeading(inputs->settings.evolution)));
     auto learned = runLearning(study->file, *inputs, console, options.minutes * 60.0);
     if (!learned) return learned.failure();
     if (learned->interrupted) {

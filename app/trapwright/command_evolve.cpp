@@ -9,7 +9,6 @@
 #include "app/trapwright/learning_run.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_options.h"
-#include "core/trial/fitness.h"
 #include "sim/engines/registry.h"
 
 namespace trapwright::app {
@@ -61,15 +60,30 @@ std::string describeEngines(const OpenStudy& study, const study::StudyInputs& in
     return inputs.engine->name() + (reference != nullptr ? ", winners checked by " + reference->name : "");
 }
 
+/// "F_D 0.000 and F_O 1.467": of what counts and depends on trials.
+std::string describeAttainable(const part::Part& part, const study::EvolutionSettings& settings) {
+    const std::vector<objectives::Score> attainable =
+        objectives::listAttainable(part.symmetry, settings.orientationDistance);
+    std::vector<std::string> texts;
+    for (const objectives::Objective* objective : study::summedObjectives(settings)) {
+        if (!objective->isNoisy) continue;
+        for (const objectives::Score& score : attainable)
+            if (score.key == objective->key)
+                texts.push_back(fmt::format("{} {}{}", objective->symbol,
+                                            objectives::shown(*objective, score.value),
+                                            objective->isDetail ? "" : fmt::format(" {}", objective->unit)));
+    }
+    return fmt::format("{}", fmt::join(texts, " and "));
+}
+
 std::string describeStart(const OpenStudy& study, const study::StudyInputs& inputs) {
     const study::EvolutionSettings& evolution = study.settings.evolution;
     return fmt::format(
         "Study {}: part {} (symmetry {}), {} individuals x {} trials, seed {}, engine {}, threads {}\n"
-        "A perfect feeder scores F_D 0 and F_O {:.3f}.\n{}",
+        "A perfect feeder scores {}.\n{}",
         study.file.path().string(), study.part->name, study.part->symmetry.name, evolution.populationSize,
         evolution.trialsPerEvaluation, evolution.seed, describeEngines(study, inputs), inputs.threads,
-        trial::calcBestOrientationScore(study.part->symmetry, evolution.orientationDistance),
-        learningHeading(inputs.settings.evolution.search));
+        describeAttainable(*study.part, evolution), learningHeading(inputs.settings.evolution));
 }
 
 std::string_view endName(study::LearningEnd end) {

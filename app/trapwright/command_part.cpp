@@ -12,11 +12,11 @@
 #include "app/trapwright/work_display.h"
 #include "core/base/parallel.h"
 #include "core/geometry/mass_properties.h"
+#include "core/objectives/paper_scores.h"
 #include "core/part/stable_poses.h"
 #include "core/study/pose_drops.h"
 #include "core/study/presets.h"
 #include "core/study/settings.h"
-#include "core/trial/fitness.h"
 #include "sim/engines/registry.h"
 
 namespace trapwright::app {
@@ -77,9 +77,9 @@ std::string describePart(const LoadedPart& loaded, bool everyPose) {
         part.symmetry.continuous ? fmt::format(" about ({:.4f}, {:.4f}, {:.4f})", part.symmetry.axis.x(),
                                                part.symmetry.axis.y(), part.symmetry.axis.z())
                                  : fmt::format(", {} rotations", part.symmetry.rotations.size()));
-    text +=
-        fmt::format("Best score    F_O {:.3f} for a perfect feeder\n",
-                    trial::calcBestOrientationScore(part.symmetry, trial::OrientationDistance::symmetric));
+    text += fmt::format(
+        "Best score    F_O {:.3f} for a perfect feeder\n",
+        objectives::calcBestOrientationScore(part.symmetry, trial::OrientationDistance::symmetric));
     text +=
         "\nStable pose   Alike   Probability   Height of centre   Side below (direction in the part's "
         "axes)\n";

@@ -42,11 +42,11 @@ Json toJson(const base::Vec3& vector, double scale) {
     return Json::array({vector.x() * scale, vector.y() * scale, vector.z() * scale});
 }
 
-Json toJson(const trial::Fitness& fitness) {
-    return {{"F", fitness.total()},
-            {"F_C", fitness.collision},
-            {"F_D", fitness.distance},
-            {"F_O", fitness.orientation}};
+Json toJson(const objectives::Fitness& fitness) {
+    Json json = {{"F", fitness.total}};
+    for (const objectives::Score& score : fitness.scores)
+        if (score.key != objectives::kSuccess) json[score.key] = score.value;
+    return json;
 }
 
 Json toJson(const study::IndividualRecord& record) {
@@ -79,16 +79,21 @@ Json toJson(const std::vector<study::CheckRecord>& records) {
     for (const study::CheckRecord& record : records) {
         const study::EngineScore& learning = record.learning;
         const study::EngineScore& reference = record.reference;
-        const double success = static_cast<double>(reference.oriented - learning.oriented) / record.trials;
+        Json difference = Json::object();
+        for (const objectives::Score& score : reference.fitness.scores) {
+            const objectives::Objective* objective = objectives::findObjective(score.key);
+            const objectives::Score* own = objectives::findScore(learning.fitness, score.key);
+            if (own != nullptr && objective != nullptr && objective->isNoisy &&
+                score.key != objectives::kSuccess)
+                difference[score.key] = score.value - own->value;
+        }
+        difference["success"] = static_cast<double>(reference.oriented - learning.oriented) / record.trials;
         list.push_back({{"generation", record.generation},
                         {"individual", record.individual},
                         {"trials", record.trials},
                         {"learning", scoreToJson(learning, record.trials)},
                         {"reference", scoreToJson(reference, record.trials)},
-                        {"difference",
-                         {{"F_D", reference.fitness.distance - learning.fitness.distance},
-                          {"F_O", reference.fitness.orientation - learning.fitness.orientation},
-                          {"success", success}}}});
+                        {"difference", difference}});
     }
     return list;
 }

@@ -13,7 +13,8 @@ namespace trapwright::app {
 /// Records as --json shows them. Angles in degrees, quaternions [w, x, y, z]; shares with their bounds.
 nlohmann::ordered_json toJson(const base::Quaternion& rotation);
 nlohmann::ordered_json toJson(const base::Vec3& vector, double scale);
-nlohmann::ordered_json toJson(const trial::Fitness& fitness);
+/// F and the scores by their keys, in SI units; not success, which records have with its bounds.
+nlohmann::ordered_json toJson(const objectives::Fitness& fitness);
 nlohmann::ordered_json toJson(const study::IndividualRecord& record);
 nlohmann::ordered_json toJson(const study::GenerationSummary& summary);
 /// Differences are the reference's value less the learning engine's.

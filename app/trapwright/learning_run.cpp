@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 
@@ -80,42 +81,68 @@ std::size_t widthOf(const search::NumberInfo& curve) {
     return std::max(kLeast, curve.key.size());
 }
 
-// Adding 0 makes the -0 of a track without overlaps a 0.
-std::string describeGeneration(search::Method method, const study::GenerationRecord& record) {
-    const trial::Fitness& best = record.statistics.best;
-    const trial::Fitness& top = record.statistics.topMean;
+std::size_t widthOf(const objectives::Objective& objective) {
+    const std::size_t least = objective.decimals == 0 ? 6 : 7;
+    return std::max(least, objective.symbol.size());
+}
+
+/// A column each.
+std::string scoresText(const objectives::Fitness& fitness, const objectives::ObjectiveList& objectives,
+                       int leastDecimals = 0) {
+    std::string text;
+    for (const objectives::Objective* objective : objectives) {
+        const objectives::Score* score = objectives::findScore(fitness, objective->key);
+        text += fmt::format(
+            " {:>{}}", score != nullptr ? objectives::shown(*objective, score->value, leastDecimals) : "-",
+            widthOf(*objective));
+    }
+    return text;
+}
+
+std::string describeGeneration(const study::EvolutionSettings& settings,
+                               const study::GenerationRecord& record) {
+    const objectives::ObjectiveList summed = study::summedObjectives(settings);
+    const objectives::Fitness& best = record.statistics.best;
+    const objectives::Fitness& top = record.statistics.topMean;
     std::string curves;
-    for (const search::NumberInfo& info : search::describeMethod(method).curves) {
+    for (const search::NumberInfo& info : search::describeMethod(settings.search).curves) {
         const auto value = search::findNumber(record.statistics.curves, info.key);
         curves += fmt::format(" {:>{}}", value ? fmt::format("{:.{}f}", *value, info.decimals) : "-",
                               widthOf(info));
     }
     const study::IndividualRecord& winner = record.individuals[static_cast<std::size_t>(record.winner)];
     const std::optional<double>& topSuccess = record.statistics.topSuccess;
-    return fmt::format(
-        "{:>10} {} {:>9} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f} {:>8} {:>8.3f} {:>6.1f} {:>7.3f} {:>7.3f}{} "
-        "{:>7.1f}\n",
-        record.index, describeSuccess(record.statistics.success),
-        fmt::format("{}/{}", winner.finished, winner.trials), best.total(), best.collision + 0.0,
-        best.distance, best.orientation, topSuccess ? fmt::format("{:.1f}", kPercent * *topSuccess) : "-",
-        top.total(), top.collision, top.distance, top.orientation, curves, record.seconds);
+    return fmt::format("{:>10} {} {:>9} {:>8.3f}{} {:>8} {:>8.3f}{}{} {:>7.1f}\n", record.index,
+                       describeSuccess(record.statistics.success),
+                       fmt::format("{}/{}", winner.finished, winner.trials), best.total,
+                       scoresText(best, summed),
+                       topSuccess ? fmt::format("{:.1f}", kPercent * *topSuccess) : "-", top.total,
+                       scoresText(top, summed, 1), curves, record.seconds);
 }
 
 /// The reference's scores below those of the generation's line, and how they differ from the learning
-/// engine's on the same trials. Adding 0 makes a -0 a 0.
-std::string describeCheck(const study::CheckRecord& record) {
+/// engine's on the same trials.
+std::string describeCheck(const study::EvolutionSettings& settings, const study::CheckRecord& record) {
+    const objectives::ObjectiveList summed = study::summedObjectives(settings);
     const study::EngineScore& reference = record.reference;
     const study::EngineScore& learning = record.learning;
-    return fmt::format(
-        "{:>10} {} {:>9} {:>8.3f} {:>6.0f} {:>7.3f} {:>7.3f}   {} less {}: success {:.0f} % less {:.0f} %, "
-        "F_D {:+.3f}, F_O {:+.3f}\n",
+    std::string text = fmt::format(
+        "{:>10} {} {:>9} {:>8.3f}{}   {} less {}: success {:.0f} % less {:.0f} %",
         fmt::format("check {}", record.generation),
         describeSuccess(stats::Count{reference.oriented, record.trials}),
-        fmt::format("{}/{}", reference.finished, record.trials), reference.fitness.total(),
-        reference.fitness.collision + 0.0, reference.fitness.distance, reference.fitness.orientation,
-        reference.engine, learning.engine, kPercent * reference.oriented / record.trials,
-        kPercent * learning.oriented / record.trials, reference.fitness.distance - learning.fitness.distance,
-        reference.fitness.orientation - learning.fitness.orientation);
+        fmt::format("{}/{}", reference.finished, record.trials), reference.fitness.total,
+        scoresText(reference.fitness, summed), reference.engine, learning.engine,
+        kPercent * reference.oriented / record.trials, kPercent * learning.oriented / record.trials);
+    for (const objectives::Objective* objective : summed) {
+        const objectives::Score* judged = objectives::findScore(reference.fitness, objective->key);
+        const objectives::Score* own = objectives::findScore(learning.fitness, objective->key);
+        if (!objective->isNoisy || objective->key == objectives::kSuccess || judged == nullptr ||
+            own == nullptr)
+            continue;
+        text += fmt::format(", {} {:+.{}f}", objective->symbol,
+                            (judged->value - own->value) * objective->shownAs, objective->decimals);
+    }
+    return text + "\n";
 }
 
 WorkWatch watchLearning(const Situation& situation, Clock::time_point begin, study::LearningControl control,
@@ -142,7 +169,10 @@ Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inp
     WorkDisplay display(console, watchTrials("Checking winners", workflow::countCheckTrials(left), control));
     const auto checked = workflow::checkWinners(
         file, inputs, engines::registry(), left,
-        [&](const study::CheckRecord& record) { display.print(describeCheck(record)); }, control);
+        [&](const study::CheckRecord& record) {
+            display.print(describeCheck(inputs.settings.evolution, record));
+        },
+        control);
     if (checked) return true;
     if (checked.error().kind == workflow::FailureKind::cancelled) return false;
     return toFailure(checked.error(), file);
@@ -150,16 +180,21 @@ Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inp
 
 }  // namespace
 
-std::string learningHeading(search::Method method) {
-    std::string names;
-    for (const search::NumberInfo& curve : search::describeMethod(method).curves)
-        names += fmt::format(" {:>{}}", curve.key, widthOf(curve));
+std::string learningHeading(const study::EvolutionSettings& settings) {
+    std::string curves;
+    for (const search::NumberInfo& curve : search::describeMethod(settings.search).curves)
+        curves += fmt::format(" {:>{}}", curve.key, widthOf(curve));
+    std::string scores;
+    for (const objectives::Objective* objective : study::summedObjectives(settings))
+        scores += fmt::format(" {:>{}}", objective->symbol, widthOf(*objective));
+    const std::string winner = fmt::format("{:>9} {:>8}{}", "finished", "F", scores);
+    const std::string top = fmt::format("{:>8} {:>8}{}", "success", "F", scores);
     return fmt::format(
-        "               [%]          95 % [%]  the generation's winner                       [%]    m"
-        "ean of the top 30 %           {:^{}}\n"
-        "Generation success   Clopper-Pearson  finished        F    F_C     F_D     F_O  success     "
-        "   F    F_C     F_D     F_O{} seconds\n",
-        "the search", names.size(), names);
+        "{:>10} {:>7}   {:>15} {:^{}} {:^{}} {:^{}}\n"
+        "{:>10} {:>7}   {:>15} {} {}{} {:>7}\n",
+        "", "[%]", "95 % [%]", "the generation's winner", winner.size(), "[%]    mean of the top 30 %",
+        top.size(), "the search", std::max<std::size_t>(curves.size(), 1) - 1, "Generation", "success",
+        "Clopper-Pearson", winner, top, curves, "seconds");
 }
 
 Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
@@ -174,13 +209,15 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
         events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
         events.saved = [&](const study::GenerationRecord& record) {
             situation.setSuccess(record.statistics.success);
-            display.print(describeGeneration(inputs.settings.evolution.search, record));
+            display.print(describeGeneration(inputs.settings.evolution, record));
             if (timeLimit && secondsSince(begin) + record.seconds > *timeLimit) {
                 timeOver = true;
                 control.stopAfterGeneration();
             }
         };
-        events.checked = [&](const study::CheckRecord& record) { display.print(describeCheck(record)); };
+        events.checked = [&](const study::CheckRecord& record) {
+            display.print(describeCheck(inputs.settings.evolution, record));
+        };
         return workflow::learn(file, inputs, engines::registry(), events, control);
     }();
     if (!learned) return toFailure(learned.error(), file);

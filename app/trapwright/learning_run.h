@@ -23,6 +23,6 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
                                  const Console& console, std::optional<double> timeLimit);
 
 /// The heading of the lines that runLearning prints.
-std::string learningHeading(search::Method method);
+std::string learningHeading(const study::EvolutionSettings& settings);
 
 }  // namespace trapwright::app

@@ -50,4 +50,20 @@ std::string suggestName(std::string_view word, std::span<const std::string> name
     return "The nearest is \"" + *nearest + "\".";
 }
 
+std::vector<std::string_view> splitNames(std::string_view list) {
+    constexpr std::string_view kBlanks = " \t";
+    std::vector<std::string_view> names;
+    std::size_t begin = 0;
+    while (begin <= list.size()) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        std::string_view name = list.substr(begin, end - begin);
+        const std::size_t first = std::min(name.find_first_not_of(kBlanks), name.size());
+        name.remove_prefix(first);
+        name = name.substr(0, name.find_last_not_of(kBlanks) + 1);
+        names.push_back(name);
+        begin = end + 1;
+    }
+    return names;
+}
+
 }  // namespace trapwright::base

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trapwright::base {
 
@@ -20,5 +21,9 @@ std::optional<std::string> findNearestName(std::string_view word, std::span<cons
 /// What to tell somebody who wrote a name that there is not: "Did you mean x?" where a name is near enough
 /// for a slip of the hand, or else that x is the nearest. Empty where there are no names.
 std::string suggestName(std::string_view word, std::span<const std::string> names);
+
+/// The names of a list with commas between them, without the blanks around them; at least one, which may be
+/// empty.
+std::vector<std::string_view> splitNames(std::string_view list);
 
 }  // namespace trapwright::base

@@ -31,8 +31,10 @@ struct Proposal {
 
 /// How a proposal did.
 struct Judgement {
-    double score = 0.0;  // the higher the better
-    int trials = 0;      // that the score was made of; 0: none, it is known without
+    double score = 0.0;                     // the higher the better
+    int trials = 0;                         // that the score was made of; 0: none, it is known without
+    double error = 0.0;                     // its standard error; 0: exact, or not known
+    std::vector<NamedNumber> objectives{};  // that the score is the sum of, each the higher the better
 };
 
 /// A way of looking for good designs, by ask and tell: ask() says which designs shall be judged next, tell()

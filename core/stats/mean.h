@@ -18,4 +18,7 @@ struct MeanEstimate {
 /// confidence in (0, 1), two-sided.
 MeanEstimate estimateMean(std::span<const double> values, double confidence = 0.95);
 
+/// Standard error of the mean: the deviation with n - 1 over the root of n. 0 for fewer than two values.
+double calcStandardError(std::span<const double> values);
+
 }  // namespace trapwright::stats

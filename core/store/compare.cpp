@@ -1,5 +1,6 @@
 #include "core/store/compare.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -27,30 +28,50 @@ std::string exactText(double value) {
     return {buffer.data(), end};
 }
 
+/// Each score with its standard error.
+std::string scoresText(const objectives::Fitness& fitness) {
+    std::string text;
+    for (const objectives::Score& score : fitness.scores)
+        text += " " + exactText(score.value) + " " + exactText(score.error);
+    return text;
+}
+
 std::string lineOf(int generation, std::size_t number, const study::IndividualRecord& record) {
     std::string line = std::to_string(generation) + " " + std::to_string(number);
     line += " " + hexadecimal(search::packDesign(record.design));
     for (const search::NamedNumber& trait : record.traits)
         line += " " + exactText(trait.value);
-    for (const double score :
-         {record.fitness.collision, record.fitness.distance, record.fitness.orientation}) {
-        line += " " + exactText(score);
-    }
+    line += scoresText(record.fitness);
     for (const int count : {record.overlaps, record.trials, record.finished, record.fellOff, record.stuck}) {
         line += " " + std::to_string(count);
     }
     return line + " " + (record.oriented ? std::to_string(*record.oriented) : "-") + "\n";
 }
 
+/// Whether the scores are the same, as far as both programs measured them.
+bool areAlike(const objectives::Fitness& a, const objectives::Fitness& b) {
+    return a.total == b.total && std::ranges::all_of(a.scores, [&](const objectives::Score& own) {
+               const objectives::Score* other = objectives::findScore(b, own.key);
+               if (other == nullptr) return true;
+               const bool bothKnow = own.error != 0.0 && other->error != 0.0;
+               return own.value == other->value && (own.error == other->error || !bothKnow);
+           });
+}
+
 /// Whether designs and scores are the same; success as far as both have counted it.
 bool areAlike(const study::IndividualRecord& a, study::IndividualRecord b) {
     if (!a.oriented || !b.oriented) b.oriented = a.oriented;
+    if (!areAlike(a.fitness, b.fitness)) return false;
+    b.fitness = a.fitness;
     return a == b;
 }
 
 bool areAlike(const study::GenerationStatistics& a, study::GenerationStatistics b) {
     if (!a.success || !b.success) b.success = a.success;
     if (!a.topSuccess || !b.topSuccess) b.topSuccess = a.topSuccess;
+    if (!areAlike(a.best, b.best) || !areAlike(a.topMean, b.topMean)) return false;
+    b.best = a.best;
+    b.topMean = a.topMean;
     return a == b;
 }
 
@@ -81,10 +102,7 @@ base::Result<std::string> dumpChecks(const StudyFile& study) {
                  std::to_string(check.trials);
         for (const study::EngineScore* score : {&check.learning, &check.reference}) {
             lines += " " + score->engine;
-            for (const double value :
-                 {score->fitness.collision, score->fitness.distance, score->fitness.orientation}) {
-                lines += " " + exactText(value);
-            }
+            lines += scoresText(score->fitness);
             lines += " " + std::to_string(score->finished) + " " + std::to_string(score->oriented);
         }
         lines += "\n";

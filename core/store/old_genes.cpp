@@ -54,7 +54,8 @@ std::vector<OldIndividual> readIndividuals(SQLite::Database& database, int gener
                             readGene(query, 3, ga::kStrategyBits)};
         if (individual.genes.strategy.size() != std::size_t{3} * ga::kStrategyBits)
             throwDamaged("the strategy values of an individual are none");
-        individual.score = readFitness(query, 4).total();
+        individual.score =
+            query.getColumn(4).getDouble() + query.getColumn(5).getDouble() + query.getColumn(6).getDouble();
         individuals.push_back(std::move(individual));
     }
     return individuals;

@@ -229,14 +229,94 @@ INSERT INTO curve SELECT number, 2, 'p_s', top_smoothing FROM generation;
 UPDATE study SET settings = json_set(settings, '$.evolution.search', 'genetic', '$.track.traps', 'free-form');
 )sql";
 
-constexpr std::array<Migration, 8> kMigrations = {{{1, kVersion1},
+// Any objectives, not the paper's three alone. The best scores of a generation are its winner's.
+constexpr const char* kVersion9 = R"sql(
+CREATE TABLE objective (
+    place INTEGER PRIMARY KEY,      -- from 0
+    key TEXT NOT NULL UNIQUE        -- what the program calls it
+);
+INSERT INTO objective VALUES (0, 'F_C'), (1, 'F_D'), (2, 'F_O');
+CREATE TABLE score (
+    generation INTEGER NOT NULL, individual INTEGER NOT NULL,
+    objective INTEGER NOT NULL REFERENCES objective (place),
+    value REAL NOT NULL,
+    error REAL NOT NULL,            -- standard error; 0: exact, or not known
+    PRIMARY KEY (generation, individual, objective)
+) WITHOUT ROWID;
+CREATE TABLE top_score (            -- means of the top 30 %
+    generation INTEGER NOT NULL REFERENCES generation (number),
+    objective INTEGER NOT NULL REFERENCES objective (place),
+    value REAL NOT NULL,
+    PRIMARY KEY (generation, objective)
+) WITHOUT ROWID;
+CREATE TABLE selection_score (
+    selection INTEGER NOT NULL, rank INTEGER NOT NULL,
+    objective INTEGER NOT NULL REFERENCES objective (place),
+    value REAL NOT NULL, error REAL NOT NULL,
+    PRIMARY KEY (selection, rank, objective)
+) WITHOUT ROWID;
+CREATE TABLE check_score (
+    generation INTEGER NOT NULL,
+    engine INTEGER NOT NULL,        -- 0: that learned, 1: the reference
+    objective INTEGER NOT NULL REFERENCES objective (place),
+    value REAL NOT NULL, error REAL NOT NULL,
+    PRIMARY KEY (generation, engine, objective)
+) WITHOUT ROWID;
+INSERT INTO score SELECT generation, number, 0, collision, 0 FROM individual
+    UNION ALL SELECT generation, number, 1, distance, 0 FROM individual
+    UNION ALL SELECT generation, number, 2, orientation, 0 FROM individual;
+INSERT INTO top_score SELECT number, 0, top_collision FROM generation
+    UNION ALL SELECT number, 1, top_distance FROM generation
+    UNION ALL SELECT number, 2, top_orientation FROM generation;
+INSERT INTO selection_score SELECT selection, rank, 0, collision, 0 FROM selection_entry
+    UNION ALL SELECT selection, rank, 1, distance, 0 FROM selection_entry
+    UNION ALL SELECT selection, rank, 2, orientation, 0 FROM selection_entry;
+INSERT INTO check_score SELECT generation, 0, 0, learning_collision, 0 FROM winner_check
+    UNION ALL SELECT generation, 0, 1, learning_distance, 0 FROM winner_check
+    UNION ALL SELECT generation, 0, 2, learning_orientation, 0 FROM winner_check
+    UNION ALL SELECT generation, 1, 0, reference_collision, 0 FROM winner_check
+    UNION ALL SELECT generation, 1, 1, reference_distance, 0 FROM winner_check
+    UNION ALL SELECT generation, 1, 2, reference_orientation, 0 FROM winner_check;
+ALTER TABLE individual ADD COLUMN fitness REAL NOT NULL DEFAULT 0;          -- F, their sum
+ALTER TABLE generation ADD COLUMN top_fitness REAL NOT NULL DEFAULT 0;
+ALTER TABLE selection_entry ADD COLUMN fitness REAL NOT NULL DEFAULT 0;
+ALTER TABLE winner_check ADD COLUMN learning_fitness REAL NOT NULL DEFAULT 0;
+ALTER TABLE winner_check ADD COLUMN reference_fitness REAL NOT NULL DEFAULT 0;
+UPDATE individual SET fitness = collision + distance + orientation;
+UPDATE generation SET top_fitness = top_collision + top_distance + top_orientation;
+UPDATE selection_entry SET fitness = collision + distance + orientation;
+UPDATE winner_check SET learning_fitness = learning_collision + learning_distance + learning_orientation,
+    reference_fitness = reference_collision + reference_distance + reference_orientation;
+ALTER TABLE individual DROP COLUMN collision;
+ALTER TABLE individual DROP COLUMN distance;
+ALTER TABLE individual DROP COLUMN orientation;
+ALTER TABLE generation DROP COLUMN best_collision;
+ALTER TABLE generation DROP COLUMN best_distance;
+ALTER TABLE generation DROP COLUMN best_orientation;
+ALTER TABLE generation DROP COLUMN top_collision;
+ALTER TABLE generation DROP COLUMN top_distance;
+ALTER TABLE generation DROP COLUMN top_orientation;
+ALTER TABLE selection_entry DROP COLUMN collision;
+ALTER TABLE selection_entry DROP COLUMN distance;
+ALTER TABLE selection_entry DROP COLUMN orientation;
+ALTER TABLE winner_check DROP COLUMN learning_collision;
+ALTER TABLE winner_check DROP COLUMN learning_distance;
+ALTER TABLE winner_check DROP COLUMN learning_orientation;
+ALTER TABLE winner_check DROP COLUMN reference_collision;
+ALTER TABLE winner_check DROP COLUMN reference_distance;
+ALTER TABLE winner_check DROP COLUMN reference_orientation;
+UPDATE study SET settings = json_set(settings, '$.evolution.objectives', 'F_C, F_D, F_O');
+)sql";
+
+constexpr std::array<Migration, 9> kMigrations = {{{1, kVersion1},
                                                    {2, kVersion2},
                                                    {3, kVersion3},
                                                    {4, kVersion4},
                                                    {5, kVersion5},
                                                    {6, kVersion6},
                                                    {7, kVersion7},
-                                                   {8, kVersion8, &turnGenesIntoDesigns}}};
+                                                   {8, kVersion8, &turnGenesIntoDesigns},
+                                                   {9, kVersion9}}};
 
 }  // namespace
 

@@ -150,11 +150,6 @@ bool areCounts(int whole, std::initializer_list<int> parts) {
     return whole >= 0 && std::ranges::all_of(parts, [&](int part) { return part >= 0 && part <= whole; });
 }
 
-trial::Fitness readFitness(const SQLite::Statement& statement, int first) {
-    return {statement.getColumn(first).getDouble(), statement.getColumn(first + 1).getDouble(),
-            statement.getColumn(first + 2).getDouble()};
-}
-
 base::Quaternion readRotation(const SQLite::Statement& statement, int first) {
     return {statement.getColumn(first).getDouble(), statement.getColumn(first + 1).getDouble(),
             statement.getColumn(first + 2).getDouble(), statement.getColumn(first + 3).getDouble()};

@@ -5,6 +5,7 @@
 #include <SQLiteCpp/VariadicBind.h>
 
 #include "core/store/packing.h"
+#include "core/store/scores.h"
 #include "core/store/study_state.h"
 
 namespace trapwright::store {
@@ -12,7 +13,7 @@ namespace trapwright::store {
 namespace {
 
 constexpr const char* kIndividualColumns =
-    "design, traits, collision, distance, orientation, overlaps, trials, finished, fell_off, stuck, oriented";
+    "design, traits, fitness, overlaps, trials, finished, fell_off, stuck, oriented";
 
 /// What the traits of this study's individuals are called.
 using TraitKeys = std::vector<std::string>;
@@ -58,69 +59,93 @@ void insertIndividual(SQLite::Statement& statement, int generation, int number,
     for (const search::NamedNumber& trait : record.traits)
         traits.push_back(trait.value);
     bindBlob(statement, 4, packNumbers(traits));
-    statement.bind(5, record.fitness.collision);
-    statement.bind(6, record.fitness.distance);
-    statement.bind(7, record.fitness.orientation);
-    statement.bind(8, record.overlaps);
-    statement.bind(9, record.trials);
-    statement.bind(10, record.finished);
-    statement.bind(11, record.fellOff);
-    statement.bind(12, record.stuck);
-    bindOptional(statement, 13, record.oriented);
+    statement.bind(5, record.fitness.total);
+    statement.bind(6, record.overlaps);
+    statement.bind(7, record.trials);
+    statement.bind(8, record.finished);
+    statement.bind(9, record.fellOff);
+    statement.bind(10, record.stuck);
+    bindOptional(statement, 11, record.oriented);
     statement.exec();
 }
 
-/// The columns of kIndividualColumns from `first` on; none if a design is no design, or a count none.
-std::optional<study::IndividualRecord> readIndividual(const SQLite::Statement& query, int first,
-                                                      const TraitKeys& traitKeys) {
-    auto design = search::unpackDesign(readBlob(query, first));
-    const auto traits = unpackNumbers(readBlob(query, first + 1));
-    if (!design || !traits || traits->size() != traitKeys.size()) return std::nullopt;
-    study::IndividualRecord record;
-    record.design = std::move(*design);
-    for (std::size_t i = 0; i < traitKeys.size(); ++i)
-        record.traits.push_back({traitKeys[i], (*traits)[i]});
-    record.fitness = readFitness(query, first + 2);
-    record.overlaps = query.getColumn(first + 5).getInt();
-    record.trials = query.getColumn(first + 6).getInt();
-    record.finished = query.getColumn(first + 7).getInt();
-    record.fellOff = query.getColumn(first + 8).getInt();
-    record.stuck = query.getColumn(first + 9).getInt();
-    const auto oriented = query.getColumn(first + 10);
-    if (!oriented.isNull()) record.oriented = oriented.getInt();
-    const bool counted = areCounts(record.trials, {record.finished, record.fellOff, record.stuck});
-    if (!counted || record.overlaps < 0 || !areCounts(record.trials, {record.oriented.value_or(0)}))
-        return std::nullopt;
-    return record;
-}
+/// Reads individuals from the columns of kIndividualColumns and the table of scores.
+class IndividualReader {
+ public:
+    explicit IndividualReader(SQLite::Database& database)
+        : traitKeys_(readTraitKeys(database)), scores_(database, kIndividualScores) {}
+
+    /// From the columns from `first` on; none if a design is no design, or a count none.
+    std::optional<study::IndividualRecord> read(const SQLite::Statement& query, int first, int generation,
+                                                int number) {
+        auto design = search::unpackDesign(readBlob(query, first));
+        const auto traits = unpackNumbers(readBlob(query, first + 1));
+        auto scores = scores_.read({generation, number});
+        if (!design || !scores || !traits || traits->size() != traitKeys_.size()) return std::nullopt;
+        study::IndividualRecord record;
+        record.design = std::move(*design);
+        for (std::size_t i = 0; i < traitKeys_.size(); ++i)
+            record.traits.push_back({traitKeys_[i], (*traits)[i]});
+        record.fitness = {query.getColumn(first + 2).getDouble(), std::move(*scores)};
+        record.overlaps = query.getColumn(first + 3).getInt();
+        record.trials = query.getColumn(first + 4).getInt();
+        record.finished = query.getColumn(first + 5).getInt();
+        record.fellOff = query.getColumn(first + 6).getInt();
+        record.stuck = query.getColumn(first + 7).getInt();
+        const auto oriented = query.getColumn(first + 8);
+        if (!oriented.isNull()) record.oriented = oriented.getInt();
+        const bool counted = areCounts(record.trials, {record.finished, record.fellOff, record.stuck});
+        if (!counted || record.overlaps < 0 || !areCounts(record.trials, {record.oriented.value_or(0)}))
+            return std::nullopt;
+        return record;
+    }
+
+ private:
+    TraitKeys traitKeys_;
+    ScoreReader scores_;
+};
 
 constexpr const char* kSummaryQuery =
-    "SELECT generation.number, winner, seconds, best_collision, best_distance, best_orientation, "
-    "top_collision, top_distance, top_orientation, "
+    "SELECT generation.number, winner, seconds, best.fitness, top_fitness, "
     "(SELECT sum(trials) FROM individual WHERE individual.generation = generation.number), best.oriented, "
     "best.trials, top_success FROM generation LEFT JOIN individual AS best "
     "ON best.generation = generation.number AND best.number = generation.winner ";
 
-base::Result<study::GenerationSummary> readSummary(const std::filesystem::path& path,
-                                                   const SQLite::Statement& query) {
-    study::GenerationSummary summary;
-    summary.index = query.getColumn(0).getInt();
-    summary.winner = query.getColumn(1).getInt();
-    summary.seconds = query.getColumn(2).getDouble();
-    summary.statistics.best = readFitness(query, 3);
-    summary.statistics.topMean = readFitness(query, 6);
-    summary.trials = query.getColumn(9).getInt64();
-    const auto oriented = query.getColumn(10);
-    const int trials = query.getColumn(11).getInt();
-    if (!oriented.isNull() && trials > 0) {
-        if (!areCounts(trials, {oriented.getInt()}))
-            return damagedValue(path, "the winner of generation " + std::to_string(summary.index));
-        summary.statistics.success = {oriented.getInt(), trials};
+/// Reads summaries from rows of kSummaryQuery and the tables of scores.
+class SummaryReader {
+ public:
+    SummaryReader(SQLite::Database& database, std::filesystem::path path)
+        : path_(std::move(path)), best_(database, kIndividualScores), top_(database, kTopScores) {}
+
+    base::Result<study::GenerationSummary> read(const SQLite::Statement& query) {
+        study::GenerationSummary summary;
+        summary.index = query.getColumn(0).getInt();
+        summary.winner = query.getColumn(1).getInt();
+        summary.seconds = query.getColumn(2).getDouble();
+        auto best = best_.read({summary.index, summary.winner});
+        auto top = top_.read({summary.index});
+        if (!best || !top)
+            return damagedValue(path_, "a score of generation " + std::to_string(summary.index));
+        summary.statistics.best = {query.getColumn(3).getDouble(), std::move(*best)};
+        summary.statistics.topMean = {query.getColumn(4).getDouble(), std::move(*top)};
+        summary.trials = query.getColumn(5).getInt64();
+        const auto oriented = query.getColumn(6);
+        const int trials = query.getColumn(7).getInt();
+        if (!oriented.isNull() && trials > 0) {
+            if (!areCounts(trials, {oriented.getInt()}))
+                return damagedValue(path_, "the winner of generation " + std::to_string(summary.index));
+            summary.statistics.success = {oriented.getInt(), trials};
+        }
+        const auto topSuccess = query.getColumn(8);
+        if (!topSuccess.isNull()) summary.statistics.topSuccess = topSuccess.getDouble();
+        return summary;
     }
-    const auto topSuccess = query.getColumn(12);
-    if (!topSuccess.isNull()) summary.statistics.topSuccess = topSuccess.getDouble();
-    return summary;
-}
+
+ private:
+    std::filesystem::path path_;
+    ScoreReader best_;
+    ScoreReader top_;
+};
 
 /// Adds what the search reported of these generations; of all from the first of them on, whose numbers follow
 /// each other.
@@ -151,12 +176,12 @@ base::Result<std::vector<study::Individual>> readWinners(SQLite::Database& datab
                                           " FROM generation JOIN individual ON individual.generation = "
                                           "generation.number AND individual.number = generation.winner " +
                                           condition + "ORDER BY generation");
-    const TraitKeys traitKeys = readTraitKeys(database);
+    IndividualReader reader(database);
     std::vector<study::Individual> winners;
     while (query.executeStep()) {
         const int generation = query.getColumn(0).getInt();
         const int number = query.getColumn(1).getInt();
-        auto record = readIndividual(query, 2, traitKeys);
+        auto record = reader.read(query, 2, generation, number);
         if (!record) return damagedValue(path, nameOf(generation, number));
         winners.push_back({generation, number, std::move(*record)});
     }
@@ -176,13 +201,14 @@ base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
                                " generations, and the next one must have that number."};
         }
         SQLite::Statement generation(database,
-                                     "INSERT INTO generation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                                     "INSERT INTO generation (number, program, winner, seconds, top_fitness, "
+                                     "top_success) VALUES (?, ?, ?, ?, ?, ?)");
         const study::GenerationStatistics& s = record.statistics;
-        SQLite::bind(generation, record.index, state_->program, record.winner, s.best.collision,
-                     s.best.distance, s.best.orientation, s.topMean.collision, s.topMean.distance,
-                     s.topMean.orientation, record.seconds);
-        bindOptional(generation, 11, s.topSuccess);
+        SQLite::bind(generation, record.index, state_->program, record.winner, record.seconds,
+                     s.topMean.total);
+        bindOptional(generation, 6, s.topSuccess);
         generation.exec();
+        ScoreWriter(database, kTopScores).write({record.index}, s.topMean.scores);
         SQLite::Statement curve(database, "INSERT INTO curve VALUES (?, ?, ?, ?)");
         for (std::size_t i = 0; i < s.curves.size(); ++i) {
             curve.reset();
@@ -193,9 +219,12 @@ base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
             writeTraitKeys(database, record.individuals.front().traits);
         SQLite::Statement individual(database, std::string("INSERT INTO individual (generation, number, ") +
                                                    kIndividualColumns +
-                                                   ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                                                   ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        ScoreWriter scores(database, kIndividualScores);
         for (std::size_t i = 0; i < record.individuals.size(); ++i) {
-            insertIndividual(individual, record.index, static_cast<int>(i), record.individuals[i]);
+            const int number = static_cast<int>(i);
+            insertIndividual(individual, record.index, number, record.individuals[i]);
+            scores.write({record.index, number}, record.individuals[i].fitness.scores);
         }
         SQLite::Statement state(database, "INSERT OR REPLACE INTO search_state VALUES (1, ?, ?)");
         state.bind(1, record.index);
@@ -221,7 +250,7 @@ base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const
                                std::to_string(state_->countRows("generation")) +
                                " generations, counted from 0."};
         }
-        auto read = readSummary(path(), head);
+        auto read = SummaryReader(*state_->database, path()).read(head);
         if (!read) return read.error();
         std::vector<study::GenerationSummary> one{std::move(*read)};
         readCurves(*state_->database, one);
@@ -230,16 +259,16 @@ base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const
         record.winner = one.front().winner;
         record.statistics = std::move(one.front().statistics);
         record.seconds = one.front().seconds;
-        const TraitKeys traitKeys = readTraitKeys(*state_->database);
 
+        IndividualReader reader(*state_->database);
         SQLite::Statement query(*state_->database,
                                 std::string("SELECT ") + kIndividualColumns +
                                     " FROM individual WHERE generation = ? ORDER BY number");
         query.bind(1, index);
         while (query.executeStep()) {
-            auto individual = readIndividual(query, 0, traitKeys);
-            if (!individual)
-                return damagedValue(path(), nameOf(index, static_cast<int>(record.individuals.size())));
+            const int number = static_cast<int>(record.individuals.size());
+            auto individual = reader.read(query, 0, index, number);
+            if (!individual) return damagedValue(path(), nameOf(index, number));
             record.individuals.push_back(std::move(*individual));
         }
         const int count = static_cast<int>(record.individuals.size());
@@ -251,21 +280,21 @@ base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const
 
 base::Result<study::IndividualRecord> StudyFile::loadIndividual(int generation, int individual) const {
     const std::string name = nameOf(generation, individual);
-    return guarded(path(), "The " + name + " could not be read",
-                   [&]() -> base::Result<study::IndividualRecord> {
-                       SQLite::Statement query(*state_->database,
-                                               std::string("SELECT ") + kIndividualColumns +
-                                                   " FROM individual WHERE generation = ? AND number = ?");
-                       SQLite::bind(query, generation, individual);
-                       if (!query.executeStep()) {
-                           return base::Error{"The study " + path().string() + " has no " + name +
-                                              "; it has " + std::to_string(state_->countRows("generation")) +
-                                              " generations. Generations and individuals count from 0."};
-                       }
-                       auto record = readIndividual(query, 0, readTraitKeys(*state_->database));
-                       if (!record) return damagedValue(path(), name);
-                       return std::move(*record);
-                   });
+    return guarded(
+        path(), "The " + name + " could not be read", [&]() -> base::Result<study::IndividualRecord> {
+            SQLite::Statement query(*state_->database,
+                                    std::string("SELECT ") + kIndividualColumns +
+                                        " FROM individual WHERE generation = ? AND number = ?");
+            SQLite::bind(query, generation, individual);
+            if (!query.executeStep()) {
+                return base::Error{"The study " + path().string() + " has no " + name + "; it has " +
+                                   std::to_string(state_->countRows("generation")) +
+                                   " generations. Generations and individuals count from 0."};
+            }
+            auto record = IndividualReader(*state_->database).read(query, 0, generation, individual);
+            if (!record) return damagedValue(path(), name);
+            return std::move(*record);
+        });
 }
 
 base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int first) const {
@@ -275,9 +304,10 @@ base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int
                                                std::string(kSummaryQuery) +
                                                    "WHERE generation.number >= ? ORDER BY generation.number");
                        query.bind(1, first);
+                       SummaryReader reader(*state_->database, path());
                        std::vector<study::GenerationSummary> summaries;
                        while (query.executeStep()) {
-                           auto summary = readSummary(path(), query);
+                           auto summary = reader.read(query);
                            if (!summary) return summary.error();
                            summaries.push_back(std::move(*summary));
                        }

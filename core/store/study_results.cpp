@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "core/store/scores.h"
 #include "core/store/study_state.h"
 
 namespace trapwright::store {
@@ -16,11 +17,11 @@ study::SelectionEntry readEntry(const SQLite::Statement& query) {
     study::SelectionEntry entry;
     entry.generation = query.getColumn(0).getInt();
     entry.individual = query.getColumn(1).getInt();
-    entry.fitness = readFitness(query, 2);
-    entry.trials = query.getColumn(5).getInt();
-    entry.finished = query.getColumn(6).getInt();
-    entry.oriented = query.getColumn(7).getInt();
-    entry.modalOrientation = readRotation(query, 8);
+    entry.fitness.total = query.getColumn(2).getDouble();
+    entry.trials = query.getColumn(3).getInt();
+    entry.finished = query.getColumn(4).getInt();
+    entry.oriented = query.getColumn(5).getInt();
+    entry.modalOrientation = readRotation(query, 6);
     return entry;
 }
 
@@ -46,15 +47,19 @@ base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
         SQLite::bind(head, number, state_->program, record.engine);
         head.exec();
         SQLite::Statement row(
-            database, "INSERT INTO selection_entry VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+            database,
+            "INSERT INTO selection_entry (selection, rank, generation, individual, fitness, trials, "
+            "finished, "
+            "oriented, modal_w, modal_x, modal_y, modal_z) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        ScoreWriter scores(database, kSelectionScores);
         int rank = 0;
         for (const study::SelectionEntry& e : record.entries) {
             const base::Quaternion& q = e.modalOrientation;
             row.reset();
-            SQLite::bind(row, number, rank++, e.generation, e.individual, e.fitness.collision,
-                         e.fitness.distance, e.fitness.orientation, e.trials, e.finished, e.oriented, q.w(),
-                         q.x(), q.y(), q.z());
+            SQLite::bind(row, number, rank, e.generation, e.individual, e.fitness.total, e.trials, e.finished,
+                         e.oriented, q.w(), q.x(), q.y(), q.z());
             row.exec();
+            scores.write({number, rank++}, e.fitness.scores);
         }
         transaction.commit();
         return base::success();
@@ -66,22 +71,25 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
                    [&]() -> base::Result<std::vector<study::SelectionRecord>> {
                        SQLite::Statement heads(*state_->database,
                                                "SELECT number, engine FROM selection ORDER BY number");
-                       SQLite::Statement rows(
-                           *state_->database,
-                           "SELECT generation, individual, collision, distance, orientation, trials, "
-                           "finished, oriented, modal_w, modal_x, modal_y, modal_z "
-                           "FROM selection_entry WHERE selection = ? ORDER BY rank");
+                       SQLite::Statement rows(*state_->database,
+                                              "SELECT generation, individual, fitness, trials, "
+                                              "finished, oriented, modal_w, modal_x, modal_y, modal_z "
+                                              "FROM selection_entry WHERE selection = ? ORDER BY rank");
+                       ScoreReader scores(*state_->database, kSelectionScores);
                        std::vector<study::SelectionRecord> records;
                        while (heads.executeStep()) {
                            study::SelectionRecord record;
                            record.engine = heads.getColumn(1).getString();
                            rows.reset();
-                           rows.bind(1, heads.getColumn(0).getInt());
+                           const int number = heads.getColumn(0).getInt();
+                           rows.bind(1, number);
                            while (rows.executeStep()) {
-                               const study::SelectionEntry entry = readEntry(rows);
-                               if (!areCounts(entry.trials, {entry.finished, entry.oriented}))
+                               study::SelectionEntry entry = readEntry(rows);
+                               auto own = scores.read({number, static_cast<int>(record.entries.size())});
+                               if (!own || !areCounts(entry.trials, {entry.finished, entry.oriented}))
                                    return damagedValue(path(), "the counts of a selection");
-                               record.entries.push_back(entry);
+                               entry.fitness.scores = std::move(*own);
+                               record.entries.push_back(std::move(entry));
                            }
                            records.push_back(std::move(record));
                        }

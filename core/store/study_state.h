@@ -52,8 +52,6 @@ base::Error damagedValue(const std::filesystem::path& path, const std::string& w
 /// Whether all of these can be counts out of `whole`: none negative, none more than there were.
 bool areCounts(int whole, std::initializer_list<int> parts);
 
-/// Three scores from column `first` on.
-trial::Fitness readFitness(const SQLite::Statement& statement, int first);
 /// A rotation (w, x, y, z) from column `first` on.
 base::Quaternion readRotation(const SQLite::Statement& statement, int first);
 std::string readBlob(const SQLite::Statement& statement, int column);

@@ -1,14 +1,15 @@
 #include "core/study/evaluator.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 
 #include "core/base/parallel.h"
 #include "core/geometry/self_overlap.h"
 #include "core/search/racing.h"
-#include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
@@ -23,7 +24,8 @@ struct Candidate {
     std::string failure;
 };
 
-Candidate prepare(const StudyInputs& inputs, const search::Proposal& proposal) {
+Candidate prepare(const StudyInputs& inputs, const search::Proposal& proposal,
+                  const objectives::ObjectiveList& summed) {
     const Settings& settings = inputs.settings;
     Candidate candidate;
     candidate.record.design = proposal.design;
@@ -37,8 +39,10 @@ Candidate prepare(const StudyInputs& inputs, const search::Proposal& proposal) {
     candidate.record.overlaps =
         geometry::countOverlappingTriangles(candidate.track->solid, candidate.track->surfaceTriangles);
     candidate.simulated = candidate.record.overlaps == 0 || settings.evolution.simulateOverlapping;
-    if (!candidate.simulated)
-        candidate.record.fitness = trial::calcUnsimulatedFitness(*candidate.track, candidate.record.overlaps);
+    if (!candidate.simulated) {
+        candidate.record.fitness = objectives::measureSum(
+            makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, {}), summed);
+    }
     return candidate;
 }
 
@@ -71,6 +75,7 @@ class Race {
         : inputs_(&inputs),
           generation_(generation),
           candidates_(&candidates),
+          summed_(summedObjectives(inputs.settings.evolution)),
           stages_(search::makeRacingStages(candidates.size(), settings().racingTrials,
                                            settings().trialsPerEvaluation, settings().racingShare)),
           running_(static_cast<int>(
@@ -81,7 +86,7 @@ class Race {
     [[nodiscard]] std::vector<search::RacingStep> findNextRound() const {
         std::vector<double> fitnesses;
         for (const Candidate& candidate : *candidates_)
-            fitnesses.push_back(candidate.record.fitness.total());
+            fitnesses.push_back(candidate.record.fitness.total);
         return search::findNextRound(fitnesses, countTrials(), stages_);
     }
 
@@ -125,19 +130,38 @@ class Race {
     void score(std::span<const trial::Outcome> more, Candidate& candidate) const {
         candidate.outcomes.insert(candidate.outcomes.end(), more.begin(), more.end());
         countEndings(more, candidate.record);
-        candidate.record.fitness =
-            trial::calcFitness(*candidate.track, candidate.outcomes, candidate.record.overlaps,
-                               inputs_->part->symmetry, settings().orientationDistance);
+        candidate.record.fitness = objectives::measureSum(
+            makeEvaluation(*inputs_, *candidate.track, candidate.record.overlaps, candidate.outcomes),
+            summed_);
     }
 
     const StudyInputs* inputs_;
     int generation_;
     std::vector<Candidate>* candidates_;
+    objectives::ObjectiveList summed_;
     std::vector<search::RacingStage> stages_;
     int running_;
 };
 
 }  // namespace
+
+objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings) {
+    auto list = objectives::readObjectives(settings.objectives);
+    assert(list.ok());
+    return std::move(list).value();
+}
+
+objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Track& track, int overlaps,
+                                      std::span<const trial::Outcome> outcomes) {
+    objectives::Evaluation evaluation;
+    evaluation.track = &track;
+    evaluation.symmetry = &inputs.part->symmetry;
+    evaluation.overlaps = overlaps;
+    evaluation.outcomes = outcomes;
+    evaluation.distance = inputs.settings.evolution.orientationDistance;
+    evaluation.tolerance = inputs.settings.validation.tolerance;
+    return evaluation;
+}
 
 base::Status checkInputs(const StudyInputs& inputs) {
     std::string problems;
@@ -173,9 +197,10 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
 base::Result<std::vector<IndividualRecord>> evaluateGeneration(
     const StudyInputs& inputs, int generation, std::span<const search::Proposal> proposals,
     const std::function<void(const GenerationPlan&)>& planned, base::RunControl control) {
+    const objectives::ObjectiveList summed = summedObjectives(inputs.settings.evolution);
     std::vector<Candidate> candidates(proposals.size());
     base::parallelFor(proposals.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
-        if (control.mayGoOn()) candidates[i] = prepare(inputs, proposals[i]);
+        if (control.mayGoOn()) candidates[i] = prepare(inputs, proposals[i], summed);
     });
     if (control.cancelled()) return base::Error{"The evaluation was cancelled."};
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -193,14 +218,20 @@ base::Result<std::vector<IndividualRecord>> evaluateGeneration(
         round = race.findNextRound();
     } while (!round.empty());
 
-    // Nothing of learning looks at success, so it is counted once, when all trials are known.
+    // Nothing of learning looks at success and what else does not count in F, so it is measured once, when
+    // all trials are known.
     base::parallelFor(candidates.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
-        const std::vector<trial::Outcome>& outcomes = candidates[i].outcomes;
+        Candidate& candidate = candidates[i];
+        const std::vector<trial::Outcome>& outcomes = candidate.outcomes;
         const part::SymmetryGroup& symmetry = inputs.part->symmetry;
         const double tolerance = inputs.settings.validation.tolerance;
         const base::Quaternion expected =
-            trial::findModalOrientation(finalOrientations(outcomes), symmetry, tolerance);
-        candidates[i].record.oriented = countOriented(outcomes, expected, symmetry, tolerance);
+            trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
+        candidate.record.oriented = trial::countOriented(outcomes, expected, symmetry, tolerance);
+        objectives::Evaluation evaluation =
+            makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, outcomes);
+        evaluation.oriented = candidate.record.oriented;
+        candidate.record.fitness = objectives::measureOthers(evaluation, std::move(candidate.record.fitness));
     });
 
     std::vector<IndividualRecord> records;

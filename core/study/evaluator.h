@@ -22,6 +22,13 @@ struct StudyInputs {
     unsigned threads = 1;  // for building tracks; the engine has its own
 };
 
+/// What counts in F. The settings must be without problems (findProblems).
+objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings);
+
+/// These outcomes on this track as objectives look at them. All must outlive the evaluation.
+objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Track& track, int overlaps,
+                                      std::span<const trial::Outcome> outcomes);
+
 /// An error that lists everything that is wrong with settings and part, if anything is.
 base::Status checkInputs(const StudyInputs& inputs);
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/part/stable_poses.h"
-#include "core/trial/fitness.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 

@@ -60,6 +60,7 @@ Settings paperMode(Settings settings) {
     settings.track.shape.type = track::FeederType::bowl;
     settings.track.shape.bowlRadius = 175e-3;
     settings.evolution.search = search::Method::genetic;
+    settings.evolution.objectives = objectives::kPaperObjectives;
     settings.evolution.orientationDistance = trial::OrientationDistance::plain;
     settings.evolution.smoothingLimit = 1.0;
     settings.evolution.mutationFloor = 0.0;

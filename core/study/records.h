@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/objectives/objectives.h"
 #include "core/search/search.h"
 #include "core/stats/binomial.h"
-#include "core/trial/fitness.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::study {
@@ -16,7 +16,7 @@ namespace trapwright::study {
 struct IndividualRecord {
     search::Design design;
     std::vector<search::NamedNumber> traits;  // what else the search knows of it
-    trial::Fitness fitness;
+    objectives::Fitness fitness;
     int overlaps = 0;  // triangles of the surface that overlap another; F_C = -overlaps
     int trials = 0;    // simulated; 0 if the track was not simulated
     int finished = 0;
@@ -37,8 +37,8 @@ struct IndividualRecord {
 
 /// The curves of Figures 6 and 7 (decisions.md#distance-and-statistics), and success.
 struct GenerationStatistics {
-    trial::Fitness best;                      // of the winner
-    trial::Fitness topMean;                   // arithmetic mean of the top 30 %
+    objectives::Fitness best;                 // of the winner
+    objectives::Fitness topMean;              // arithmetic mean of the top 30 %
     std::vector<search::NamedNumber> curves;  // what the search reports; the genetic one its strategy values
     std::optional<stats::Count> success{};    // of the winner; none: not simulated, or not counted
     /// Mean share of those of the top 30 % that were simulated. None: there are none, or it was not counted.
@@ -91,7 +91,7 @@ struct Individual {
 /// What one engine made of the trials of a check.
 struct EngineScore {
     std::string engine;
-    trial::Fitness fitness;
+    objectives::Fitness fitness;
     int finished = 0;
     int oriented = 0;  // finished within the tolerance of the learning engine's modal orientation
 
@@ -113,7 +113,7 @@ struct CheckRecord {
 struct SelectionEntry {
     int generation = 0;
     int individual = 0;
-    trial::Fitness fitness;  // from the many trials
+    objectives::Fitness fitness;  // from the many trials
     int trials = 0;
     int finished = 0;
     int oriented = 0;  // finished within the tolerance of the modal orientation

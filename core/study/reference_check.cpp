@@ -4,9 +4,9 @@
 #include <array>
 #include <cassert>
 
-#include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
@@ -17,11 +17,12 @@ EngineScore scoreOf(const StudyInputs& inputs, const trial::Engine& engine, cons
                     const base::Quaternion& expected) {
     EngineScore score;
     score.engine = engine.name();
-    score.fitness = trial::calcFitness(track, outcomes, overlaps, inputs.part->symmetry,
-                                       inputs.settings.evolution.orientationDistance);
-    score.finished = static_cast<int>(finalOrientations(outcomes).size());
+    score.finished = static_cast<int>(trial::finalOrientations(outcomes).size());
     score.oriented =
-        countOriented(outcomes, expected, inputs.part->symmetry, inputs.settings.validation.tolerance);
+        trial::countOriented(outcomes, expected, inputs.part->symmetry, inputs.settings.validation.tolerance);
+    objectives::Evaluation evaluation = makeEvaluation(inputs, track, overlaps, outcomes);
+    evaluation.oriented = score.oriented;
+    score.fitness = objectives::measureAll(evaluation, summedObjectives(inputs.settings.evolution));
     return score;
 }
 
@@ -48,7 +49,7 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
 
     const std::vector<trial::Outcome>& own = learned->front();
     const base::Quaternion expected = trial::findModalOrientation(
-        finalOrientations(own), inputs.part->symmetry, inputs.settings.validation.tolerance);
+        trial::finalOrientations(own), inputs.part->symmetry, inputs.settings.validation.tolerance);
     const int overlaps = winner.record.overlaps;
     CheckRecord record;
     record.generation = winner.generation;

@@ -13,42 +13,66 @@ std::vector<double> totalsOf(std::span<const IndividualRecord> individuals) {
     std::vector<double> totals;
     totals.reserve(individuals.size());
     for (const IndividualRecord& individual : individuals)
-        totals.push_back(individual.fitness.total());
+        totals.push_back(individual.fitness.total);
     return totals;
 }
 
-std::vector<search::Judgement> judgementsOf(std::span<const IndividualRecord> individuals) {
+std::vector<search::Judgement> judgementsOf(std::span<const IndividualRecord> individuals,
+                                            const objectives::ObjectiveList& summed) {
     std::vector<search::Judgement> judgements;
     judgements.reserve(individuals.size());
-    for (const IndividualRecord& individual : individuals)
-        judgements.push_back({individual.fitness.total(), individual.trials});
+    for (const IndividualRecord& individual : individuals) {
+        const objectives::Fitness& fitness = individual.fitness;
+        search::Judgement judgement{fitness.total, individual.trials,
+                                    objectives::calcTotalError(fitness, summed)};
+        for (const objectives::Objective* objective : summed) {
+            const double value = objectives::findScore(fitness, objective->key)->value;
+            judgement.objectives.push_back(
+                {std::string(objective->key), objective->moreIsBetter ? value : -value});
+        }
+        judgements.push_back(std::move(judgement));
+    }
     return judgements;
+}
+
+/// The mean of each score; the total is their sum.
+objectives::Fitness calcMean(std::span<const IndividualRecord> individuals,
+                             std::span<const std::size_t> chosen, const objectives::ObjectiveList& summed) {
+    objectives::Fitness mean;
+    for (const objectives::Score& score : individuals[chosen.front()].fitness.scores)
+        mean.scores.push_back({score.key});
+    for (const std::size_t i : chosen) {
+        for (objectives::Score& score : mean.scores) {
+            const objectives::Score* own = objectives::findScore(individuals[i].fitness, score.key);
+            if (own != nullptr) score.value += own->value;
+        }
+    }
+    for (objectives::Score& score : mean.scores)
+        score.value /= static_cast<double>(chosen.size());
+    mean.total = objectives::calcTotal(mean.scores, summed);
+    return mean;
 }
 
 }  // namespace
 
 GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> individuals,
-                                    std::vector<search::NamedNumber> curves) {
+                                    std::vector<search::NamedNumber> curves,
+                                    const objectives::ObjectiveList& summed) {
     GenerationRecord record;
     record.index = index;
     record.individuals = std::move(individuals);
 
     const std::vector<std::size_t> top = search::findTop(totalsOf(record.individuals));
-    trial::Fitness& mean = record.statistics.topMean;
     double successes = 0.0;
     int simulated = 0;
     for (const std::size_t i : top) {
         const IndividualRecord& individual = record.individuals[i];
-        mean.collision += individual.fitness.collision;
-        mean.distance += individual.fitness.distance;
-        mean.orientation += individual.fitness.orientation;
         if (const auto success = individual.success()) {
             successes += success->share();
             ++simulated;
         }
     }
-    const auto count = static_cast<double>(top.size());
-    mean = {mean.collision / count, mean.distance / count, mean.orientation / count};
+    record.statistics.topMean = calcMean(record.individuals, top, summed);
     record.winner = static_cast<int>(top.front());
     record.statistics.best = record.individuals[top.front()].fitness;
     record.statistics.curves = std::move(curves);
@@ -66,6 +90,7 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     const Settings& settings = inputs.settings;
     const std::unique_ptr<search::Search> search = makeSearch(settings);
+    const objectives::ObjectiveList summed = summedObjectives(settings.evolution);
     if (last) {
         if (const auto loaded = search->load(last->search); !loaded)
             return base::Error{loaded.error().message, base::ErrorKind::damaged};
@@ -79,8 +104,9 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
         if (control.run.cancelled()) return LearningEnd::cancelled;
         if (!individuals) return individuals.error();
 
-        search->tell(judgementsOf(*individuals));
-        GenerationRecord record = completeGeneration(index, std::move(*individuals), search->report());
+        search->tell(judgementsOf(*individuals, summed));
+        GenerationRecord record =
+            completeGeneration(index, std::move(*individuals), search->report(), summed);
         record.searchState = search->save();
         record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         if (const auto saved = events.save(record); !saved) return saved.error();

@@ -35,8 +35,9 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
                                  const LearningEvents& events, const LearningControl& control);
 
 /// A generation's winner and statistics (Figures 6 and 7; decisions.md#distance-and-statistics), with what
-/// the search reports of it.
+/// the search reports of it. `summed`: what counts in F.
 GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> individuals,
-                                    std::vector<search::NamedNumber> curves);
+                                    std::vector<search::NamedNumber> curves,
+                                    const objectives::ObjectiveList& summed);
 
 }  // namespace trapwright::study

@@ -3,26 +3,26 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "core/study/validation.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
 namespace {
 
 bool isBetter(const SelectionEntry& a, const SelectionEntry& b) {
-    return std::make_tuple(-a.oriented, -a.fitness.total(), a.generation, a.individual) <
-           std::make_tuple(-b.oriented, -b.fitness.total(), b.generation, b.individual);
+    return std::make_tuple(-a.oriented, -a.fitness.total, a.generation, a.individual) <
+           std::make_tuple(-b.oriented, -b.fitness.total, b.generation, b.individual);
 }
 
 }  // namespace
 
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) {
     std::stable_sort(winners.begin(), winners.end(), [](const Individual& a, const Individual& b) {
-        return std::make_tuple(-a.record.fitness.total(), a.generation, a.individual) <
-               std::make_tuple(-b.record.fitness.total(), b.generation, b.individual);
+        return std::make_tuple(-a.record.fitness.total, a.generation, a.individual) <
+               std::make_tuple(-b.record.fitness.total, b.generation, b.individual);
     });
     std::vector<Individual> ranked;
     for (Individual& winner : winners) {
@@ -38,7 +38,7 @@ std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) 
 const Individual* findBestWinner(std::span<const Individual> winners) {
     const auto worth = [](const Individual& winner) {
         const auto success = winner.record.success();
-        return std::make_pair(success ? success->share() : -1.0, winner.record.fitness.total());
+        return std::make_pair(success ? success->share() : -1.0, winner.record.fitness.total);
     };
     // The first of the greatest ones.
     const auto best =
@@ -68,22 +68,25 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
     if (!outcomes) return outcomes.error();
 
+    const objectives::ObjectiveList summed = summedObjectives(settings.evolution);
     SelectionRecord record{inputs.engine->name(), {}};
     for (std::size_t i = 0; i < ranked.size(); ++i) {
         const std::vector<trial::Outcome>& own = (*outcomes)[i];
         SelectionEntry entry;
         entry.generation = ranked[i].generation;
         entry.individual = ranked[i].individual;
-        entry.fitness = trial::calcFitness(*batches[i].track, own, ranked[i].record.overlaps,
-                                           inputs.part->symmetry, settings.evolution.orientationDistance);
         entry.trials = static_cast<int>(own.size());
-        const std::vector<base::Quaternion> finals = finalOrientations(own);
+        const std::vector<base::Quaternion> finals = trial::finalOrientations(own);
         entry.finished = static_cast<int>(finals.size());
         entry.modalOrientation =
             trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
-        entry.oriented =
-            countOriented(own, entry.modalOrientation, inputs.part->symmetry, settings.validation.tolerance);
-        record.entries.push_back(entry);
+        entry.oriented = trial::countOriented(own, entry.modalOrientation, inputs.part->symmetry,
+                                              settings.validation.tolerance);
+        objectives::Evaluation evaluation =
+            makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own);
+        evaluation.oriented = entry.oriented;
+        entry.fitness = objectives::measureAll(evaluation, summed);
+        record.entries.push_back(std::move(entry));
     }
     std::sort(record.entries.begin(), record.entries.end(), isBetter);
     return record;

@@ -1,5 +1,7 @@
 #include "core/study/settings.h"
 
+#include <algorithm>
+
 #include <tuple>
 
 namespace trapwright::study {
@@ -38,6 +40,11 @@ bool keepsScores(const Settings& before, const Settings& after) {
     same.evolution.generations = before.evolution.generations;
     takePoseWeights(same.part, before.part);
     same.validation = before.validation;
+    // Where success counts in F, what success is counts as well.
+    const auto summed = objectives::readObjectives(before.evolution.objectives);
+    if (summed && std::find(summed->begin(), summed->end(),
+                            objectives::findObjective(objectives::kSuccess)) != summed->end())
+        same.validation.tolerance = after.validation.tolerance;
     same.feeder = before.feeder;
     return same == before;
 }

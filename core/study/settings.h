@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/objectives/objectives.h"
 #include "core/part/part.h"
 #include "core/part/symmetry.h"
 #include "core/search/methods.h"
 #include "core/track/feeder_shape.h"
 #include "core/traps/trap_kind.h"
 #include "core/trial/batch.h"
-#include "core/trial/fitness.h"
 #include "core/trial/start.h"
 
 namespace trapwright::study {
@@ -48,6 +48,8 @@ struct EvolutionSettings {
     double staticMutation = 0.002;  // p_sm
     double smoothingLimit = 0.3;    // what p_s = 1 stands for; 1 in the paper
     double mutationFloor = 0.0005;  // floor of p_dm; 0 in the paper
+    // Whose sum a search maximises (objectives::readObjectives).
+    std::string objectives{objectives::kPaperObjectives};
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0
     int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody

@@ -34,6 +34,10 @@ class RangeCheck {
             if (const auto chain = traps::readTraps(value); !chain)
                 problems.push_back("track.traps is \"" + value + "\". " + chain.error().message);
         }
+        if (key == "evolution.objectives") {
+            if (const auto list = objectives::readObjectives(value); !list)
+                problems.push_back("evolution.objectives is \"" + value + "\". " + list.error().message);
+        }
         if (key == "part.droppedCounts" && !readCounts(value)) {
             problems.push_back("part.droppedCounts is \"" + value +
                                "\"; write how many drops ended in each stable pose, as in 129, 48, 23.");

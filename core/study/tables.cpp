@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include "core/stats/binomial.h"
 
@@ -53,15 +55,36 @@ std::string formatValidation(const ValidationTable& table, bool everyPose) {
 }
 
 std::string formatSelection(const SelectionRecord& record) {
-    std::string text =
-        fmt::format("{:>4} {:>10} {:>10} {:>8} {:>8} {:>9} {:>7}   {:>7}   {:>20}\n", "Rank", "Generation",
-                    "Individual", "F_D", "F_O", "Finished", "Trials", "Success", "95 % Clopper-Pearson");
+    // What trials tell and has no column of its own.
+    objectives::ObjectiveList objectives;
+    for (const objectives::Objective& objective : objectives::allObjectives()) {
+        const bool isScored = !record.entries.empty() &&
+                              objectives::findScore(record.entries.front().fitness, objective.key) != nullptr;
+        if (isScored && objective.isNoisy && objective.key != objectives::kSuccess)
+            objectives.push_back(&objective);
+    }
+    std::string text = fmt::format("{:>4} {:>10} {:>10}", "Rank", "Generation", "Individual");
+    std::vector<std::size_t> widths;
+    for (const objectives::Objective* objective : objectives) {
+        const std::string title =
+            objective->key == objective->symbol ? std::string(objective->symbol) : objective->title();
+        constexpr std::size_t kLeast = 8;
+        widths.push_back(std::max(kLeast, title.size()));
+        text += fmt::format(" {:>{}}", title, widths.back());
+    }
+    text += fmt::format(" {:>9} {:>7}   {:>7}   {:>20}\n", "Finished", "Trials", "Success",
+                        "95 % Clopper-Pearson");
     int rank = 0;
     for (const SelectionEntry& entry : record.entries) {
-        fmt::format_to(std::back_inserter(text), "{:>4} {:>10} {:>10} {:>8.3f} {:>8.3f} {:>9} {:>7}   {}\n",
-                       ++rank, entry.generation, entry.individual, entry.fitness.distance,
-                       entry.fitness.orientation, entry.finished, entry.trials,
-                       shareText(entry.oriented, entry.trials));
+        text += fmt::format("{:>4} {:>10} {:>10}", ++rank, entry.generation, entry.individual);
+        for (std::size_t i = 0; i < objectives.size(); ++i) {
+            const objectives::Score* score = objectives::findScore(entry.fitness, objectives[i]->key);
+            text += fmt::format(" {:>{}}",
+                                score != nullptr ? objectives::shown(*objectives[i], score->value) : "-",
+                                widths[i]);
+        }
+        text += fmt::format(" {:>9} {:>7}   {}\n", entry.finished, entry.trials,
+                            shareText(entry.oriented, entry.trials));
     }
     return text;
 }

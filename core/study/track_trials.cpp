@@ -1,8 +1,7 @@
 #include "core/study/track_trials.h"
 
-#include "core/study/final_orientation.h"
 #include "core/study/trial_batches.h"
-#include "core/trial/fitness.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
@@ -17,7 +16,8 @@ TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::Sy
     TrialCounts counts;
     counts.trials = static_cast<int>(outcomes.size());
     counts.expected =
-        expected ? *expected : trial::findModalOrientation(finalOrientations(outcomes), symmetry, tolerance);
+        expected ? *expected
+                 : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
     for (const trial::Outcome& outcome : outcomes) {
         counts.simulatedTime += outcome.time;
         if (outcome.ending == trial::Ending::finished) {
@@ -27,7 +27,7 @@ TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::Sy
         } else {
             ++counts.stuck;
         }
-        if (isOriented(outcome, counts.expected, symmetry, tolerance)) ++counts.oriented;
+        if (trial::isOriented(outcome, counts.expected, symmetry, tolerance)) ++counts.oriented;
     }
     return counts;
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
@@ -19,7 +19,7 @@ ValidationRow makeRow(int pose, std::span<const trial::Outcome> outcomes, const 
     for (const trial::Outcome& outcome : outcomes) {
         switch (outcome.ending) {
             case trial::Ending::finished:
-                if (!isOriented(outcome, record.expectedOrientation, symmetry, record.tolerance))
+                if (!trial::isOriented(outcome, record.expectedOrientation, symmetry, record.tolerance))
                     ++row.wrongOrientation;
                 break;
             case trial::Ending::fellOff:
@@ -108,7 +108,7 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
     } else {
         std::vector<base::Quaternion> finals;
         for (const std::vector<trial::Outcome>& own : *outcomes) {
-            const std::vector<base::Quaternion> some = finalOrientations(own);
+            const std::vector<base::Quaternion> some = trial::finalOrientations(own);
             finals.insert(finals.end(), some.begin(), some.end());
         }
         record.expectedOrientation =

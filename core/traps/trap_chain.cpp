@@ -7,18 +7,13 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/base/spelling.h"
 #include "core/traps/free_form.h"
 #include "core/traps/step.h"
 
 namespace trapwright::traps {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 base::Error unknownKind(std::string_view name) {
     std::string keys;
@@ -73,16 +68,12 @@ base::Status checkParameters(const TrapParameters& parameters) {
 
 base::Result<TrapChain> readTraps(std::string_view text) {
     TrapChain chain;
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string_view name = trimmed(text.substr(begin, end - begin));
+    for (const std::string_view name : base::splitNames(text)) {
         const auto kinds = trapKinds();
         const auto found =
             std::find_if(kinds.begin(), kinds.end(), [&](const TrapKind& kind) { return kind.key == name; });
         if (found == kinds.end()) return unknownKind(name);
         chain.push_back(&*found);
-        begin = end + 1;
     }
     return chain;
 }

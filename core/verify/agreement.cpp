@@ -13,9 +13,8 @@
 #include "core/stats/family.h"
 #include "core/stats/paired_rates.h"
 #include "core/study/evaluator.h"
-#include "core/study/final_orientation.h"
 #include "core/study/trial_batches.h"
-#include "core/trial/fitness.h"
+#include "core/trial/orientations.h"
 #include "core/verify/scenes.h"
 
 namespace trapwright::verify {
@@ -84,8 +83,8 @@ bool lieInEachOthersIntervals(int a, int b, int trials) {
 Agreement compare(const AgreementScene& scene, const Outcomes& own, const Outcomes& judged) {
     const part::SymmetryGroup& symmetry = scene.batch.part->symmetry;
     // Of both together: the mode of one side would favour that side.
-    std::vector<base::Quaternion> ends = study::finalOrientations(own);
-    const std::vector<base::Quaternion> judgedEnds = study::finalOrientations(judged);
+    std::vector<base::Quaternion> ends = trial::finalOrientations(own);
+    const std::vector<base::Quaternion> judgedEnds = trial::finalOrientations(judged);
     ends.insert(ends.end(), judgedEnds.begin(), judgedEnds.end());
     const base::Quaternion expected = trial::findModalOrientation(ends, symmetry, kTolerance);
     Agreement result;
@@ -97,8 +96,8 @@ Agreement compare(const AgreementScene& scene, const Outcomes& own, const Outcom
     for (std::size_t i = 0; i < own.size(); ++i) {
         const bool ownFinished = own[i].ending == trial::Ending::finished;
         const bool judgedFinished = judged[i].ending == trial::Ending::finished;
-        const bool ownOriented = study::isOriented(own[i], expected, symmetry, kTolerance);
-        const bool judgedOriented = study::isOriented(judged[i], expected, symmetry, kTolerance);
+        const bool ownOriented = trial::isOriented(own[i], expected, symmetry, kTolerance);
+        const bool judgedOriented = trial::isOriented(judged[i], expected, symmetry, kTolerance);
         finished.count(ownFinished, judgedFinished);
         oriented.count(ownOriented, judgedOriented);
         result.engine.finished += ownFinished ? 1 : 0;

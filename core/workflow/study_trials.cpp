@@ -4,10 +4,9 @@
 #include <cassert>
 #include <string>
 
-#include "core/study/final_orientation.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
-#include "core/trial/orientation_metric.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::workflow {
 
@@ -99,11 +98,11 @@ JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::S
     JudgedTrials judged;
     judged.expected =
         expected ? *expected
-                 : trial::findModalOrientation(study::finalOrientations(outcomes), symmetry, tolerance);
+                 : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
     judged.verdicts.reserve(outcomes.size());
     for (const trial::Outcome& outcome : outcomes) {
         if (outcome.ending == trial::Ending::finished) {
-            judged.verdicts.push_back(study::isOriented(outcome, judged.expected, symmetry, tolerance)
+            judged.verdicts.push_back(trial::isOriented(outcome, judged.expected, symmetry, tolerance)
                                           ? TrialVerdict::success
                                           : TrialVerdict::wrongOrientation);
         } else {

@@ -13,7 +13,7 @@ struct StudyCurves {
     std::vector<study::GenerationSummary> summaries;  // in their order
     std::vector<study::CheckRecord> checks;           // in any order; none if one engine does everything
     std::vector<double> trialsPerSecond;              // slot i for summaries[i]; NaN or missing: not known
-    double bestAttainableOrientation = 0.0;           // trial::calcBestOrientationScore of the part
+    std::vector<objectives::Score> attainable{};      // objectives::listAttainable of the part
 };
 
 }  // namespace trapwright::charts

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "core/search/methods.h"
 
@@ -90,57 +91,81 @@ std::vector<std::string> curveKeys(const std::vector<StudyCurves>& studies) {
     return keys;
 }
 
-/// One of the three scores of the fitness.
-struct Score {
-    QString key;
-    QString choice;
-    QString axis;
-    QString lowAxis;
-    QString column;
-    QString help;
-    double trial::Fitness::*value;
-};
-
-std::vector<Score> scores() {
-    return {{"F_C", Text::tr("Collisions"), Text::tr("Collisions F<sub>C</sub> [triangles]"),
-             Text::tr("F<sub>C</sub> [triangles]"), Text::tr("F_C [triangles]"),
-             Text::tr("Minus the number of the surface's triangles that overlap. 0 is best."),
-             &trial::Fitness::collision},
-            {"F_D", Text::tr("Distance"), Text::tr("Distance F<sub>D</sub> [segments]"),
-             Text::tr("F<sub>D</sub> [segments]"), Text::tr("F_D [segments]"),
-             Text::tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
-             &trial::Fitness::distance},
-            {"F_O", Text::tr("Orientation"), Text::tr("Orientation F<sub>O</sub> [√rad]"),
-             Text::tr("F<sub>O</sub> [√rad]"), Text::tr("F_O [√rad]"),
-             Text::tr("How much more alike the parts lie at the end than at the start. Higher is better."),
-             &trial::Fitness::orientation}};
+QString textOf(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
-bool everOverlaps(const std::vector<StudyCurves>& studies) {
-    return std::any_of(studies.begin(), studies.end(), [](const StudyCurves& study) {
-        return std::any_of(study.summaries.begin(), study.summaries.end(), [](const auto& summary) {
-            return std::min(summary.statistics.best.collision, summary.statistics.topMean.collision) < 0.0;
+/// How an objective is called beside axes: "Distance F<sub>D</sub> [segments]", and where there is little
+/// room "F<sub>D</sub> [segments]".
+struct AxisNames {
+    QString axis;
+    QString lowAxis;
+};
+
+AxisNames axisNames(const objectives::Objective& objective) {
+    const QString symbol = textOf(objective.symbol);
+    const QString unit =
+        objective.unit.empty() ? QString() : QStringLiteral(" [%1]").arg(textOf(objective.unit));
+    const int low = symbol.indexOf('_');
+    if (low < 0) return {textOf(objective.name) + unit, symbol + unit};
+    const QString html = QStringLiteral("%1<sub>%2</sub>").arg(symbol.left(low), symbol.mid(low + 1));
+    return {textOf(objective.name) + ' ' + html + unit, html + unit};
+}
+
+/// In people's unit; NaN where it was not measured.
+double shownValue(const objectives::Fitness& fitness, const objectives::Objective& objective) {
+    const objectives::Score* score = objectives::findScore(fitness, objective.key);
+    return score != nullptr ? score->value * objective.shownAs : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// All but success, which has a plot with its bounds.
+objectives::ObjectiveList plottedObjectives(bool onlyNoisy) {
+    objectives::ObjectiveList list;
+    for (const objectives::Objective& objective : objectives::allObjectives())
+        if (objective.key != objectives::kSuccess && (objective.isNoisy || !onlyNoisy))
+            list.push_back(&objective);
+    return list;
+}
+
+/// Whether a plot of it would show anything: an objective that is exact is nothing as long as it is 0.
+bool isWorthPlotting(const objectives::Objective& objective, const std::vector<StudyCurves>& studies) {
+    if (objective.isNoisy) return true;
+    return std::any_of(studies.begin(), studies.end(), [&](const StudyCurves& study) {
+        return std::any_of(study.summaries.begin(), study.summaries.end(), [&](const auto& summary) {
+            return shownValue(summary.statistics.best, objective) < 0.0 ||
+                   shownValue(summary.statistics.topMean, objective) < 0.0;
         });
     });
 }
 
-void addAttainable(PlotSheet& plot, const std::vector<StudyCurves>& studies) {
+std::optional<double> attainableOf(const StudyCurves& study, const objectives::Objective& objective) {
+    for (const objectives::Score& score : study.attainable)
+        if (score.key == objective.key) return score.value * objective.shownAs;
+    return std::nullopt;
+}
+
+/// A line where a perfect feeder would be; none where that is the axis.
+void addAttainable(PlotSheet& plot, const objectives::Objective& objective,
+                   const std::vector<StudyCurves>& studies) {
+    const std::optional<double> first = attainableOf(studies.front(), objective);
+    // One line for all studies that share it.
+    const bool shared = std::all_of(studies.begin(), studies.end(), [&](const StudyCurves& study) {
+        return attainableOf(study, objective) == first;
+    });
     for (std::size_t i = 0; i < studies.size(); ++i) {
-        const double level = studies[i].bestAttainableOrientation;
-        if (i > 0 && level == studies.front().bestAttainableOrientation) continue;
+        const std::optional<double> level = attainableOf(studies[i], objective);
+        if (!level || *level == 0.0 || (i > 0 && level == first)) continue;
         CurveStyle style = kAttainable;
         style.second = i > 0;
-        // One line for all studies that share it.
-        const bool shared = std::all_of(studies.begin(), studies.end(), [&](const StudyCurves& study) {
-            return study.bestAttainableOrientation == level;
-        });
+        const QString column =
+            Text::tr("%1 best attainable [%2]").arg(textOf(objective.symbol), textOf(objective.unit));
         plot.curves.push_back(
             {shared ? Text::tr("best attainable") : withStudy(Text::tr("best attainable"), studies, i),
-             withStudy(Text::tr("F_O best attainable [√rad]"), studies, i),
+             withStudy(column, studies, i),
              shared ? QStringList{"attainable"} : QStringList{"attainable", studyKey(i)},
              style,
              {},
-             level});
+             *level});
     }
 }
 
@@ -168,7 +193,8 @@ void addEngineCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, c
                         style,
                         {}};
             for (const study::CheckRecord& check : studies[i].checks)
-                curve.points.emplace_back(check.generation, valueOf(check, check.*engine.score));
+                if (const double value = valueOf(check, check.*engine.score); !std::isnan(value))
+                    curve.points.emplace_back(check.generation, value);
             std::sort(curve.points.begin(), curve.points.end(),
                       [](const QPointF& a, const QPointF& b) { return a.x() < b.x(); });
             plot.curves.push_back(std::move(curve));
@@ -227,20 +253,23 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
 
 ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
-    const bool overlaps = everOverlaps(studies);
-    for (const Score& score : scores()) {
-        // Where no surface ever overlapped, a line at 0 would only take room.
-        const bool on = score.key != "F_C" || overlaps;
-        sheet.legend.push_back({score.key, score.choice, score.help, std::nullopt, on});
-        PlotSheet plot = makePlot(score.key, score.axis, score.lowAxis);
+    for (const objectives::Objective* objective : plottedObjectives(false)) {
+        const QString key = textOf(objective->key);
+        // What everybody reads is a choice here, and a column of the tables. Where no surface ever
+        // overlapped, a line at 0 would only take room.
+        const bool on = objective->isDetail && isWorthPlotting(*objective, studies);
+        sheet.legend.push_back({key, textOf(objective->name), textOf(objective->help), std::nullopt, on});
+        const AxisNames names = axisNames(*objective);
+        const QString column = QString::fromStdString(objective->title());
+        PlotSheet plot = makePlot(key, names.axis, names.lowAxis);
         plot.yIncluded = {0.0};
         plot.leastHeight = 0.1;
-        addCurves(plot, studies, "best", Text::tr("best"), Text::tr("%1 best").arg(score.column), kBest,
-                  [&](const auto& summary) { return summary.statistics.best.*score.value; });
+        addCurves(plot, studies, "best", Text::tr("best"), Text::tr("%1 best").arg(column), kBest,
+                  [&](const auto& summary) { return shownValue(summary.statistics.best, *objective); });
         addCurves(plot, studies, "mean", Text::tr("mean of top 30 %"),
-                  Text::tr("%1 mean of top 30 %").arg(score.column), kMean,
-                  [&](const auto& summary) { return summary.statistics.topMean.*score.value; });
-        if (score.key == "F_O") addAttainable(plot, studies);
+                  Text::tr("%1 mean of top 30 %").arg(column), kMean,
+                  [&](const auto& summary) { return shownValue(summary.statistics.topMean, *objective); });
+        if (!studies.empty()) addAttainable(plot, *objective, studies);
         sheet.plots.push_back(std::move(plot));
     }
     sheet.legend.push_back({"best", Text::tr("best"), Text::tr("The winner of each generation."), kBest});
@@ -248,8 +277,9 @@ ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
                             Text::tr("The mean of the best 30 % of each generation."), kMean});
     sheet.legend.push_back(
         {"attainable", Text::tr("attainable"),
-         Text::tr("The F_O of a track that turns every part to one orientation. With few trials a track can "
-                  "exceed it by chance."),
+         Text::tr(
+             "What a track that turns every part to one orientation would score. With few trials a track "
+             "can exceed it by chance."),
          kAttainable});
     addStudies(sheet, studies);
     return sheet;
@@ -319,10 +349,7 @@ ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
     sheet.legend = {
         {"success", Text::tr("Success"),
-         Text::tr("Parts of each winner that finished in the expected orientation, in its check.")},
-        {"F_O", Text::tr("Orientation"), Text::tr("The winner's F_O on these trials."), {}, false},
-        {"F_D", Text::tr("Distance"), Text::tr("The winner's F_D on these trials."), {}, false}};
-
+         Text::tr("Parts of each winner that finished in the expected orientation, in its check.")}};
     PlotSheet success = makePlot("success", Text::tr("Winner's success [%]"), Text::tr("Success [%]"));
     success.yIncluded = {0.0, kPercent};
     success.decimals = 1;
@@ -330,19 +357,25 @@ ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
                     [](const auto& check, const auto& score) {
                         return check.trials > 0 ? kPercent * score.oriented / check.trials : 0.0;
                     });
-    PlotSheet orientation =
-        makePlot("F_O", Text::tr("Winner's F<sub>O</sub> [√rad]"), Text::tr("F<sub>O</sub> [√rad]"));
-    orientation.yIncluded = {0.0};
-    orientation.leastHeight = 0.1;
-    addEngineCurves(orientation, studies, Text::tr("F_O by %1 [√rad]"),
-                    [](const auto&, const auto& score) { return score.fitness.orientation; });
-    PlotSheet distance =
-        makePlot("F_D", Text::tr("Winner's F<sub>D</sub> [segments]"), Text::tr("F<sub>D</sub> [segments]"));
-    distance.yIncluded = {0.0};
-    distance.leastHeight = 0.1;
-    addEngineCurves(distance, studies, Text::tr("F_D by %1 [segments]"),
-                    [](const auto&, const auto& score) { return score.fitness.distance; });
-    sheet.plots = {std::move(success), std::move(orientation), std::move(distance)};
+    sheet.plots.push_back(std::move(success));
+    for (const objectives::Objective* objective : plottedObjectives(true)) {
+        const QString key = textOf(objective->key);
+        const AxisNames names = axisNames(*objective);
+        sheet.legend.push_back(
+            {key,
+             textOf(objective->name),
+             Text::tr("The same of the winner on these trials: %1").arg(textOf(objective->help)),
+             {},
+             false});
+        PlotSheet plot = makePlot(key, Text::tr("Winner's %1").arg(names.lowAxis), names.lowAxis);
+        plot.yIncluded = {0.0};
+        plot.leastHeight = 0.1;
+        addEngineCurves(
+            plot, studies,
+            Text::tr("%1 by %2 [%3]").arg(textOf(objective->symbol), "%1", textOf(objective->unit)),
+            [&](const auto&, const auto& score) { return shownValue(score.fitness, *objective); });
+        sheet.plots.push_back(std::move(plot));
+    }
 
     const auto checked = std::find_if(studies.begin(), studies.end(),
                                       [](const StudyCurves& study) { return !study.checks.empty(); });

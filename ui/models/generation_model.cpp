@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ui/models/numbers.h"
+#include "ui/models/score_columns.h"
 #include "ui/models/search_columns.h"
 
 namespace trapwright::models {
@@ -10,6 +11,10 @@ namespace trapwright::models {
 namespace {
 
 using Row = GenerationRow;
+
+const objectives::Fitness& bestOf(const Row& row) {
+    return row.summary.statistics.best;
+}
 
 /// Success in the winner's check, by one of its engines.
 QVariant successValue(const Row& row, const study::EngineScore study::CheckRecord::*engine) {
@@ -37,7 +42,7 @@ QString topSuccessText(const Row& row) {
 GenerationModel::GenerationModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
 
 std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
-    return {
+    std::vector<Column<Row>> columns = {
         {tr("Generation"), tr("Counted from 0."), [](const Row& r) { return QVariant(r.summary.index); },
          [](const Row& r) { return QString::number(r.summary.index); }},
         {tr("Winner"), tr("Number of the generation's best individual."),
@@ -66,24 +71,23 @@ std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
         {tr("Time [s]"), tr("Wall time that the generation took."),
          [](const Row& r) { return QVariant(r.summary.seconds); },
          [](const Row& r) { return fixed(r.summary.seconds, 1); }},
-        {tr("F"), tr("Fitness of the winner: the sum of its three scores. Higher is better."),
-         [](const Row& r) { return QVariant(r.summary.statistics.best.total()); },
-         [](const Row& r) { return fixed(r.summary.statistics.best.total(), 3); }},
-        {tr("F_C"), tr("Minus the number of the surface's triangles that overlap. 0 is best."),
-         [](const Row& r) { return QVariant(r.summary.statistics.best.collision); },
-         [](const Row& r) { return fixed(r.summary.statistics.best.collision, 0); }},
-        {tr("F_D [segments]"),
-         tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
-         [](const Row& r) { return QVariant(r.summary.statistics.best.distance); },
-         [](const Row& r) { return fixed(r.summary.statistics.best.distance, 3); }},
-        {tr("F_O [√rad]"),
-         tr("How much more alike the parts lie at the end than at the start. Higher is better."),
-         [](const Row& r) { return QVariant(r.summary.statistics.best.orientation); },
-         [](const Row& r) { return fixed(r.summary.statistics.best.orientation, 3); }},
-        {tr("Mean F of top 30 %"), tr("Mean fitness of the best 30 % of the generation."),
-         [](const Row& r) { return QVariant(r.summary.statistics.topMean.total()); },
-         [](const Row& r) { return fixed(r.summary.statistics.topMean.total(), 3); }},
     };
+    for (const objectives::Objective* objective : scoredObjectives(false))
+        columns.push_back(scoreColumn<Row>(*objective, &bestOf));
+    columns.push_back({tr("F"),
+                       tr("Fitness of the winner: the sum that the search maximises. Higher is better."),
+                       [](const Row& r) { return QVariant(r.summary.statistics.best.total); },
+                       [](const Row& r) { return fixed(r.summary.statistics.best.total, 3); }});
+    for (const objectives::Objective* objective : scoredObjectives(true))
+        columns.push_back(scoreColumn<Row>(*objective, &bestOf));
+    columns.push_back({tr("Mean F of top 30 %"), tr("Mean fitness of the best 30 % of the generation."),
+                       [](const Row& r) { return QVariant(r.summary.statistics.topMean.total); },
+                       [](const Row& r) { return fixed(r.summary.statistics.topMean.total, 3); }});
+    return columns;
+}
+
+int GenerationModel::firstDetail() {
+    return FirstScore + static_cast<int>(scoredObjectives(false).size());
 }
 
 void GenerationModel::setGenerations(const std::vector<study::GenerationSummary>& summaries,

@@ -27,15 +27,12 @@ class GenerationModel : public RecordModel<GenerationRow> {
         LearningSuccess,
         ReferenceSuccess,
         Seconds,
-        Total,
-        Collision,
-        Distance,
-        Orientation,
-        TopTotal,
-        FirstCurve  // then one for each curve of the search
+        // Of everybody's; then F, the scores of the algorithm, the mean F of the top 30 %, one for each curve
+        // of the search.
+        FirstScore
     };
-    /// What only those who look into the algorithm need.
-    static constexpr int kFirstDetail = Total;
+    /// The place of F: from there on is what only those who look into the algorithm need.
+    static int firstDetail();
 
     explicit GenerationModel(QObject* parent = nullptr);
 

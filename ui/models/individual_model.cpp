@@ -3,6 +3,7 @@
 #include <QFont>
 
 #include "ui/models/numbers.h"
+#include "ui/models/score_columns.h"
 #include "ui/models/search_columns.h"
 
 namespace trapwright::models {
@@ -11,12 +12,16 @@ namespace {
 
 using Row = IndividualRow;
 
+const objectives::Fitness& fitnessOf(const Row& row) {
+    return row.record.fitness;
+}
+
 }  // namespace
 
 IndividualModel::IndividualModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
 
 std::vector<Column<IndividualRow>> IndividualModel::makeColumns() {
-    return {
+    std::vector<Column<Row>> columns = {
         {tr("Individual"), tr("Counted from 0; the winner is bold."),
          [](const Row& r) { return QVariant(r.individual); },
          [](const Row& r) { return QString::number(r.individual); }},
@@ -40,21 +45,19 @@ std::vector<Column<IndividualRow>> IndividualModel::makeColumns() {
         {tr("Fell"), tr("Parts that fell off the track."),
          [](const Row& r) { return QVariant(r.record.fellOff); },
          [](const Row& r) { return QString::number(r.record.fellOff); }},
-        {tr("F"), tr("Fitness: the sum of the three scores. Higher is better."),
-         [](const Row& r) { return QVariant(r.record.fitness.total()); },
-         [](const Row& r) { return fixed(r.record.fitness.total(), 3); }},
-        {tr("F_C"), tr("Minus the number of the surface's triangles that overlap. 0 is best."),
-         [](const Row& r) { return QVariant(r.record.fitness.collision); },
-         [](const Row& r) { return fixed(r.record.fitness.collision, 0); }},
-        {tr("F_D [segments]"),
-         tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
-         [](const Row& r) { return QVariant(r.record.fitness.distance); },
-         [](const Row& r) { return fixed(r.record.fitness.distance, 3); }},
-        {tr("F_O [√rad]"),
-         tr("How much more alike the parts lie at the end than at the start. Higher is better."),
-         [](const Row& r) { return QVariant(r.record.fitness.orientation); },
-         [](const Row& r) { return fixed(r.record.fitness.orientation, 3); }},
     };
+    for (const objectives::Objective* objective : scoredObjectives(false))
+        columns.push_back(scoreColumn<Row>(*objective, &fitnessOf));
+    columns.push_back({tr("F"), tr("Fitness: the sum that the search maximises. Higher is better."),
+                       [](const Row& r) { return QVariant(r.record.fitness.total); },
+                       [](const Row& r) { return fixed(r.record.fitness.total, 3); }});
+    for (const objectives::Objective* objective : scoredObjectives(true))
+        columns.push_back(scoreColumn<Row>(*objective, &fitnessOf));
+    return columns;
+}
+
+int IndividualModel::firstDetail() {
+    return FirstScore + static_cast<int>(scoredObjectives(false).size());
 }
 
 void IndividualModel::setGeneration(const study::GenerationRecord& record, search::Method method) {

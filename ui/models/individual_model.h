@@ -25,14 +25,10 @@ class IndividualModel : public RecordModel<IndividualRow> {
         Finished,
         Stuck,
         FellOff,
-        Total,
-        Collision,
-        Distance,
-        Orientation,
-        FirstTrait  // then one for each trait of the search
+        FirstScore  // of everybody's; then F, the scores of the algorithm, one for each trait of the search
     };
-    /// What only those who look into the algorithm need.
-    static constexpr int kFirstDetail = Total;
+    /// The place of F: from there on is what only those who look into the algorithm need.
+    static int firstDetail();
 
     explicit IndividualModel(QObject* parent = nullptr);
 

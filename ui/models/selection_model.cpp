@@ -1,6 +1,7 @@
 #include "ui/models/selection_model.h"
 
 #include "ui/models/numbers.h"
+#include "ui/models/score_columns.h"
 
 namespace trapwright::models {
 
@@ -8,12 +9,16 @@ namespace {
 
 using Row = SelectionRow;
 
+const objectives::Fitness& fitnessOf(const Row& row) {
+    return row.entry.fitness;
+}
+
 }  // namespace
 
 SelectionModel::SelectionModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
 
 std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
-    return {
+    std::vector<Column<Row>> columns = {
         {tr("Rank"), tr("1 is the best."), [](const Row& r) { return QVariant(r.rank); },
          [](const Row& r) { return QString::number(r.rank); }},
         {tr("Generation"), tr("The generation that this track won."),
@@ -36,15 +41,16 @@ std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
         {tr("Finished"), tr("Parts that crossed the finish line, in whatever orientation."),
          [](const Row& r) { return QVariant(r.entry.finished); },
          [](const Row& r) { return QString::number(r.entry.finished); }},
-        {tr("F_D [segments]"),
-         tr("Minus the distance that parts stay short of the finish, on average. 0 is best."),
-         [](const Row& r) { return QVariant(r.entry.fitness.distance); },
-         [](const Row& r) { return fixed(r.entry.fitness.distance, 3); }},
-        {tr("F_O [√rad]"),
-         tr("How much more alike the parts lie at the end than at the start. Higher is better."),
-         [](const Row& r) { return QVariant(r.entry.fitness.orientation); },
-         [](const Row& r) { return fixed(r.entry.fitness.orientation, 3); }},
     };
+    for (const bool isDetail : {false, true}) {
+        for (const objectives::Objective* objective : scoredObjectives(isDetail, true))
+            columns.push_back(scoreColumn<Row>(*objective, &fitnessOf));
+    }
+    return columns;
+}
+
+int SelectionModel::firstDetail() {
+    return FirstScore + static_cast<int>(scoredObjectives(false, true).size());
 }
 
 void SelectionModel::setSelection(const study::SelectionRecord& record) {

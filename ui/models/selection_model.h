@@ -16,9 +16,9 @@ struct SelectionRow {
 class SelectionModel : public RecordModel<SelectionRow> {
     Q_OBJECT
  public:
-    enum Columns { Rank, Generation, Individual, Success, Bounds, Trials, Finished, Distance, Orientation };
-    /// What only those who look into the algorithm need.
-    static constexpr int kFirstDetail = Distance;
+    enum Columns { Rank, Generation, Individual, Success, Bounds, Trials, Finished, FirstScore };
+    /// The scores from there on are what only those who look into the algorithm need.
+    static int firstDetail();
 
     explicit SelectionModel(QObject* parent = nullptr);
 

@@ -60,7 +60,7 @@ QVariant WinnerModel::data(const QModelIndex& index, int role) const {
                 .arg(shareText(record.success()))
                 .arg(record.finished)
                 .arg(record.trials)
-                .arg(fixed(record.fitness.total(), 3));
+                .arg(fixed(record.fitness.total, 3));
         case SuccessRole:
             return successWord(record.success());
         case Qt::DecorationRole: {
@@ -70,7 +70,7 @@ QVariant WinnerModel::data(const QModelIndex& index, int role) const {
         case Qt::TextAlignmentRole:
             return static_cast<int>(Qt::AlignCenter);
         case ValueRole:
-            return record.fitness.total();
+            return record.fitness.total;
         case GenerationRole:
             return winner.generation;
         case IndividualRole:

@@ -163,7 +163,7 @@ void EventLog::tellGeneration(int generation) {
     add(Kind::good, tr("Generation %1 saved: success of its winner %2, F %3, in %4")
                         .arg(generation)
                         .arg(models::shareText(summary.statistics.success),
-                             QLocale().toString(summary.statistics.best.total(), 'f', 3),
+                             QLocale().toString(summary.statistics.best.total, 'f', 3),
                              look::durationText(summary.seconds)));
 }
 

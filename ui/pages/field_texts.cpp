@@ -52,6 +52,7 @@ const RawText kTexts[] = {
     {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
 
     {"evolution.search", TEXT("Search"), TEXT("How tracks are looked for: bred from the best ones, as in the paper, or drawn at random, which shows what breeding is worth."), {TEXT("Genetic"), TEXT("Random")}},
+    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; conveying_speed, in m/s.")},
     {"evolution.populationSize", TEXT("Population"), TEXT("Individuals in each generation.")},
     {"evolution.trialsPerEvaluation", TEXT("Trials each"), TEXT("Parts that are simulated to judge one individual.")},
     {"evolution.tournamentSize", TEXT("Tournament"), TEXT("Individuals that compete to become a parent; more of them press harder.")},
@@ -153,6 +154,17 @@ std::vector<Choice> trapChoices() {
     return choices;
 }
 
+std::vector<Choice> objectiveChoices() {
+    std::vector<Choice> choices;
+    for (const std::string_view value : {objectives::kPaperObjectives, std::string_view("F_C, F_D, success"),
+                                         std::string_view("F_C, F_D, F_O, success"),
+                                         std::string_view("F_C, F_D, success, conveying_speed")}) {
+        const auto list = objectives::readObjectives(value);
+        if (list) choices.push_back({std::string(value), toText(objectives::describeSum(*list))});
+    }
+    return choices;
+}
+
 std::vector<Choice> engineChoices(const trial::EngineRegistry& engines) {
     std::vector<Choice> choices;
     for (const std::string& setting : engines.settings()) {
@@ -195,7 +207,7 @@ std::vector<FieldGroup> trackGroups() {
           "simulation.contact.restitution"}},
         {"learning",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
-         {"evolution.search", "evolution.generations", "evolution.populationSize",
+         {"evolution.search", "evolution.objectives", "evolution.generations", "evolution.populationSize",
           "evolution.trialsPerEvaluation", "simulation.engine", "evolution.seed"}},
         {"operators",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Genetic operators")),

@@ -29,6 +29,9 @@ struct Choice {
 /// What track.traps can be: each kind of trap, and each two of them one after the other.
 std::vector<Choice> trapChoices();
 
+/// Sums of objectives that make sense for evolution.objectives; the command line takes any.
+std::vector<Choice> objectiveChoices();
+
 /// What simulation.engine can be.
 std::vector<Choice> engineChoices(const trial::EngineRegistry& engines);
 

@@ -35,7 +35,7 @@ QWidget* GenerationTable::makeHead() {
     layout->setContentsMargins(12, 4, 12, 4);
     layout->setSpacing(8);
     layout->addWidget(text, 1);
-    layout->addWidget(new DetailsButton(table_->view(), models::GenerationModel::kFirstDetail, head));
+    layout->addWidget(new DetailsButton(table_->view(), models::GenerationModel::firstDetail(), head));
     head->hide();
     connect(&model_, &QAbstractItemModel::modelReset, head,
             [this, head] { head->setVisible(model_.rowCount() > 0); });

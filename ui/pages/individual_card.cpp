@@ -8,6 +8,7 @@
 #include "ui/look/folding_group.h"
 #include "ui/look/text.h"
 #include "ui/models/numbers.h"
+#include "ui/models/score_columns.h"
 #include "ui/pages/design_picture.h"
 #include "ui/pages/fact_list.h"
 
@@ -17,6 +18,10 @@ namespace {
 
 QString fixed(double value, int decimals) {
     return QLocale().toString(value, 'f', decimals);
+}
+
+QString textOf(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 }  // namespace
@@ -66,19 +71,30 @@ void IndividualCard::clear() {
 
 void IndividualCard::show(const study::Settings& settings, const study::Individual& individual) {
     const study::IndividualRecord& record = individual.record;
-    const trial::Fitness& fitness = record.fitness;
-    success_->show({{tr("Success"), models::shareText(record.success())},
-                    {tr("Parts"), record.trials == 0 ? tr("not simulated: the track crosses itself")
-                                                     : tr("%1 of %2 finished, %3 stuck, %4 fell")
-                                                           .arg(record.finished)
-                                                           .arg(record.trials)
-                                                           .arg(record.stuck)
-                                                           .arg(record.fellOff)}});
+    Facts facts{{tr("Success"), models::shareText(record.success())},
+                {tr("Parts"), record.trials == 0 ? tr("not simulated: the track crosses itself")
+                                                 : tr("%1 of %2 finished, %3 stuck, %4 fell")
+                                                       .arg(record.finished)
+                                                       .arg(record.trials)
+                                                       .arg(record.stuck)
+                                                       .arg(record.fellOff)}};
+    for (const objectives::Objective* objective : models::scoredObjectives(false)) {
+        const objectives::Score* score = objectives::findScore(record.fitness, objective->key);
+        if (score == nullptr || record.trials == 0) continue;
+        facts.emplace_back(textOf(objective->name),
+                           models::scoreText(*objective, score) + ' ' + textOf(objective->unit));
+    }
+    success_->show(facts);
     success_->setToolTip(models::successHelp(record.success()));
-    scores_->show({{tr("Fitness F"), fixed(fitness.total(), 3)},
-                   {tr("Collisions F_C"), tr("%1 triangles").arg(fixed(fitness.collision, 0))},
-                   {tr("Distance F_D"), tr("%1 segments").arg(fixed(fitness.distance, 3))},
-                   {tr("Orientation F_O"), tr("%1 √rad").arg(fixed(fitness.orientation, 3))}});
+    Facts scores{{tr("Fitness F"), fixed(record.fitness.total, 3)}};
+    for (const objectives::Objective& objective : objectives::allObjectives()) {
+        if (!objective.isDetail) continue;
+        scores.emplace_back(
+            textOf(objective.name) + ' ' + textOf(objective.symbol),
+            models::scoreText(objective, objectives::findScore(record.fitness, objective.key)) + ' ' +
+                textOf(objective.unit));
+    }
+    scores_->show(scores);
     Facts traits;
     for (const search::NumberInfo& info : search::describeMethod(settings.evolution.search).traits) {
         const QString name = QString::fromStdString(info.name);

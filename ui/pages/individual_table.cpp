@@ -48,7 +48,7 @@ QWidget* IndividualTable::makeHead() {
     layout->addWidget(label);
     layout->addWidget(spin_);
     layout->addWidget(count_, 1);
-    layout->addWidget(new DetailsButton(table_->view(), models::IndividualModel::kFirstDetail, head));
+    layout->addWidget(new DetailsButton(table_->view(), models::IndividualModel::firstDetail(), head));
     connect(spin_, &QSpinBox::valueChanged, this, &IndividualTable::generationPicked);
     head->hide();
     return head;

@@ -96,7 +96,7 @@ void LearningCharts::compareWith(const std::filesystem::path& study) {
                                   std::move(curves->summaries),
                                   std::move(curves->checks),
                                   {},
-                                  curves->bestOrientationScore};
+                                  std::move(curves->attainable)};
         other.trialsPerSecond = speedsOf(other.summaries);
         return [this, what, other = std::move(other)] {
             if (other.summaries.empty()) {
@@ -126,7 +126,7 @@ void LearningCharts::showStudies() {
     if (session_) {
         const std::vector<study::GenerationSummary>& summaries = session_->summaries();
         studies.push_back({look::toText(session_->path().stem()), summaries, session_->checks(),
-                           speedsOf(summaries), session_->bestOrientationScore()});
+                           speedsOf(summaries), session_->attainable()});
         if (other_) studies.push_back(*other_);
     }
     for (charts::StudyChart* chart : charts_)

@@ -73,7 +73,7 @@ void ReviewPage::addInspector() {
 
 void ReviewPage::addTables() {
     selectionTable_->view().setSelectionBehavior(QAbstractItemView::SelectRows);
-    auto* details = new DetailsButton(selectionTable_->view(), models::SelectionModel::kFirstDetail,
+    auto* details = new DetailsButton(selectionTable_->view(), models::SelectionModel::firstDetail(),
                                       selectionTable_.get());
     selectionTable_->headRow().insertWidget(1, details);
     connect(selectionTable_.get(), &ResultTable::cellChosen, this, [this](const QModelIndex& index) {

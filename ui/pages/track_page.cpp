@@ -52,6 +52,7 @@ TrackPage::TrackPage(RunActions& run, QWidget* parent)
     column->addWidget(makeHead());
     column->addWidget(form_);
     form_->offer("track.traps", trapChoices());
+    form_->offer("evolution.objectives", objectiveChoices());
     column->addStretch(1);
     auto* scroll = new QScrollArea(this);
     scroll->setWidget(contents);

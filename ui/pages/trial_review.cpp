@@ -4,7 +4,7 @@
 
 #include "core/study/pose_weights.h"
 #include "core/study/validation.h"
-#include "core/trial/fitness.h"
+#include "core/trial/orientations.h"
 #include "ui/charts/orientation_chart.h"
 #include "ui/models/numbers.h"
 #include "ui/pages/playback_bar.h"

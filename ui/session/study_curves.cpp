@@ -1,6 +1,5 @@
 #include "ui/session/study_curves.h"
 
-#include "core/trial/fitness.h"
 #include "core/workflow/study_design.h"
 
 namespace trapwright::session {
@@ -14,9 +13,9 @@ base::Result<StoredCurves> loadCurves(const std::filesystem::path& study) {
     if (!summaries) return summaries.error();
     auto checks = file->loadChecks();
     if (!checks) return checks.error();
-    return StoredCurves{study.stem().string(), std::move(*summaries), std::move(*checks),
-                        trial::calcBestOrientationScore(design->part->symmetry,
-                                                        design->settings.evolution.orientationDistance)};
+    return StoredCurves{
+        study.stem().string(), std::move(*summaries), std::move(*checks),
+        objectives::listAttainable(design->part->symmetry, design->settings.evolution.orientationDistance)};
 }
 
 }  // namespace trapwright::session

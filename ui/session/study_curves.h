@@ -15,7 +15,7 @@ struct StoredCurves {
     std::string name;
     std::vector<study::GenerationSummary> summaries;
     std::vector<study::CheckRecord> checks;
-    double bestOrientationScore = 0.0;  // that the part can attain
+    std::vector<objectives::Score> attainable;  // objectives::listAttainable of the part
 };
 
 /// Reads them from a study, which may be learning in another process. May be called on any thread.

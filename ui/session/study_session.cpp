@@ -6,7 +6,6 @@
 #include "core/base/thread_priority.h"
 #include "core/study/pose_weights.h"
 #include "core/study/settings.h"
-#include "core/trial/fitness.h"
 #include "ui/session/study_session_state.h"
 
 namespace trapwright::session {
@@ -150,9 +149,9 @@ const store::StoredPart& StudySession::storedPart() const {
     return *state_->part.stored;
 }
 
-double StudySession::bestOrientationScore() const {
-    return trial::calcBestOrientationScore(state_->part.part->symmetry,
-                                           state_->settings.evolution.orientationDistance);
+std::vector<objectives::Score> StudySession::attainable() const {
+    return objectives::listAttainable(state_->part.part->symmetry,
+                                      state_->settings.evolution.orientationDistance);
 }
 
 const std::vector<study::GenerationSummary>& StudySession::summaries() const {

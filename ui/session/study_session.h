@@ -89,8 +89,8 @@ class StudySession : public QObject {
     [[nodiscard]] const std::filesystem::path& ownMaterials() const;
     [[nodiscard]] std::shared_ptr<const part::Part> part() const;
     [[nodiscard]] const store::StoredPart& storedPart() const;
-    /// The best F_O that the part can attain.
-    [[nodiscard]] double bestOrientationScore() const;
+    /// What a perfect feeder would score with the part (objectives::listAttainable).
+    [[nodiscard]] std::vector<objectives::Score> attainable() const;
 
     /// Of all generations that are saved, in their order.
     [[nodiscard]] const std::vector<study::GenerationSummary>& summaries() const;

@@ -43,7 +43,8 @@ class CompareTest : public QObject {
         row(
             "last bit of a score",
             [](study::GenerationRecord& g) {
-                g.individuals[2].fitness.distance = std::nextafter(g.individuals[2].fitness.distance, 9.0);
+                double& distance = g.individuals[2].fitness.scores[1].value;
+                distance = std::nextafter(distance, 9.0);
             },
             "generation 1, individual 2: the scores differ");
         row(

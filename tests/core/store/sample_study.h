@@ -7,6 +7,7 @@
 #include "core/base/random.h"
 #include "core/store/study_file.h"
 #include "core/study/presets.h"
+#include "tests/core/objectives/paper_fitness.h"
 
 /// QVERIFY for a Result, with its message.
 #define VERIFY_OK(result)                                                                                 \
@@ -61,7 +62,11 @@ inline study::GenerationRecord generation(int index, int individuals = 6) {
                                                 {"p_s", share(kLargest) * 0.3}};
     };
     const auto fitness = [&] {
-        return trial::Fitness{-random.uniform(), -random.normal(), random.uniform()};
+        objectives::Fitness made =
+            testing::paperFitness(-random.uniform(), -random.normal(), random.uniform());
+        for (objectives::Score& score : made.scores)
+            score.error = random.uniform();
+        return made;
     };
 
     study::GenerationRecord record;
@@ -71,8 +76,11 @@ inline study::GenerationRecord generation(int index, int individuals = 6) {
             {design(), traits(), fitness(), count(9), 9 + count(9), count(9), count(9), count(9), count(9)});
     }
     record.winner = count(static_cast<std::uint32_t>(individuals));
-    record.statistics = {fitness(),
-                         fitness(),
+    objectives::Fitness topMean = fitness();
+    for (objectives::Score& score : topMean.scores)
+        score.error = 0.0;
+    record.statistics = {record.individuals[static_cast<std::size_t>(record.winner)].fitness,
+                         std::move(topMean),
                          {{"p_x", random.uniform()}, {"p_dm", random.uniform()}, {"p_s", random.uniform()}},
                          record.individuals[static_cast<std::size_t>(record.winner)].success(),
                          random.uniform()};

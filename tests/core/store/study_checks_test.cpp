@@ -17,8 +17,8 @@ study::CheckRecord sampleCheck(int generation) {
     return {generation,
             sample::generation(generation).winner,
             97,
-            {"native", {-1.0, -0.1 - generation, 0.1 + 0.2}, 96, 95},
-            {"simbody", {-1.0, -1.0 / 3.0, 0.7}, 94, 90 - generation}};
+            {"native", testing::paperFitness(-1.0, -0.1 - generation, 0.1 + 0.2), 96, 95},
+            {"simbody", testing::paperFitness(-1.0, -1.0 / 3.0, 0.7), 94, 90 - generation}};
 }
 
 /// A generation whose winner had so many trials.

@@ -23,7 +23,7 @@ study::SelectionRecord sampleSelection(double offset) {
     for (int i = 0; i < 3; ++i) {
         record.entries.push_back({10 - i,
                                   i,
-                                  {-1.0 * i, -0.1 - offset, 0.7 + 0.01 * i},
+                                  testing::paperFitness(-1.0 * i, -0.1 - offset, 0.7 + 0.01 * i),
                                   1000,
                                   999 - i,
                                   990 - i,

@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "core/study/final_orientation.h"
 #include "core/study/runner.h"
+#include "core/trial/orientations.h"
 #include "fake_engine.h"
 
 using namespace trapwright;
@@ -48,7 +48,7 @@ class EvaluatorTest : public QObject {
             std::vector<study::IndividualRecord> ranked = record.individuals;
             std::stable_sort(ranked.begin(), ranked.end(),
                              [](const study::IndividualRecord& a, const study::IndividualRecord& b) {
-                                 return a.fitness.total() > b.fitness.total();
+                                 return a.fitness.total > b.fitness.total;
                              });
             // 30 % of 24 are 7.2.
             for (std::size_t place = 0; place < 8; ++place)

@@ -8,6 +8,7 @@
 #include "core/study/background_checks.h"
 #include "core/study/runner.h"
 #include "fake_engine.h"
+#include "tests/core/objectives/paper_fitness.h"
 
 using namespace trapwright;
 using study::BackgroundChecks;
@@ -131,9 +132,11 @@ class ReferenceCheckTest : public QObject {
         // Of 40, those 0, 4, 8 ... lie on another side, and 1, 11, 21, 31 fall off.
         QCOMPARE(record->reference.finished, 36);
         QCOMPARE(record->reference.oriented, 26);
-        QCOMPARE(record->reference.fitness.collision, winner.record.fitness.collision);
+        QCOMPARE(testing::scoreOf(record->reference.fitness, "F_C"),
+                 testing::scoreOf(winner.record.fitness, "F_C"));
         // 10 x 30 of the 780 pairs are a quarter turn apart.
-        QVERIFY(qAbs(winner.record.fitness.orientation - record->reference.fitness.orientation -
+        QVERIFY(qAbs(testing::scoreOf(winner.record.fitness, "F_O") -
+                     testing::scoreOf(record->reference.fitness, "F_O") -
                      300.0 / 780.0 * std::sqrt(base::kPi / 2)) < 1e-9);
     }
 

@@ -5,6 +5,7 @@
 
 #include "core/study/track_design.h"
 #include "fake_engine.h"
+#include "tests/core/objectives/paper_fitness.h"
 
 using namespace trapwright;
 using study::GenerationRecord;
@@ -41,6 +42,10 @@ std::shared_ptr<const trial::Engine> engineOf(fake::Law law) {
     return std::make_shared<fake::FakeEngine>(std::move(law));
 }
 
+objectives::ObjectiveList paperObjectives() {
+    return *objectives::readObjectives(objectives::kPaperObjectives);
+}
+
 }  // namespace
 
 class RunnerTest : public QObject {
@@ -58,8 +63,8 @@ class RunnerTest : public QObject {
         QCOMPARE(saved.size(), std::size_t{30});
         const study::GenerationStatistics& first = saved.front().statistics;
         const study::GenerationStatistics& last = saved.back().statistics;
-        QVERIFY2(last.topMean.total() > first.topMean.total() + 0.5,
-                 qPrintable(QString("%1 -> %2").arg(first.topMean.total()).arg(last.topMean.total())));
+        QVERIFY2(last.topMean.total > first.topMean.total + 0.5,
+                 qPrintable(QString("%1 -> %2").arg(first.topMean.total).arg(last.topMean.total)));
         const auto nearest = [](const GenerationRecord& record) {
             const auto& winner = record.individuals[static_cast<std::size_t>(record.winner)];
             return fake::distanceFromWave(
@@ -78,7 +83,7 @@ class RunnerTest : public QObject {
             for (const study::IndividualRecord& individual : record.individuals) {
                 QCOMPARE(individual.finished + individual.fellOff + individual.stuck, individual.trials);
                 QCOMPARE(individual.trials, individual.overlaps == 0 ? 6 : 0);
-                QCOMPARE(individual.fitness.collision, -double(individual.overlaps));
+                QCOMPARE(testing::scoreOf(individual.fitness, "F_C"), -double(individual.overlaps));
             }
         }
     }
@@ -209,10 +214,12 @@ class RunnerTest : public QObject {
             if (individual.overlaps == 0) continue;
             ++overlapping;
             QCOMPARE(individual.trials, wanted ? 6 : 0);
-            QCOMPARE(individual.fitness.collision, -double(individual.overlaps));
+            QCOMPARE(testing::scoreOf(individual.fitness, "F_C"), -double(individual.overlaps));
             const auto track = study::decodeTrack(inputs.settings.track, individual.design);
-            if (!wanted)
-                QVERIFY(individual.fitness == trial::calcUnsimulatedFitness(*track, individual.overlaps));
+            if (wanted) continue;
+            QVERIFY(individual.fitness ==
+                    objectives::measureAll(study::makeEvaluation(inputs, *track, individual.overlaps, {}),
+                                           study::summedObjectives(inputs.settings.evolution)));
         }
         QVERIFY(overlapping > 12);  // free points cross nearly always (feasibility: F_C of -60 at random)
     }
@@ -299,16 +306,18 @@ class RunnerTest : public QObject {
         // Ten individuals: the top are those of F = 9 (twice) and 8.
         std::vector<study::IndividualRecord> individuals(10);
         for (std::size_t i = 0; i < 10; ++i) {
-            individuals[i].fitness = {0.0, -1.0, double(i)};
+            individuals[i].fitness = testing::paperFitness(0.0, -1.0, double(i));
         }
-        individuals[2].fitness = {-2.0, 0.0, 10.0};  // F = 8, as the last
-        const GenerationRecord record = study::completeGeneration(4, individuals, {{"p_x", 0.5}});
+        individuals[2].fitness = testing::paperFitness(-2.0, 0.0, 10.0);  // F = 8, as the last
+        const GenerationRecord record =
+            study::completeGeneration(4, individuals, {{"p_x", 0.5}}, paperObjectives());
         QCOMPARE(record.index, 4);
         QCOMPARE(record.winner, 2);  // the lowest among equals
         QVERIFY(record.statistics.best == individuals[2].fitness);
-        QVERIFY(qAbs(record.statistics.topMean.collision + 2.0 / 3.0) < 1e-12);
-        QVERIFY(qAbs(record.statistics.topMean.distance + 2.0 / 3.0) < 1e-12);
-        QVERIFY(qAbs(record.statistics.topMean.orientation - 9.0) < 1e-12);
+        QVERIFY(qAbs(testing::scoreOf(record.statistics.topMean, "F_C") + 2.0 / 3.0) < 1e-12);
+        QVERIFY(qAbs(testing::scoreOf(record.statistics.topMean, "F_D") + 2.0 / 3.0) < 1e-12);
+        QVERIFY(qAbs(testing::scoreOf(record.statistics.topMean, "F_O") - 9.0) < 1e-12);
+        QCOMPARE(record.statistics.topMean.total, -2.0 / 3.0 - 2.0 / 3.0 + 9.0);
         QVERIFY((record.statistics.curves == std::vector<search::NamedNumber>{{"p_x", 0.5}}));
         QVERIFY(!record.statistics.success && !record.statistics.topSuccess);  // nobody counted
     }
@@ -317,7 +326,7 @@ class RunnerTest : public QObject {
         // Of the three best, 9, 8 and 7, the first was not simulated.
         std::vector<study::IndividualRecord> individuals(10);
         for (std::size_t i = 0; i < 10; ++i) {
-            individuals[i].fitness = {0.0, 0.0, double(i)};
+            individuals[i].fitness = testing::paperFitness(0.0, 0.0, double(i));
             individuals[i].trials = 10;
             individuals[i].oriented = 10;
         }
@@ -325,11 +334,11 @@ class RunnerTest : public QObject {
         individuals[8].oriented = 4;
         individuals[7].trials = 20;
         individuals[7].oriented = 16;
-        const auto first = study::completeGeneration(0, individuals, {}).statistics;
+        const auto first = study::completeGeneration(0, individuals, {}, paperObjectives()).statistics;
         QVERIFY(!first.success);
         QVERIFY(qAbs(first.topSuccess.value() - 0.6) < 1e-12);
-        individuals[0].fitness.orientation = 20.0;
-        const auto second = study::completeGeneration(1, individuals, {}).statistics;
+        individuals[0].fitness = testing::paperFitness(0.0, 0.0, 20.0);
+        const auto second = study::completeGeneration(1, individuals, {}, paperObjectives()).statistics;
         QVERIFY(second.success == (stats::Count{10, 10}));
         QVERIFY(qAbs(second.topSuccess.value() - 0.7) < 1e-12);  // of 10 of 10 and 4 of 10
     }

@@ -10,6 +10,7 @@
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "fake_engine.h"
+#include "tests/core/objectives/paper_fitness.h"
 
 using namespace trapwright;
 
@@ -34,7 +35,7 @@ study::Individual winnerOf(const study::StudyInputs& inputs, int generation, std
     winner.individual = generation % 5;
     for (const search::Dimension& dimension : study::designSpace(inputs.settings.track).dimensions)
         winner.record.design.push_back(search::roundToBits(random.uniform(), dimension.bits));
-    winner.record.fitness = {0.0, fitness, 0.0};
+    winner.record.fitness = testing::paperFitness(0.0, fitness, 0.0);
     return winner;
 }
 
@@ -318,9 +319,10 @@ class ValidationTest : public QObject {
 
     void selectionTableListsTheBestFirst() {
         study::SelectionRecord record{"fake", {}};
+        record.entries.push_back({439, 17, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 1000,
+                                  base::Quaternion::Identity()});
         record.entries.push_back(
-            {439, 17, {0.0, -0.01, 0.85}, 1000, 1000, 1000, base::Quaternion::Identity()});
-        record.entries.push_back({12, 3, {0.0, -0.25, 0.5}, 0, 0, 0, base::Quaternion::Identity()});
+            {12, 3, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
         const QStringList lines = QString::fromStdString(study::formatSelection(record)).split('\n');
         QCOMPARE(lines[1].simplified(), QString("1 439 17 -0.010 0.850 1000 1000 100.0 % 99.6 ... 100.0 %"));
         QCOMPARE(lines[2].simplified(), QString("2 12 3 -0.250 0.500 0 0 - -"));

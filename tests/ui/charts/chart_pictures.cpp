@@ -8,7 +8,6 @@
 
 #include "core/part/part_builder.h"
 #include "core/store/study_file.h"
-#include "core/study/final_orientation.h"
 #include "core/study/selection.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
@@ -55,8 +54,8 @@ Study load(const char* path) {
     loaded.curves.name = QString::fromStdString(std::filesystem::path(path).filename().string());
     loaded.curves.summaries = take(file.loadSummaries());
     loaded.curves.checks = take(file.loadChecks());
-    loaded.curves.bestAttainableOrientation =
-        trial::calcBestOrientationScore(part->symmetry, settings.evolution.orientationDistance);
+    loaded.curves.attainable =
+        objectives::listAttainable(part->symmetry, settings.evolution.orientationDistance);
     for (const study::GenerationSummary& summary : loaded.curves.summaries)
         loaded.curves.trialsPerSecond.push_back(trialsPerSecond(take(file.loadGeneration(summary.index))));
 
@@ -69,7 +68,7 @@ Study load(const char* path) {
         study::makeSelectionBatch(scene, best.front().generation, best.front().individual, kTrials);
     const auto outcomes = take(native::NativeEngine({0, 0.0}).run(std::span(&batch, 1), {})).front();
     const base::Quaternion expected =
-        trial::findModalOrientation(study::finalOrientations(outcomes), part->symmetry, loaded.tolerance);
+        trial::findModalOrientation(trial::finalOrientations(outcomes), part->symmetry, loaded.tolerance);
     loaded.shares = study::calcOrientationShares(*part, outcomes, expected);
     return loaded;
 }

@@ -23,11 +23,11 @@ StudyCurves someStudy(int generations) {
     curves.name = "one";
     for (int g = 0; g < generations; ++g) {
         study::GenerationSummary summary = sample::summary(g, 0.01 * g);
-        summary.statistics.best.collision = summary.statistics.topMean.collision = 0.0;
+        summary.statistics.best.scores[0].value = summary.statistics.topMean.scores[0].value = 0.0;
         curves.summaries.push_back(summary);
         curves.trialsPerSecond.push_back(100.0);
     }
-    curves.bestAttainableOrientation = 1.25;
+    curves.attainable = {{"F_O", 1.25}};
     return curves;
 }
 

@@ -24,7 +24,7 @@ StudyCurves someStudy(const QString& name, double orientation) {
     }
     // Checks are done when there is time: in any order.
     curves.checks = {sample::check(2, 10, 9), sample::check(0, 5, 4)};
-    curves.bestAttainableOrientation = 1.25;
+    curves.attainable = {{"F_C", 0.0}, {"F_D", 0.0}, {"F_O", 1.25}};
     return curves;
 }
 
@@ -65,9 +65,9 @@ class StudySheetsTest : public QObject {
         QVERIFY2(lines[1].startsWith("1,85,62.107317") && lines[1].endsWith(",50"), qPrintable(lines[1]));
     }
 
-    void fitnessShowsTheThreeScores() {
+    void fitnessShowsItsScores() {
         const ChartSheet sheet = charts::fitnessSheet({someStudy("a", 0.5)});
-        QCOMPARE(sheet.plots.size(), std::size_t{3});
+        QCOMPARE(sheet.plots.size(), std::size_t{4});
         const PlotSheet& orientation = plotOf(sheet, "F_O");
         QCOMPARE(orientation.curves.size(), std::size_t{3});
         QCOMPARE(orientation.curves[0].points, (std::vector<QPointF>{{0, 0.5}, {1, 0.5}, {2, 0.5}}));
@@ -77,13 +77,20 @@ class StudySheetsTest : public QObject {
         QCOMPARE(*orientation.curves[2].level, 1.25);
         QCOMPARE(plotOf(sheet, "F_C").curves[0].points.front(), QPointF(0, -2.0));
         QCOMPARE(plotOf(sheet, "F_D").curves[0].points.front(), QPointF(0, -0.25));
+        QCOMPARE(plotOf(sheet, "F_D").yTitle, QString("Distance F<sub>D</sub> [segments]"));
+        // What everybody reads is a choice; the means of these studies lack it.
+        QVERIFY(!isOn(sheet, "conveying_speed"));
+        const PlotSheet& speed = plotOf(sheet, "conveying_speed");
+        QCOMPARE(speed.curves.size(), std::size_t{1});
+        QCOMPARE(speed.curves[0].points.front(), QPointF(0, 50.0));
+        QCOMPARE(speed.yTitle, QString("Conveying speed [mm/s]"));
     }
 
     void collisionsAreShownIfThereAreAny() {
         StudyCurves study = someStudy("a", 0.5);
         QVERIFY(isOn(charts::fitnessSheet({study}), "F_C"));
         for (study::GenerationSummary& summary : study.summaries)
-            summary.statistics.best.collision = summary.statistics.topMean.collision = 0.0;
+            summary.statistics.best.scores[0].value = summary.statistics.topMean.scores[0].value = 0.0;
         QVERIFY(!isOn(charts::fitnessSheet({study}), "F_C"));
         QVERIFY(isOn(charts::fitnessSheet({study}), "F_O"));
     }
@@ -154,7 +161,7 @@ class StudySheetsTest : public QObject {
     void sharedAttainableScoreIsOneLine() {
         std::vector<StudyCurves> studies{someStudy("one", 0.5), someStudy("two", 0.7)};
         QCOMPARE(plotOf(charts::fitnessSheet(studies), "F_O").curves.size(), std::size_t{5});
-        studies[1].bestAttainableOrientation = 1.4;
+        studies[1].attainable = {{"F_O", 1.4}};
         QCOMPARE(plotOf(charts::fitnessSheet(studies), "F_O").curves.size(), std::size_t{6});
     }
 

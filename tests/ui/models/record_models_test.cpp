@@ -6,6 +6,7 @@
 #include "core/part/part_builder.h"
 #include "core/part/shapes.h"
 #include "core/workflow/study_trials.h"
+#include "tests/core/objectives/paper_fitness.h"
 #include "tests/ui/sample_records.h"
 #include "ui/models/csv.h"
 #include "ui/models/generation_model.h"
@@ -27,6 +28,13 @@ QString textAt(const QAbstractItemModel& model, int row, int column) {
     return model.index(row, column).data().toString();
 }
 
+/// The column of that title.
+int columnOf(const QAbstractItemModel& model, const QString& title) {
+    for (int column = 0; column < model.columnCount(); ++column)
+        if (model.headerData(column, Qt::Horizontal).toString() == title) return column;
+    return -1;
+}
+
 double valueAt(const QAbstractItemModel& model, int row, int column) {
     return model.index(row, column).data(models::ValueRole).toDouble();
 }
@@ -34,7 +42,8 @@ double valueAt(const QAbstractItemModel& model, int row, int column) {
 /// An individual of these strategy values.
 study::IndividualRecord individual(double fitness, const std::vector<double>& strategy) {
     study::IndividualRecord record;
-    record.fitness = {-1.0, -0.5, fitness};
+    record.fitness = testing::paperFitness(-1.0, -0.5, fitness);
+    record.fitness.scores.push_back({"conveying_speed", 0.05, 0.002});
     record.traits = {{"p_x", strategy[0]}, {"p_dm", strategy[1]}, {"p_s", strategy[2]}};
     record.trials = 10;
     record.finished = 7;
@@ -89,11 +98,11 @@ class RecordModelsTest : public QObject {
         GenerationModel model;
         model.setGenerations({sample::summary(4, 0.75)}, {}, search::Method::genetic);
         QCOMPARE(textAt(model, 0, GenerationModel::Generation), QString("4"));
-        QCOMPARE(textAt(model, 0, GenerationModel::Total), QString("-1.500"));
-        QCOMPARE(textAt(model, 0, GenerationModel::Collision), QString("-2"));
-        QCOMPARE(textAt(model, 0, GenerationModel::FirstCurve + 1), QString("0.0100"));
-        QCOMPARE(valueAt(model, 0, GenerationModel::TopTotal), -4.0 - 0.5 + 0.375);
-        QVERIFY(!model.headerData(GenerationModel::Orientation, Qt::Horizontal, Qt::ToolTipRole)
+        QCOMPARE(textAt(model, 0, GenerationModel::firstDetail()), QString("-1.500"));
+        QCOMPARE(textAt(model, 0, columnOf(model, "F_C")), QString("-2"));
+        QCOMPARE(textAt(model, 0, columnOf(model, "p_dm")), QString("0.0100"));
+        QCOMPARE(valueAt(model, 0, columnOf(model, "Mean F of top 30 %")), -4.0 - 0.5 + 0.375);
+        QVERIFY(!model.headerData(columnOf(model, "F_O [√rad]"), Qt::Horizontal, Qt::ToolTipRole)
                      .toString()
                      .isEmpty());
     }
@@ -133,10 +142,10 @@ class RecordModelsTest : public QObject {
     void smallNegativeNumbersAreNotMinusNothing() {
         GenerationModel model;
         study::GenerationSummary summary = sample::summary(0);
-        summary.statistics.best = {-0.0, -1e-9, 1.0};
+        summary.statistics.best = testing::paperFitness(-0.0, -1e-9, 1.0);
         model.setGenerations({summary}, {}, search::Method::genetic);
-        QCOMPARE(textAt(model, 0, GenerationModel::Collision), QString("0"));
-        QCOMPARE(textAt(model, 0, GenerationModel::Distance), QString("0.000"));
+        QCOMPARE(textAt(model, 0, columnOf(model, "F_C")), QString("0"));
+        QCOMPARE(textAt(model, 0, columnOf(model, "F_D [segments]")), QString("0.000"));
     }
 
     void individualsShowTheirTraits() {
@@ -148,12 +157,16 @@ class RecordModelsTest : public QObject {
         const QAbstractItemModelTester tester(&model, kFatal);
         model.setGeneration(record, search::Method::genetic);
         QCOMPARE(model.rowCount(), 2);
-        QCOMPARE(model.columnCount(), IndividualModel::FirstTrait + 3);
-        QCOMPARE(textAt(model, 0, IndividualModel::FirstTrait), QString("0.2500"));
-        QCOMPARE(textAt(model, 0, IndividualModel::FirstTrait + 1), QString("0.0020"));
-        QCOMPARE(textAt(model, 0, IndividualModel::FirstTrait + 2), QString("0.3000"));
-        QCOMPARE(model.headerData(IndividualModel::FirstTrait + 2, Qt::Horizontal).toString(),
-                 QString("p_s"));
+        const int columns = model.columnCount();
+        QCOMPARE(textAt(model, 0, columnOf(model, "p_x")), QString("0.2500"));
+        QCOMPARE(textAt(model, 0, columnOf(model, "p_dm")), QString("0.0020"));
+        QCOMPARE(textAt(model, 0, columnOf(model, "p_s")), QString("0.3000"));
+        QCOMPARE(columnOf(model, "p_s"), columns - 1);
+        // Speed is for everybody, the paper's scores are details.
+        QCOMPARE(columnOf(model, "Speed [mm/s]"), int(IndividualModel::FirstScore));
+        QCOMPARE(textAt(model, 0, IndividualModel::FirstScore), QString("50.0"));
+        QCOMPARE(columnOf(model, "F"), IndividualModel::firstDetail());
+        QVERIFY(columnOf(model, "F_C") > IndividualModel::firstDetail());
         QCOMPARE(textAt(model, 0, IndividualModel::Stuck), QString("2"));
         QCOMPARE(textAt(model, 0, IndividualModel::Finished), QString("7"));
         QCOMPARE(textAt(model, 0, IndividualModel::Success), QString("60.0"));
@@ -166,7 +179,7 @@ class RecordModelsTest : public QObject {
         QCOMPARE(model.rowCount(), 0);
         // A study that is searched otherwise.
         model.setGeneration(record, search::Method::random);
-        QCOMPARE(model.columnCount(), int(IndividualModel::FirstTrait));
+        QCOMPARE(model.columnCount(), columns - 3);
     }
 
     void individualsAreSortedByNumber() {
@@ -178,7 +191,7 @@ class RecordModelsTest : public QObject {
         QSortFilterProxyModel sorted;
         sorted.setSourceModel(&model);
         sorted.setSortRole(models::ValueRole);
-        sorted.sort(IndividualModel::Total, Qt::DescendingOrder);
+        sorted.sort(IndividualModel::firstDetail(), Qt::DescendingOrder);
         QStringList order;
         for (int row = 0; row < 4; ++row)
             order.append(textAt(sorted, row, IndividualModel::Individual));
@@ -270,9 +283,10 @@ class RecordModelsTest : public QObject {
 
     void selectionIsRanked() {
         study::SelectionRecord record{"simbody", {}};
+        record.entries.push_back({439, 17, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 994,
+                                  base::Quaternion::Identity()});
         record.entries.push_back(
-            {439, 17, {0.0, -0.01, 0.85}, 1000, 1000, 994, base::Quaternion::Identity()});
-        record.entries.push_back({12, 3, {0.0, -0.25, 0.5}, 0, 0, 0, base::Quaternion::Identity()});
+            {12, 3, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
         SelectionModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
         model.setSelection(record);

@@ -4,6 +4,7 @@
 #include <QSignalSpy>
 #include <QtTest>
 
+#include "tests/core/objectives/paper_fitness.h"
 #include "ui/models/roles.h"
 
 using namespace trapwright;
@@ -15,7 +16,7 @@ study::Individual winnerOf(int generation) {
     study::Individual winner;
     winner.generation = generation;
     winner.individual = 7;
-    winner.record.fitness = {0.0, 0.0, 1.25};
+    winner.record.fitness = testing::paperFitness(0.0, 0.0, 1.25);
     winner.record.trials = 100;
     winner.record.finished = 98;
     winner.record.oriented = 97;

@@ -331,16 +331,17 @@ class EvolvePageTest : public QObject {
             user.show("generations");
             auto* table = user.find<QTableView>("generations.table");
             QVERIFY(!table->isColumnHidden(models::GenerationModel::Success));
-            QVERIFY(table->isColumnHidden(models::GenerationModel::Orientation));
+            QVERIFY(table->isColumnHidden(models::GenerationModel::firstDetail()));
             user.click("generations.table.details");
-            QVERIFY(!table->isColumnHidden(models::GenerationModel::Orientation));
+            QVERIFY(!table->isColumnHidden(models::GenerationModel::firstDetail()));
         }
         // As it was left.
         User user(studies);
         QVERIFY(user.open(studies.path("a.trap")));
         QVERIFY(!user.find<QTableView>("generations.table")
-                     ->isColumnHidden(models::GenerationModel::Orientation));
-        QVERIFY(user.find<QTableView>("individuals.table")->isColumnHidden(models::IndividualModel::Total));
+                     ->isColumnHidden(models::GenerationModel::firstDetail()));
+        QVERIFY(user.find<QTableView>("individuals.table")
+                    ->isColumnHidden(models::IndividualModel::firstDetail()));
     }
 
     void closingWhileItLearnsAsksAndItCanGoOn() {

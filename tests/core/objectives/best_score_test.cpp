@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/trial/fitness.h"
-#include "symmetry_groups.h"
+#include "core/objectives/paper_scores.h"
+#include "tests/core/trial/symmetry_groups.h"
 
 using namespace trapwright;
 using trial::OrientationDistance;
@@ -17,17 +17,20 @@ class BestScoreTest : public QObject {
  private slots:
     // C1: (2/3 pi^1.5 + S) / pi with the Fresnel integral S of sin(u^2) over [0, sqrt(pi)] = 0.8948314695.
     void closedForms() {
-        const double plain = trial::calcBestOrientationScore(testing::makeC1(), OrientationDistance::plain);
+        const double plain =
+            objectives::calcBestOrientationScore(testing::makeC1(), OrientationDistance::plain);
         QVERIFY(std::abs(plain - (2.0 / 3.0 * std::pow(base::kPi, 1.5) + 0.8948314695) / base::kPi) < 1e-9);
-        QCOMPARE(trial::calcBestOrientationScore(testing::makeSphere(), OrientationDistance::symmetric), 0.0);
-        QVERIFY(std::abs(trial::calcBestOrientationScore(testing::makeSphere(), OrientationDistance::plain)) <
-                1e-12);
+        QCOMPARE(objectives::calcBestOrientationScore(testing::makeSphere(), OrientationDistance::symmetric),
+                 0.0);
+        QVERIFY(std::abs(objectives::calcBestOrientationScore(testing::makeSphere(),
+                                                              OrientationDistance::plain)) < 1e-12);
     }
 
     // decisions.md#symmetric-distance: with the plain angle a perfect feeder of cuboids gains only 0.137 over
     // random.
     void plainCuboidGainsLittle() {
-        const double score = trial::calcBestOrientationScore(testing::makeD2(), OrientationDistance::plain);
+        const double score =
+            objectives::calcBestOrientationScore(testing::makeD2(), OrientationDistance::plain);
         QVERIFY(std::abs(score - 0.137) < 5e-4);
     }
 
@@ -70,7 +73,7 @@ class BestScoreTest : public QObject {
             sum += std::sqrt(starts) - std::sqrt(ends);
         }
         const double expected = sum / kPairs;
-        const double got = trial::calcBestOrientationScore(group, distance);
+        const double got = objectives::calcBestOrientationScore(group, distance);
         // The sample's own standard error is below 0.001.
         QVERIFY2(std::abs(got - expected) < 0.004, qPrintable(QString("%1 %2").arg(got).arg(expected)));
     }

@@ -1,6 +1,7 @@
-#include "core/trial/orientation_metric.h"
+#include "core/trial/orientations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trapwright::trial {
@@ -107,6 +108,67 @@ base::Quaternion findNearestCopy(const base::Quaternion& orientation, const base
     }
     if (nearest.dot(reference) < 0.0) nearest.coeffs() = -nearest.coeffs();
     return nearest;
+}
+
+double calcOrientationAngle(const base::Quaternion& a, const base::Quaternion& b,
+                            const part::SymmetryGroup& symmetry, OrientationDistance distance) {
+    const std::array both = {a, b};
+    return OrientationMetric(both, symmetry, distance).angle(0, 1);
+}
+
+std::vector<base::Quaternion> finalOrientations(std::span<const Outcome> outcomes) {
+    std::vector<base::Quaternion> orientations;
+    for (const Outcome& outcome : outcomes) {
+        if (outcome.ending == Ending::finished) orientations.push_back(outcome.farthest.rotation);
+    }
+    return orientations;
+}
+
+bool isOriented(const Outcome& outcome, const base::Quaternion& expected, const part::SymmetryGroup& symmetry,
+                double tolerance) {
+    return outcome.ending == Ending::finished &&
+           calcOrientationAngle(outcome.farthest.rotation, expected, symmetry,
+                                OrientationDistance::symmetric) <= tolerance;
+}
+
+int countOriented(std::span<const Outcome> outcomes, const base::Quaternion& expected,
+                  const part::SymmetryGroup& symmetry, double tolerance) {
+    return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(), [&](const Outcome& outcome) {
+        return isOriented(outcome, expected, symmetry, tolerance);
+    }));
+}
+
+base::Quaternion findModalOrientation(std::span<const base::Quaternion> orientations,
+                                      const part::SymmetryGroup& symmetry, double tolerance) {
+    const std::size_t count = orientations.size();
+    if (count == 0) return base::Quaternion::Identity();
+
+    const OrientationMetric metric(orientations, symmetry, OrientationDistance::symmetric);
+    std::vector<int> neighbours(count, 0);
+    for (std::size_t j = 0; j + 1 < count; ++j) {
+        for (std::size_t k = j + 1; k < count; ++k) {
+            if (metric.angle(j, k) <= tolerance) {
+                ++neighbours[j];
+                ++neighbours[k];
+            }
+        }
+    }
+    std::size_t mode = 0;
+    for (std::size_t j = 1; j < count; ++j) {
+        if (neighbours[j] > neighbours[mode]) mode = j;
+    }
+
+    // The chordal mean: quaternions on one side of the sphere, added and normalised.
+    const base::Quaternion centre = orientations[mode].normalized();
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (std::size_t k = 0; k < count; ++k) {
+        if (k == mode || metric.angle(mode, k) <= tolerance) {
+            sum += findNearestCopy(orientations[k].normalized(), centre, symmetry).coeffs();
+        }
+    }
+    base::Quaternion mean;
+    mean.coeffs() = sum.normalized();
+    return mean;
 }
 
 }  // namespace trapwright::trial

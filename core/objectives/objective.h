@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/part/part.h"
+#include "core/track/track.h"
+#include "core/trial/orientations.h"
+#include "core/trial/outcome.h"
+
+namespace trapwright::objectives {
+
+/// What is judged: a track and the trials on it.
+struct Evaluation {
+    const track::Track* track = nullptr;
+    const part::SymmetryGroup* symmetry = nullptr;  // of the part
+    int overlaps = 0;                               // triangles of the surface that overlap another
+    std::span<const trial::Outcome> outcomes{};     // empty: the track was not simulated
+    trial::OrientationDistance distance = trial::OrientationDistance::symmetric;  // that F_O measures with
+    double tolerance = 0.0;                                                       // of success [rad]
+    /// The orientation in which parts shall end. None: the mode of those in which they finished
+    /// (decisions.md#selection-and-success).
+    std::optional<base::Quaternion> expected{};
+    /// How many ended so, where that is known already. None: counted when it is needed.
+    std::optional<int> oriented{};
+};
+
+struct Measured {
+    double value = 0.0;
+    double error = 0.0;  // standard error; 0: exact, or of fewer than two trials
+};
+
+/// Something that tracks are judged by.
+struct Objective {
+    std::string_view key;     // in settings, studies and JSON: "F_C"
+    std::string_view symbol;  // in tables and beside axes: "F_C"
+    std::string_view name;    // "Collisions"
+    std::string_view unit;    // as people read it: "triangles"; empty: none
+    std::string_view help;    // two short sentences
+    double shownAs = 1.0;     // in people's unit, from the value: 100 for %
+    int decimals = 3;         // in people's unit
+    bool moreIsBetter = true;
+    bool isNoisy = true;    // differs from trials to trials
+    bool isDetail = false;  // for those who look into the algorithm
+    /// Of a track that was not simulated no more than what its trials could give at worst.
+    Measured (*measure)(const Evaluation& evaluation) = nullptr;
+    /// The value of a perfect feeder from random starts. Null: there is no telling.
+    double (*attainable)(const part::SymmetryGroup& symmetry, trial::OrientationDistance distance) = nullptr;
+
+    /// The symbol with its unit: "F_D [segments]".
+    [[nodiscard]] std::string title() const;
+};
+
+}  // namespace trapwright::objectives

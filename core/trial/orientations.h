@@ -1,0 +1,66 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/part/part.h"
+#include "core/trial/outcome.h"
+
+namespace trapwright::trial {
+
+/// How far apart two orientations are (decisions.md#symmetric-distance).
+enum class OrientationDistance {
+    symmetric,  // the least angle over the part's symmetry group; between axes for a continuous one
+    plain       // the rotation angle as printed in Eq. 5
+};
+
+/// Angle between two orientations of a part in [0, pi]. [rad]
+double calcOrientationAngle(const base::Quaternion& a, const base::Quaternion& b,
+                            const part::SymmetryGroup& symmetry, OrientationDistance distance);
+
+/// The angles between all pairs of a set of orientations, prepared so that a pair costs one dot product per
+/// element of the symmetry group and one arc cosine.
+class OrientationMetric {
+ public:
+    OrientationMetric(std::span<const base::Quaternion> orientations, const part::SymmetryGroup& symmetry,
+                      OrientationDistance distance);
+
+    /// In [0, pi]; exact to rounding near 0 and pi too. [rad]
+    [[nodiscard]] double angle(std::size_t j, std::size_t k) const;
+
+ private:
+    enum class Kind { finite, axis, line, nothing };
+
+    Kind kind_ = Kind::finite;
+    std::size_t copiesPerOrientation_ = 1;
+    std::vector<Eigen::Vector4d> orientations_;  // unit quaternions as vectors
+    std::vector<Eigen::Vector4d> copies_;        // those times each group element
+    std::vector<base::Vec3> axes_;               // of a continuous group, in the track frame
+};
+
+/// The copy of `orientation` under the symmetry group that is nearest to `reference`, with the quaternion
+/// sign on its side.
+base::Quaternion findNearestCopy(const base::Quaternion& orientation, const base::Quaternion& reference,
+                                 const part::SymmetryGroup& symmetry);
+
+/// A rotation by pi about an axis perpendicular to the axis of a continuous group.
+base::Quaternion makeFlip(const base::Vec3& axis);
+
+/// The orientations in which parts passed the finish line, in the trials' order.
+std::vector<base::Quaternion> finalOrientations(std::span<const Outcome> outcomes);
+
+/// Success (decisions.md#selection-and-success): finished within `tolerance` [rad] of the expected
+/// orientation, modulo the part's symmetry.
+bool isOriented(const Outcome& outcome, const base::Quaternion& expected, const part::SymmetryGroup& symmetry,
+                double tolerance);
+
+/// How many of these succeeded.
+int countOriented(std::span<const Outcome> outcomes, const base::Quaternion& expected,
+                  const part::SymmetryGroup& symmetry, double tolerance);
+
+/// The most frequent orientation: the one with the most others within `tolerance` [rad], refined to the mean
+/// of those (in the symmetry copy nearest to it). Empty input gives the identity.
+base::Quaternion findModalOrientation(std::span<const base::Quaternion> orientations,
+                                      const part::SymmetryGroup& symmetry, double tolerance);
+
+}  // namespace trapwright::trial

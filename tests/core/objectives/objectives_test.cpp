@@ -1,0 +1,342 @@
+#include "core/objectives/objectives.h"
+
+#include <QtTest>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/objectives/paper_scores.h"
+#include "core/track/track_builder.h"
+#include "tests/core/objectives/paper_fitness.h"
+#include "tests/core/trial/symmetry_groups.h"
+
+using namespace trapwright;
+using objectives::Evaluation;
+using objectives::Fitness;
+using testing::scoreOf;
+using trial::OrientationDistance;
+using trial::Outcome;
+
+Q_DECLARE_METATYPE(part::SymmetryGroup)
+
+namespace {
+
+std::vector<base::Quaternion> drawRotations(std::uint64_t seed, int count) {
+    base::Random random({seed, 0, 0, 0, base::Purpose::test});
+    std::vector<base::Quaternion> rotations;
+    rotations.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+        rotations.push_back(random.rotation());
+    return rotations;
+}
+
+base::Quaternion turn(double degrees, const base::Vec3& axis) {
+    return base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, axis));
+}
+
+track::Track makeTrack() {
+    const track::CrossSection section{30e-3, {base::Vec2(-30e-3, 15e-3), base::Vec2(30e-3, 15e-3)}};
+    return *track::buildTrack({}, std::vector{section});
+}
+
+objectives::ObjectiveList paperObjectives() {
+    return *objectives::readObjectives(objectives::kPaperObjectives);
+}
+
+/// Of trials on makeTrack().
+struct Judge {
+    track::Track track = makeTrack();
+    part::SymmetryGroup symmetry = testing::makeC1();
+    OrientationDistance distance = OrientationDistance::symmetric;
+
+    [[nodiscard]] Evaluation evaluation(std::span<const Outcome> outcomes, int overlaps = 0) const {
+        return {&track, &symmetry, overlaps, outcomes, distance, 25.0 * base::kDegree};
+    }
+    [[nodiscard]] Fitness judge(std::span<const Outcome> outcomes, int overlaps = 0) const {
+        return objectives::measureAll(evaluation(outcomes, overlaps), paperObjectives());
+    }
+};
+
+Outcome finishedAfter(double way, double seconds, const base::Quaternion& rotation) {
+    Outcome outcome;
+    outcome.ending = trial::Ending::finished;
+    outcome.initial.position.x() = 60e-3;
+    outcome.farthest.position.x() = 60e-3 + way;
+    outcome.farthest.rotation = rotation;
+    outcome.time = seconds;
+    return outcome;
+}
+
+/// Some finish, some do not, some turn.
+Outcome drawOutcome(base::Random& random) {
+    Outcome outcome = finishedAfter(104e-3, 1.0 + 0.2 * random.normal(),
+                                    turn(random.uniform() < 0.7 ? 0.0 : 90.0, base::Vec3::UnitX()));
+    outcome.initial.rotation = random.rotation();
+    if (random.uniform() < 0.2) {
+        outcome.ending = trial::Ending::stuck;
+        outcome.farthest.position.x() = random.uniform(80e-3, 160e-3);
+        outcome.farthest.rotation = random.rotation();
+    }
+    return outcome;
+}
+
+}  // namespace
+
+class ObjectivesTest : public QObject {
+    Q_OBJECT
+
+    static void addGroups() {
+        QTest::addColumn<part::SymmetryGroup>("group");
+        QTest::newRow("C1") << testing::makeC1();
+        QTest::newRow("D2") << testing::makeD2();
+        QTest::newRow("C5") << testing::makeCn(5);
+        QTest::newRow("Cinf") << testing::makeContinuous(false);
+        QTest::newRow("Dinf") << testing::makeContinuous(true);
+        QTest::newRow("SO3") << testing::makeSphere();
+    }
+
+ private slots:
+    // Eq. 5 written down as it stands, with rotation matrices: another way than the one tested.
+    void concentrationIsEquation5_data() { addGroups(); }
+    void concentrationIsEquation5() {
+        QFETCH(part::SymmetryGroup, group);
+        const auto rotations = drawRotations(6, 40);
+        const double n = 40.0;
+        double sum = 0.0;
+        for (std::size_t j = 0; j < 39; ++j) {
+            for (std::size_t k = j + 1; k < 40; ++k) {
+                double least = base::kPi;
+                for (const auto& g : group.rotations) {
+                    const base::Mat3 r =
+                        rotations[j].toRotationMatrix().transpose() * (rotations[k] * g).toRotationMatrix();
+                    least = std::min(least, std::acos(std::clamp(0.5 * (r.trace() - 1.0), -1.0, 1.0)));
+                }
+                if (group.continuous) {
+                    const double cosine = (rotations[j] * group.axis).dot(rotations[k] * group.axis);
+                    least = std::acos(group.flip ? std::abs(cosine) : cosine);
+                }
+                if (group.sphere) least = 0.0;
+                sum += std::sqrt(least);
+            }
+        }
+        const double expected = -2.0 / (n * n - n) * sum;
+        const double got =
+            objectives::calcConcentration(rotations, group, OrientationDistance::symmetric).value;
+        QVERIFY(std::abs(got - expected) < 1e-10);
+    }
+
+    void perfectConcentrationIsZero_data() { addGroups(); }
+    void perfectConcentrationIsZero() {
+        QFETCH(part::SymmetryGroup, group);
+        const std::vector<base::Quaternion> same(50, drawRotations(7, 1)[0]);
+        QCOMPARE(objectives::calcConcentration(same, group, OrientationDistance::symmetric).value, 0.0);
+        QCOMPARE(
+            objectives::calcConcentration(std::span(same).first(1), group, OrientationDistance::symmetric)
+                .value,
+            0.0);
+    }
+
+    // Two clusters of 10, a quarter turn apart: 100 of the 190 pairs are sqrt(pi / 2) apart.
+    void twoClusters() {
+        std::vector<base::Quaternion> clusters;
+        clusters.reserve(20);
+        for (int i = 0; i < 20; ++i)
+            clusters.push_back(turn(i % 2 == 0 ? 0.0 : 90.0, base::Vec3::UnitX()));
+        const double got =
+            objectives::calcConcentration(clusters, testing::makeC1(), OrientationDistance::plain).value;
+        QVERIFY(std::abs(got + 100.0 / 190.0 * std::sqrt(0.5 * base::kPi)) < 1e-12);
+    }
+
+    // Paper, section 4.1: -1.3 is the last segment plus 30 percent of the one before.
+    void distanceIsEquation3() {
+        const Judge judge;
+        Outcome outcome;
+        outcome.ending = trial::Ending::stuck;
+        // Sections at 0, 80, 110, 146, 182 mm, finish at 164 mm: half of the last segment and 0.8 of the one
+        // before.
+        outcome.farthest.position.x() = 110e-3 + 0.2 * 36e-3;
+        std::vector<Outcome> outcomes(3, outcome);
+        const Fitness alike = judge.judge(outcomes);
+        QVERIFY(std::abs(scoreOf(alike, "F_D") + 1.3) < 1e-12);
+        QVERIFY(objectives::findScore(alike, "F_D")->error < 1e-12);
+
+        outcomes.push_back(finishedAfter(104e-3, 1.0, base::Quaternion::Identity()));
+        const Fitness fitness = judge.judge(outcomes);
+        QVERIFY(std::abs(scoreOf(fitness, "F_D") + 0.75 * 1.3) < 1e-12);
+        // Of 1.3, 1.3, 1.3 and 0 the deviation is 0.65, with n - 1.
+        QVERIFY(std::abs(objectives::findScore(fitness, "F_D")->error - 0.65 / 2.0) < 1e-12);
+    }
+
+    void scoresAddUp() {
+        Judge judge;
+        judge.symmetry = testing::makeD2();
+        const auto initial = drawRotations(8, 30);
+        const auto final = drawRotations(9, 1);
+        std::vector<Outcome> outcomes(30);
+        for (std::size_t i = 0; i < 30; ++i) {
+            outcomes[i].ending = trial::Ending::finished;
+            outcomes[i].initial.rotation = initial[i];
+            outcomes[i].farthest.rotation = final[0];
+        }
+        const Fitness fitness = judge.judge(outcomes, 4);
+        const double orientation = scoreOf(fitness, "F_O");
+        QCOMPARE(scoreOf(fitness, "F_C"), -4.0);
+        QCOMPARE(scoreOf(fitness, "F_D"), 0.0);
+        QCOMPARE(
+            orientation,
+            -objectives::calcConcentration(initial, judge.symmetry, OrientationDistance::symmetric).value);
+        QVERIFY(orientation > 0.0);
+        QCOMPARE(fitness.total, -4.0 + orientation);
+        // Nothing gained where nothing was turned.
+        for (auto& outcome : outcomes)
+            outcome.farthest = outcome.initial;
+        judge.distance = OrientationDistance::plain;
+        QCOMPARE(scoreOf(judge.judge(outcomes), "F_O"), 0.0);
+    }
+
+    void unsimulatedIsWorst() {
+        Judge judge;
+        judge.distance = OrientationDistance::plain;
+        const Fitness worst = judge.judge({}, 3);
+        QCOMPARE(scoreOf(worst, "F_C"), -3.0);
+        QVERIFY(std::abs(scoreOf(worst, "F_D") + 2.75) < 1e-12);
+        // Even from equal starts to random ends.
+        std::vector<Outcome> outcomes(20);
+        const auto ends = drawRotations(10, 20);
+        for (std::size_t i = 0; i < 20; ++i)
+            outcomes[i].farthest.rotation = ends[i];
+        const Fitness bad = judge.judge(outcomes, 3);
+        for (const objectives::Objective& objective : objectives::allObjectives()) {
+            const double sign = objective.moreIsBetter ? 1.0 : -1.0;
+            QVERIFY(sign * scoreOf(worst, objective.key) <= sign * scoreOf(bad, objective.key));
+        }
+        QVERIFY(scoreOf(worst, "F_O") < scoreOf(bad, "F_O"));
+    }
+
+    void successIsTheShareOfTheMode() {
+        const Judge judge;
+        std::vector<Outcome> outcomes;
+        for (int i = 0; i < 10; ++i)  // six within the tolerance of each other, two elsewhere, two stuck
+            outcomes.push_back(finishedAfter(104e-3, 2.0, turn(i < 6 ? 3.0 * i : 90.0, base::Vec3::UnitX())));
+        outcomes[8].ending = outcomes[9].ending = trial::Ending::stuck;
+        const objectives::Score& success = *objectives::findScore(judge.judge(outcomes), "success");
+        QCOMPARE(success.value, 0.6);
+        QVERIFY(std::abs(success.error - std::sqrt(0.6 * 0.4 / 9.0)) < 1e-12);
+        // In the orientation that is wanted, which is not the mode.
+        Evaluation wanted = judge.evaluation(outcomes);
+        wanted.expected = turn(90.0, base::Vec3::UnitX());
+        QCOMPARE(scoreOf(objectives::measureAll(wanted, paperObjectives()), "success"), 0.2);
+    }
+
+    void speedIsThatOfThePartsThatFinish() {
+        const Judge judge;
+        std::vector<Outcome> outcomes{finishedAfter(104e-3, 1.0, base::Quaternion::Identity()),
+                                      finishedAfter(104e-3, 2.0, base::Quaternion::Identity())};
+        QVERIFY(std::abs(scoreOf(judge.judge(outcomes), "conveying_speed") - 78e-3) < 1e-12);
+        outcomes.push_back(finishedAfter(20e-3, 5.0, base::Quaternion::Identity()));
+        outcomes.back().ending = trial::Ending::stuck;
+        QVERIFY(std::abs(scoreOf(judge.judge(outcomes), "conveying_speed") - 78e-3) < 1e-12);
+        QCOMPARE(scoreOf(judge.judge(std::span(outcomes).last(1)), "conveying_speed"), 0.0);
+    }
+
+    // The standard errors that one set of trials tells are the scatter of the scores over many sets.
+    void errorsAreTheScatterOverManySets() {
+        const Judge judge;
+        constexpr int kSets = 600;
+        std::map<std::string, std::vector<objectives::Score>> scores;
+        base::Random random({21, 0, 0, 0, base::Purpose::test});
+        for (int set = 0; set < kSets; ++set) {
+            std::vector<Outcome> outcomes;
+            for (int i = 0; i < 60; ++i)
+                outcomes.push_back(drawOutcome(random));
+            for (const objectives::Score& score : judge.judge(outcomes).scores)
+                scores[score.key].push_back(score);
+        }
+        for (const objectives::Objective& objective : objectives::allObjectives()) {
+            double mean = 0.0;
+            double told = 0.0;
+            for (const objectives::Score& score : scores[std::string(objective.key)]) {
+                mean += score.value / kSets;
+                told += score.error * score.error / kSets;
+            }
+            double scatter = 0.0;
+            for (const objectives::Score& score : scores[std::string(objective.key)])
+                scatter += (score.value - mean) * (score.value - mean) / (kSets - 1);
+            if (!objective.isNoisy) {
+                QCOMPARE(scatter, 0.0);
+                QCOMPARE(told, 0.0);
+                continue;
+            }
+            // A deviation of so many is known to 3 %; 4 of these, and the bias of the U-statistic's.
+            const double ratio = std::sqrt(told / scatter);
+            QVERIFY2(ratio > 0.87 && ratio < 1.15,
+                     qPrintable(QString("%1: %2").arg(objective.key.data()).arg(ratio)));
+        }
+    }
+
+    void everyObjectiveIsDescribed() {
+        std::set<std::string_view> keys;
+        for (const objectives::Objective& objective : objectives::allObjectives()) {
+            QVERIFY(keys.insert(objective.key).second);
+            QCOMPARE(objectives::findObjective(objective.key), &objective);
+            QVERIFY(!objective.symbol.empty() && !objective.name.empty() && objective.shownAs > 0.0);
+            QVERIFY(objective.help.ends_with('.') && objective.measure != nullptr);
+        }
+        QVERIFY(keys.count(objectives::kSuccess) == 1);
+        QVERIFY(objectives::findObjective("F_X") == nullptr);
+        QCOMPARE(objectives::findObjective("conveying_speed")->title(), std::string("Speed [mm/s]"));
+        QCOMPARE(objectives::shown(*objectives::findObjective("success"), 0.9876), std::string("98.8"));
+        QCOMPARE(objectives::shown(*objectives::findObjective("F_C"), -0.0), std::string("0"));
+    }
+
+    void aPerfectFeederIsWorthWhatIsAttainable() {
+        const auto attainable = objectives::listAttainable(testing::makeC1(), OrientationDistance::symmetric);
+        const Fitness perfect{0.0, attainable};
+        QCOMPARE(scoreOf(perfect, "F_D"), 0.0);
+        QCOMPARE(scoreOf(perfect, "success"), 1.0);
+        QVERIFY(std::abs(scoreOf(perfect, "F_O") - 1.4664) < 1e-3);
+        QVERIFY(objectives::findScore(perfect, "conveying_speed") == nullptr);
+    }
+
+    void whatCountsIsSummed() {
+        const auto list = objectives::readObjectives(" F_D,success ");
+        QVERIFY(list.ok());
+        QCOMPARE(objectives::describeSum(*list), std::string("F_D + Success"));
+        const Judge judge;
+        const std::vector<Outcome> outcomes(4, finishedAfter(104e-3, 1.0, base::Quaternion::Identity()));
+        const Fitness some = objectives::measureSum(judge.evaluation(outcomes), *list);
+        QCOMPARE(some.scores.size(), std::size_t{2});
+        QCOMPARE(some.total, 1.0);
+        const Fitness all = objectives::measureOthers(judge.evaluation(outcomes), some);
+        QCOMPARE(all.total, 1.0);
+        QCOMPARE(all.scores.size(), objectives::allObjectives().size());
+        QVERIFY(all == objectives::measureAll(judge.evaluation(outcomes), *list));
+        const Fitness errors{0.0, {{"F_D", 1.0, 3.0}, {"success", 1.0, 4.0}, {"F_O", 1.0, 9.0}}};
+        QCOMPARE(objectives::calcTotalError(errors, *list), 5.0);
+    }
+
+    void unknownObjectivesAreNamed_data() {
+        QTest::addColumn<QString>("text");
+        QTest::addColumn<QString>("told");
+        QTest::newRow("unknown") << "F_C, F_Q"
+                                 << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
+                                    "success, conveying_speed. Write several with commas between them.";
+        QTest::newRow("empty") << ""
+                               << "There is no objective named \"\".";
+        QTest::newRow("end") << "F_C,"
+                             << "There is no objective named \"\".";
+        QTest::newRow("twice") << "F_C, F_D, F_C"
+                               << "The objective F_C is named twice; once is enough.";
+    }
+    void unknownObjectivesAreNamed() {
+        QFETCH(QString, text);
+        QFETCH(QString, told);
+        const auto list = objectives::readObjectives(text.toStdString());
+        QVERIFY(!list.ok());
+        QVERIFY2(list.error().message.starts_with(told.toStdString()), list.error().message.c_str());
+    }
+};
+
+QTEST_APPLESS_MAIN(ObjectivesTest)
+#include "objectives_test.moc"
