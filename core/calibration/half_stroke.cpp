@@ -17,13 +17,13 @@ namespace {
 constexpr std::size_t kFewestSetPoints = 3;
 constexpr double kNoise = 0.05;  // share of a speed
 
-base::Status checkReading(const Reading& reading, std::size_t number) {
-    if (reading.first > 0.0 && reading.first <= 1.0 && reading.second > 0.0 && reading.third > 0.0)
+base::Status checkReading(const TimedRun& reading, std::size_t number) {
+    if (reading.setPoint > 0.0 && reading.setPoint <= 1.0 && reading.distance > 0.0 && reading.time > 0.0)
         return base::success();
     return base::Error{fmt::format(
         "Reading {}: set-point {:g} %, {:g} mm in {:g} s cannot be. The set-point is above 0 and at most "
         "100 %, distance and time are above 0.",
-        number, 100.0 * reading.first, reading.second / base::kMillimetre, reading.third)};
+        number, 100.0 * reading.setPoint, reading.distance / base::kMillimetre, reading.time)};
 }
 
 /// At the ends of an interval a speed may be outside the table; there its last row counts.
@@ -68,11 +68,11 @@ base::Result<double> findHalfStroke(const SpeedTable& table, double speed) {
     return std::lerp(table.halfStrokes[i - 1], table.halfStrokes[i], share);
 }
 
-base::Result<StrokeEstimate> estimateHalfStroke(std::span<const Reading> readings, const SpeedTable& table) {
+base::Result<StrokeEstimate> estimateHalfStroke(std::span<const TimedRun> readings, const SpeedTable& table) {
     std::map<double, std::vector<double>> speeds;  // at each set-point
     for (std::size_t i = 0; i < readings.size(); ++i) {
         if (const auto valid = checkReading(readings[i], i + 1); !valid) return valid.error();
-        speeds[readings[i].first].push_back(readings[i].second / readings[i].third);
+        speeds[readings[i].setPoint].push_back(readings[i].distance / readings[i].time);
     }
     if (speeds.size() < kFewestSetPoints) {
         return base::Error{

@@ -39,6 +39,6 @@ struct StrokeEstimate {
 /// to set-point, so that a drive that is not proportional shows up as a wide one. What is uncertain in the
 /// table itself, as its friction, is in neither. Errors: fewer than three set-points, readings out of range,
 /// a speed that the table does not reach.
-base::Result<StrokeEstimate> estimateHalfStroke(std::span<const Reading> readings, const SpeedTable& table);
+base::Result<StrokeEstimate> estimateHalfStroke(std::span<const TimedRun> readings, const SpeedTable& table);
 
 }  // namespace trapwright::calibration

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/base/result.h"
@@ -23,17 +24,49 @@ enum class Method {
 std::string nameOf(Method method);
 std::optional<Method> methodOf(const std::string& name);
 
-/// One reading, as it was taken. Which fields it has is the method's:
-/// tilt: first = angle [rad]; bounceHeight: first = drop height, second = rebound [m]; bounceTime: first,
-/// second = times from impact to impact [s]; conveyingSpeed: first = set-point (share of full), second =
-/// distance [m], third = time [s].
-struct Reading {
-    double first = 0.0;
-    double second = 0.0;
-    double third = 0.0;
+// One reading of a method, as it was taken.
 
-    friend bool operator==(const Reading&, const Reading&) = default;
+struct Tilt {
+    double angle = 0.0;  // at which the part slides [rad]
+
+    friend bool operator==(const Tilt&, const Tilt&) = default;
 };
+
+struct BounceHeights {
+    double drop = 0.0;     // [m]
+    double rebound = 0.0;  // [m]
+
+    friend bool operator==(const BounceHeights&, const BounceHeights&) = default;
+};
+
+/// From impact to impact.
+struct BounceTimes {
+    double flight = 0.0;  // after the first impact [s]
+    double next = 0.0;    // after the second [s]
+
+    friend bool operator==(const BounceTimes&, const BounceTimes&) = default;
+};
+
+struct TimedRun {
+    double setPoint = 0.0;  // of the drive, share of full
+    double distance = 0.0;  // along the track [m]
+    double time = 0.0;      // [s]
+
+    friend bool operator==(const TimedRun&, const TimedRun&) = default;
+};
+
+/// All readings of one measurement; which they are is the method's.
+using Readings = std::variant<std::vector<Tilt>, std::vector<BounceHeights>, std::vector<BounceTimes>,
+                              std::vector<TimedRun>>;
+
+/// None yet, of this method.
+Readings emptyReadings(Method method);
+std::size_t countReadings(const Readings& readings);
+/// The numbers of each reading, in the order of its struct, for files and tables.
+std::vector<std::vector<double>> numbersOf(const Readings& readings);
+/// Appends one of these numbers. There must be as many as its struct has; more are ignored.
+void addReading(Readings& readings, std::span<const double> numbers);
+void removeReading(Readings& readings, std::size_t index);
 
 /// A value with its 95 % interval.
 struct Estimate {
@@ -48,7 +81,7 @@ struct Estimate {
 struct Calibration {
     int number = 0;  // from 0, in the study
     Method method = Method::tiltUntilSliding;
-    std::vector<Reading> readings;
+    Readings readings;       // of this method
     Estimate result;         // friction, restitution, or half-stroke at full set-point [m]
     double frequency = 0.0;  // conveyingSpeed: of the drive [Hz]
     std::string operatorName;
@@ -60,14 +93,14 @@ struct Calibration {
 
 /// Friction coefficient: mean of the tangents of the angles [rad], in (0, pi / 2). Errors: fewer than two
 /// readings, or one out of range.
-base::Result<Estimate> estimateFriction(std::span<const Reading> readings);
+base::Result<Estimate> estimateFriction(std::span<const Tilt> readings);
 
 /// Newton's restitution from heights: mean of sqrt(rebound / drop). The part's own height does not count:
 /// both are measured at the same point of it. Errors as above; a rebound must not be higher than its drop.
-base::Result<Estimate> estimateRestitutionFromHeights(std::span<const Reading> readings);
+base::Result<Estimate> estimateRestitutionFromHeights(std::span<const BounceHeights> readings);
 
-/// The same from the times between three impacts in a row: mean of second / first, as a flight's time is
+/// The same from the times between three impacts in a row: mean of next / flight, as a flight's time is
 /// twice its take-off speed over gravity.
-base::Result<Estimate> estimateRestitutionFromTimes(std::span<const Reading> readings);
+base::Result<Estimate> estimateRestitutionFromTimes(std::span<const BounceTimes> readings);
 
 }  // namespace trapwright::calibration

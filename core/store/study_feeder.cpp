@@ -4,11 +4,15 @@
 #include <SQLiteCpp/Transaction.h>
 #include <SQLiteCpp/VariadicBind.h>
 
+#include <array>
+
 #include "core/store/study_state.h"
 
 namespace trapwright::store {
 
 namespace {
+
+constexpr std::size_t kReadingColumns = 3;  // numbers of a reading; what a method has not is 0
 
 void bindOptional(SQLite::Statement& row, int column, const std::optional<double>& value) {
     if (value) {
@@ -64,6 +68,7 @@ base::Result<calibration::Calibration> readCalibration(const std::filesystem::pa
     const auto method = calibration::methodOf(query.getColumn(1).getString());
     if (!method) return damagedValue(path, "the method of a measurement");
     calibration.method = *method;
+    calibration.readings = calibration::emptyReadings(*method);
     calibration.result = {query.getColumn(2).getDouble(), query.getColumn(3).getDouble(),
                           query.getColumn(4).getDouble()};
     calibration.frequency = query.getColumn(5).getDouble();
@@ -124,9 +129,10 @@ base::Status StudyFile::addCalibration(const calibration::Calibration& calibrati
         head.exec();
         SQLite::Statement row(database, "INSERT INTO calibration_reading VALUES (?, ?, ?, ?, ?)");
         int place = 0;
-        for (const calibration::Reading& reading : calibration.readings) {
+        for (std::vector<double>& numbers : calibration::numbersOf(calibration.readings)) {
+            numbers.resize(kReadingColumns, 0.0);
             row.reset();
-            SQLite::bind(row, number, place++, reading.first, reading.second, reading.third);
+            SQLite::bind(row, number, place++, numbers[0], numbers[1], numbers[2]);
             row.exec();
         }
         transaction.commit();
@@ -151,9 +157,10 @@ base::Result<std::vector<calibration::Calibration>> StudyFile::loadCalibrations(
                            rows.reset();
                            rows.bind(1, calibration->number);
                            while (rows.executeStep()) {
-                               calibration->readings.push_back({rows.getColumn(0).getDouble(),
-                                                                rows.getColumn(1).getDouble(),
-                                                                rows.getColumn(2).getDouble()});
+                               const std::array numbers{rows.getColumn(0).getDouble(),
+                                                        rows.getColumn(1).getDouble(),
+                                                        rows.getColumn(2).getDouble()};
+                               calibration::addReading(calibration->readings, numbers);
                            }
                            calibrations.push_back(std::move(*calibration));
                        }

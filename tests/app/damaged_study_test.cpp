@@ -49,7 +49,7 @@ void fill(const std::filesystem::path& path) {
     VERIFY_OK(study->addPhysicalValidation(physical));
     VERIFY_OK(study->appendDriveLog(std::vector<drive::LogEntry>(20)));
     calibration::Calibration calibration;
-    calibration.readings.resize(1);
+    calibration.readings = std::vector<calibration::Tilt>(1);
     VERIFY_OK(study->addCalibration(calibration));
     study::DropRecord drops;
     drops.poses = {base::Quaternion::Identity()};

@@ -23,14 +23,11 @@ namespace trapwright::feeder {
 
 using calibration::Estimate;
 using calibration::Method;
-using calibration::Reading;
 using session::StudySession;
 
 namespace {
 
 constexpr std::size_t kTimeField = 2;
-
-double Reading::*const kNumbers[] = {&Reading::first, &Reading::second, &Reading::third};
 
 QLabel* makeText(const QString& name, QWidget* parent) {
     auto* label = new QLabel(parent);
@@ -181,8 +178,9 @@ const MethodText& CalibratePanel::method() const {
     return methods_[static_cast<std::size_t>(std::max(list_->currentIndex(), 0))];
 }
 
-std::vector<Reading>& CalibratePanel::readings() {
-    return readings_[method().method];
+calibration::Readings& CalibratePanel::readings() {
+    const Method now = method().method;
+    return readings_.try_emplace(now, calibration::emptyReadings(now)).first->second;
 }
 
 void CalibratePanel::showMethod() {
@@ -216,15 +214,14 @@ void CalibratePanel::showMethod() {
 void CalibratePanel::showReadings() {
     const MethodText& now = method();
     table_->clear();
-    for (const Reading& reading : readings()) {
+    for (const std::vector<double>& numbers : calibration::numbersOf(readings())) {
         QStringList texts;
         for (std::size_t i = 0; i < now.fields.size(); ++i)
-            texts << QLocale().toString(now.fields[i].factor * reading.*kNumbers[i], 'f',
-                                        now.fields[i].decimals);
+            texts << QLocale().toString(now.fields[i].factor * numbers[i], 'f', now.fields[i].decimals);
         table_->addTopLevelItem(new QTreeWidgetItem(texts));
     }
     table_->scrollToBottom();
-    remove_->setEnabled(!readings().empty());
+    remove_->setEnabled(calibration::countReadings(readings()) > 0);
     showResult();
 }
 
@@ -232,14 +229,17 @@ std::optional<base::Result<Estimate>> CalibratePanel::estimate() {
     switch (method().method) {
         case Method::tiltUntilSliding:
         case Method::tiltWhileSliding:
-            return calibration::estimateFriction(readings());
+            return calibration::estimateFriction(std::get<std::vector<calibration::Tilt>>(readings()));
         case Method::bounceHeight:
-            return calibration::estimateRestitutionFromHeights(readings());
+            return calibration::estimateRestitutionFromHeights(
+                std::get<std::vector<calibration::BounceHeights>>(readings()));
         case Method::bounceTime:
-            return calibration::estimateRestitutionFromTimes(readings());
+            return calibration::estimateRestitutionFromTimes(
+                std::get<std::vector<calibration::BounceTimes>>(readings()));
         case Method::conveyingSpeed: {
             if (!speeds_) return std::nullopt;
-            const auto strokes = calibration::estimateHalfStroke(readings(), *speeds_);
+            const auto strokes = calibration::estimateHalfStroke(
+                std::get<std::vector<calibration::TimedRun>>(readings()), *speeds_);
             if (!strokes) return base::Result<Estimate>(strokes.error());
             return base::Result<Estimate>(strokes->fullHalfStroke);
         }
@@ -252,7 +252,8 @@ void CalibratePanel::showResult() {
     const auto found = estimate();
     keep_->setEnabled(session_ && found && found->ok());
     result_->setText(now.result);
-    if (readings().empty()) {
+    const std::size_t count = calibration::countReadings(readings());
+    if (count == 0) {
         detail_->setText(tr("No readings yet."));
     } else if (!found) {
         detail_->setText(tr("How quickly the part is conveyed is being simulated..."));
@@ -260,7 +261,7 @@ void CalibratePanel::showResult() {
         detail_->setText(QString::fromStdString(found->error().message));
     } else {
         result_->setText(QString("%1: %2").arg(now.result, estimateText(**found, now.factor, now.unit)));
-        detail_->setText(tr("Mean of %1 readings, with its 95 % interval").arg(readings().size()));
+        detail_->setText(tr("Mean of %1 readings, with its 95 % interval").arg(count));
     }
 }
 
@@ -288,20 +289,20 @@ void CalibratePanel::showChanges() {
 
 void CalibratePanel::addReading() {
     const MethodText& now = method();
-    Reading reading;
+    std::vector<double> numbers;
     for (std::size_t i = 0; i < now.fields.size(); ++i)
-        reading.*kNumbers[i] = fields_[i]->value() / now.fields[i].factor;
-    readings().push_back(reading);
+        numbers.push_back(fields_[i]->value() / now.fields[i].factor);
+    calibration::addReading(readings(), numbers);
     fields_[now.fields.size() - 1]->setFocus();
     fields_[now.fields.size() - 1]->selectAll();
     showReadings();
 }
 
 void CalibratePanel::removeReading() {
-    std::vector<Reading>& all = readings();
-    if (all.empty()) return;
+    const std::size_t count = calibration::countReadings(readings());
+    if (count == 0) return;
     const int row = table_->indexOfTopLevelItem(table_->currentItem());
-    all.erase(row < 0 ? all.end() - 1 : all.begin() + row);
+    calibration::removeReading(readings(), row < 0 ? count - 1 : static_cast<std::size_t>(row));
     showReadings();
 }
 
@@ -325,7 +326,7 @@ void CalibratePanel::keep() {
     if (calibration.method == Method::conveyingSpeed)
         calibration.frequency = session_->settings().simulation.drive.frequency;
     calibration.operatorName = QSettings().value("feeder/operator").toString().toStdString();
-    readings().clear();
+    readings() = calibration::emptyReadings(method().method);
     session_->addCalibration(std::move(calibration));
     showReadings();
 }

@@ -53,7 +53,8 @@ class CalibratePanel : public QWidget {
     QWidget* makeReadings();
     QWidget* makeResult();
     [[nodiscard]] const MethodText& method() const;
-    [[nodiscard]] std::vector<calibration::Reading>& readings();
+    /// Those of the method that is chosen.
+    [[nodiscard]] calibration::Readings& readings();
     [[nodiscard]] std::optional<base::Result<calibration::Estimate>> estimate();
     void showMethod();
     void showReadings();
@@ -67,7 +68,7 @@ class CalibratePanel : public QWidget {
     DriveLink& link_;
     QPointer<session::StudySession> session_;
     const std::vector<MethodText> methods_;
-    std::map<calibration::Method, std::vector<calibration::Reading>> readings_;  // not kept yet
+    std::map<calibration::Method, calibration::Readings> readings_;  // not kept yet
     std::optional<calibration::SpeedTable> speeds_;
     std::optional<Carried> carried_;
     QElapsedTimer watch_;

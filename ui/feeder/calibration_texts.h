@@ -22,7 +22,7 @@ struct MethodText {
     calibration::Method method = calibration::Method::tiltUntilSliding;
     QString title;                     // "Tilt: static friction"
     QString how;                       // how to measure, in two sentences
-    std::vector<ReadingField> fields;  // first, second, third of calibration::Reading
+    std::vector<ReadingField> fields;  // in the order of calibration::numbersOf
     QString result;                    // what comes out
     QString unit;
     double factor = 1.0;  // of the result, from SI to the unit

@@ -330,7 +330,7 @@ QString calibrationHtml(const Report& report) {
             rows.emplace_back(method.title,
                               Texts::tr("%1: %2, %3 readings, %4")
                                   .arg(method.result, estimateText(one.result, method.factor, method.unit))
-                                  .arg(one.readings.size())
+                                  .arg(calibration::countReadings(one.readings))
                                   .arg(dateText(one.time)));
         }
     }

@@ -7,8 +7,8 @@
 #include "core/verify/predicted_speed.h"
 
 using namespace trapwright;
-using calibration::Reading;
 using calibration::SpeedTable;
+using calibration::TimedRun;
 
 namespace {
 
@@ -18,7 +18,7 @@ SpeedTable straightTable() {
 }
 
 /// Two readings around the speed at which this half-stroke conveys by the table above.
-void addReadings(std::vector<Reading>& readings, double setPoint, double halfStroke) {
+void addReadings(std::vector<TimedRun>& readings, double setPoint, double halfStroke) {
     const double speed = 100.0 * (halfStroke - 0.2e-3);
     for (const double deviation : {-0.01, 0.01})
         readings.push_back({setPoint, 0.2, 0.2 / (speed * (1.0 + deviation))});
@@ -55,7 +55,7 @@ class HalfStrokeTest : public QObject {
     }
 
     void proportionalDriveIsFound() {
-        std::vector<Reading> readings;
+        std::vector<TimedRun> readings;
         addReadings(readings, 0.9, 0.9e-3);  // in any order
         addReadings(readings, 0.5, 0.5e-3);
         addReadings(readings, 0.7, 0.7e-3);
@@ -74,7 +74,7 @@ class HalfStrokeTest : public QObject {
     }
 
     void driveOutOfProportionShowsUp() {
-        std::vector<Reading> readings;
+        std::vector<TimedRun> readings;
         addReadings(readings, 0.4, 0.6e-3);
         addReadings(readings, 0.6, 0.7e-3);
         addReadings(readings, 0.8, 0.8e-3);
@@ -84,7 +84,7 @@ class HalfStrokeTest : public QObject {
     }
 
     void saysWhatIsMissing() {
-        std::vector<Reading> readings;
+        std::vector<TimedRun> readings;
         addReadings(readings, 0.5, 0.5e-3);
         addReadings(readings, 0.7, 0.7e-3);
         QVERIFY(

@@ -58,7 +58,7 @@ calibration::Calibration measured(int number) {
     calibration::Calibration calibration;
     calibration.number = number;
     calibration.method = calibration::Method::conveyingSpeed;
-    calibration.readings = {{0.5, 0.2, 3.1}, {0.6, 0.2, 1.0 / 3.0}};
+    calibration.readings = std::vector<calibration::TimedRun>{{0.5, 0.2, 3.1}, {0.6, 0.2, 1.0 / 3.0}};
     calibration.result = {1.1e-3, 0.9e-3, 1.3e-3};
     calibration.frequency = 50.0;
     calibration.operatorName = "S. Mathiesen";
@@ -155,6 +155,7 @@ class StudyFeederTest : public QObject {
         VERIFY_OK(study);
         calibration::Calibration tilt = measured(1);
         tilt.method = calibration::Method::tiltUntilSliding;
+        tilt.readings = std::vector<calibration::Tilt>{{0.3}, {1.0 / 3.0}};
         VERIFY_OK(study->addCalibration(measured(0)));
         VERIFY_OK(study->addCalibration(tilt));
         QVERIFY(study->loadCalibrations().value() == (std::vector{measured(0), tilt}));

@@ -21,13 +21,8 @@ std::set<std::string> filesIn(const std::filesystem::path& folder) {
 study::SelectionRecord sampleSelection(double offset) {
     study::SelectionRecord record{"simbody", {}};
     for (int i = 0; i < 3; ++i) {
-        record.entries.push_back({10 - i,
-                                  i,
-                                  testing::paperFitness(-1.0 * i, -0.1 - offset, 0.7 + 0.01 * i),
-                                  1000,
-                                  999 - i,
-                                  990 - i,
-                                  base::Quaternion(0.5, -0.5, 0.1 + 0.2, offset)});
+        record.entries.push_back({10 - i, i, testing::paperFitness(-1.0 * i, -0.1 - offset, 0.7 + 0.01 * i),
+                                  1000, 999 - i, 990 - i, base::Quaternion(0.5, -0.5, 0.1 + 0.2, offset)});
     }
     return record;
 }

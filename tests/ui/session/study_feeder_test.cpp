@@ -33,7 +33,9 @@ study::PhysicalTrial outcome(study::PhysicalOutcome outcome, double setPoint = 0
 calibration::Calibration measured(calibration::Method method, double value) {
     calibration::Calibration calibration;
     calibration.method = method;
-    calibration.readings = {{value}, {value}};
+    calibration.readings = calibration::emptyReadings(method);
+    for (int i = 0; i < 2; ++i)
+        calibration::addReading(calibration.readings, std::vector<double>(3, value));
     calibration.result = {value, 0.9 * value, 1.1 * value};
     return calibration;
 }
