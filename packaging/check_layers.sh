@@ -40,7 +40,7 @@ ui/models       core ui/look ui/models
 ui/pages        core ui/charts ui/look ui/models ui/pages ui/scene ui/session
 ui/scene        core ui/look ui/scene
 ui/session      core ui/session
-ui/transports   core/base core/drive ui/transports
+app/transports  core/base core/drive app/transports
 app             core sim ui app
 resources       core resources
 tests           core sim ui app tests
@@ -56,8 +56,8 @@ SQLite       core/store     ^(SQLiteCpp/|sqlite3)
 Simbody      sim/simbody    ^(Simbody[.]h|SimTK|simbody/|simmath/)
 VTK          ui/scene       ^vtk
 Highway      sim/native     ^hwy/
-SerialBus    ui/transports  ^(QtSerialBus|QModbus)
-SerialPort   ui/transports  ^(QtSerialPort|QSerialPort)
+SerialBus    app/transports  ^(QtSerialBus|QModbus)
+SerialPort   app/transports  ^(QtSerialPort|QSerialPort)
 ODE          tests/peers    ^ode/
 MuJoCo       tests/peers    ^mujoco/
 Random123    core/base      ^Random123/

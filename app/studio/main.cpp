@@ -9,12 +9,12 @@
 #include <string_view>
 #include <utility>
 
+#include "app/transports/make_drive.h"
+#include "app/transports/virtual_feeder.h"
 #include "app/trapwright/program.h"
 #include "sim/engines/registry.h"
 #include "ui/pages/field_texts.h"
 #include "ui/scene/scene_view.h"
-#include "ui/transports/make_drive.h"
-#include "ui/transports/virtual_feeder.h"
 #include "ui/window/end_signals.h"
 #include "ui/window/main_window.h"
 #include "ui/window/shortcut_list.h"

@@ -195,10 +195,10 @@ class LearningTest : public QObject {
             const QJsonObject generation = value.toObject();
             const qsizetype line = 8 * generation["generation"].toInt() + generation["winner"].toInt();
             const QList<QByteArray> fields = dump[line].split(' ');
-            QCOMPARE(fields.size(), 15);
+            QCOMPARE(fields.size(), 22);  // five scores with their errors
             const QJsonObject success = generation["success"].toObject();
-            QCOMPARE(success["count"].toInt(-1), fields[14].toInt());
-            QCOMPARE(success["share"].toDouble(-1.0), fields[14].toDouble() / fields[10].toDouble());
+            QCOMPARE(success["count"].toInt(-1), fields[21].toInt());
+            QCOMPARE(success["share"].toDouble(-1.0), fields[21].toDouble() / fields[17].toDouble());
             QVERIFY(success["low"].toDouble() <= success["share"].toDouble());
             QCOMPARE(success["bounds"].toString(), "95 % Clopper-Pearson");
             const double top = generation["top_30_percent_success"].toDouble(-1.0);
@@ -242,6 +242,29 @@ class LearningTest : public QObject {
             learn({"evolve", "whole.trap", "--resume", "--set",
                    search == "random" ? "evolution.search=genetic" : "track.traps=free-form"});
         QVERIFY2(changed.code == 2 && changed.errors.contains("Only evolution.generations"), changed.all());
+    }
+
+    /// Another sum than the paper's: searched for, raced by, printed, resumed.
+    void otherObjectives() {
+        const QStringList with{"--set", "evolution.objectives=F_C, F_D, success, conveying_speed", "--set",
+                               "evolution.racingTrials=2"};
+        QVERIFY(learn(quickStudy("whole.trap", 3) + with).code == 0);
+        const Ran first = learn(quickStudy("pieces.trap", 2) + with);
+        QVERIFY2(first.code == 0 && first.output.contains("F_D Success   Speed"), first.all());
+        const Ran ran = learn({"evolve", "pieces.trap", "--resume", "--generations", "3", "--json"});
+        QVERIFY2(ran.code == 0, ran.all());
+        QCOMPARE(dumpOf("pieces.trap"), dumpOf("whole.trap"));
+        for (const auto value : ran.json()["generations"].toArray()) {
+            const QJsonObject best = value.toObject()["best"].toObject();
+            const double success = value.toObject()["success"].toObject()["share"].toDouble();
+            QVERIFY(best.contains("F_O"));  // measured, but not counted
+            QVERIFY(qAbs(best["F"].toDouble() - best["F_C"].toDouble() - best["F_D"].toDouble() - success -
+                         best["conveying_speed"].toDouble()) < 1e-12);
+        }
+        const Ran unknown =
+            learn(quickStudy("none.trap", 1) + QStringList{"--set", "evolution.objectives=F_Q"});
+        QVERIFY2(unknown.code == 2 && unknown.errors.contains("The objectives are: F_C, F_D, F_O"),
+                 unknown.all());
     }
 
     void unknownTrapsAreRefused() {

@@ -8,11 +8,11 @@
 #include <thread>
 #include <utility>
 
+#include "app/transports/make_drive.h"
+#include "app/transports/virtual_feeder.h"
 #include "core/drive/drive_loop.h"
 #include "core/drive/profile_folder.h"
 #include "core/store/study_file.h"
-#include "ui/transports/make_drive.h"
-#include "ui/transports/virtual_feeder.h"
 
 using namespace trapwright;
 

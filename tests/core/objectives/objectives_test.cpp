@@ -204,12 +204,14 @@ class ObjectivesTest : public QObject {
         // Even from equal starts to random ends.
         std::vector<Outcome> outcomes(20);
         const auto ends = drawRotations(10, 20);
-        for (std::size_t i = 0; i < 20; ++i)
+        for (std::size_t i = 0; i < 20; ++i) {
+            outcomes[i].farthest.position.x() = judge.track.start;
             outcomes[i].farthest.rotation = ends[i];
+        }
         const Fitness bad = judge.judge(outcomes, 3);
         for (const objectives::Objective& objective : objectives::allObjectives()) {
             const double sign = objective.moreIsBetter ? 1.0 : -1.0;
-            QVERIFY(sign * scoreOf(worst, objective.key) <= sign * scoreOf(bad, objective.key));
+            QVERIFY(sign * scoreOf(worst, objective.key) <= sign * scoreOf(bad, objective.key) + 1e-12);
         }
         QVERIFY(scoreOf(worst, "F_O") < scoreOf(bad, "F_O"));
     }

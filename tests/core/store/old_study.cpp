@@ -14,6 +14,44 @@ namespace trapwright::sample {
 
 namespace {
 
+/// The paper's three scores as columns.
+void dropVersion9(SQLite::Database& database) {
+    struct Owner {
+        std::string table;
+        std::string prefix;  // of the columns
+        std::string scores;  // where they are now
+        std::string condition;
+    };
+    const std::vector<Owner> owners = {
+        {"individual", "", "score", "score.generation = individual.generation AND individual = number"},
+        {"generation", "best_", "score", "generation = generation.number AND individual = winner"},
+        {"generation", "top_", "top_score", "generation = generation.number"},
+        {"selection_entry", "", "selection_score",
+         "selection_score.selection = selection_entry.selection AND selection_score.rank = "
+         "selection_entry.rank"},
+        {"winner_check", "learning_", "check_score",
+         "check_score.generation = winner_check.generation AND engine = 0"},
+        {"winner_check", "reference_", "check_score",
+         "check_score.generation = winner_check.generation AND engine = 1"}};
+    for (const Owner& owner : owners) {
+        int place = 0;
+        for (const char* name : {"collision", "distance", "orientation"}) {
+            const std::string column = owner.prefix + name;
+            database.exec("ALTER TABLE " + owner.table + " ADD COLUMN " + column +
+                          " REAL NOT NULL DEFAULT 0");
+            database.exec("UPDATE " + owner.table + " SET " + column + " = (SELECT value FROM " +
+                          owner.scores + " WHERE " + owner.condition +
+                          " AND objective = " + std::to_string(place++) + ")");
+        }
+    }
+    database.exec(
+        "ALTER TABLE individual DROP COLUMN fitness; ALTER TABLE generation DROP COLUMN top_fitness; "
+        "ALTER TABLE selection_entry DROP COLUMN fitness; ALTER TABLE winner_check DROP COLUMN "
+        "learning_fitness; ALTER TABLE winner_check DROP COLUMN reference_fitness; DROP TABLE score; "
+        "DROP TABLE top_score; DROP TABLE selection_score; DROP TABLE check_score; DROP TABLE objective; "
+        "UPDATE study SET settings = json_remove(settings, '$.evolution.objectives')");
+}
+
 /// Genes instead of designs: 80 numbers of points and 5 lengths of 10 bits, three strategy values of 20.
 void dropVersion8(SQLite::Database& database) {
     namespace ga = search::ga;
@@ -68,6 +106,7 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 9) dropVersion9(database);
     if (version < 8) dropVersion8(database);
     if (version < 7) database.exec("DROP TABLE drop_pose; DROP TABLE drop_test;");
     if (version < 6) {

@@ -89,9 +89,19 @@ inline study::GenerationRecord generation(int index, int individuals = 6) {
     return record;
 }
 
-/// As a program that did not count success would have left it.
-inline study::GenerationRecord generationWithoutSuccess(int index) {
+/// As a program that knew no standard errors would have left it.
+inline study::GenerationRecord generationWithoutErrors(int index) {
     study::GenerationRecord record = generation(index);
+    for (study::IndividualRecord& individual : record.individuals)
+        for (objectives::Score& score : individual.fitness.scores)
+            score.error = 0.0;
+    record.statistics.best = record.individuals[static_cast<std::size_t>(record.winner)].fitness;
+    return record;
+}
+
+/// As one that did not count success, either, would have left it.
+inline study::GenerationRecord generationWithoutSuccess(int index) {
+    study::GenerationRecord record = generationWithoutErrors(index);
     for (study::IndividualRecord& individual : record.individuals)
         individual.oriented.reset();
     record.statistics.success.reset();

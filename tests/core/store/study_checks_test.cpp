@@ -57,8 +57,8 @@ class StudyChecksTest : public QObject {
         const std::string lines = store::dumpChecks(*study).value();
         QCOMPARE(std::count(lines.begin(), lines.end(), '\n'), 3);
         const std::string first = "0 " + std::to_string(sampleCheck(0).individual) +
-                                  " 97 native -1 -0.1 0.30000000000000004 96 95 simbody -1 "
-                                  "-0.3333333333333333 0.7 94 90\n";
+                                  " 97 native -1 0 -0.1 0 0.30000000000000004 0 96 95 simbody -1 0 "
+                                  "-0.3333333333333333 0 0.7 0 94 90\n";
         QCOMPARE(lines.substr(0, first.size()), first);
     }
 
@@ -90,6 +90,43 @@ class StudyChecksTest : public QObject {
             QCOMPARE((*unchecked)[i].individual, record.winner);
             QVERIFY((*unchecked)[i].record == record.individuals[static_cast<std::size_t>(record.winner)]);
         }
+    }
+
+    void scoresOfVersion8AreKept() {
+        sample::write(path_, 3);
+        const study::SelectionRecord selection{
+            "simbody",
+            {{2, 1, testing::paperFitness(-1.0, -0.1, 0.1 + 0.2), 10, 9, 8, base::Quaternion::Identity()},
+             {0, 4, testing::paperFitness(0.0, -1.0 / 3.0, 0.7), 10, 9, 7, base::Quaternion::Identity()}}};
+        {
+            auto study = StudyFile::open(path_, sample::kProgram);
+            VERIFY_OK(study);
+            VERIFY_OK(study->saveCheck(sampleCheck(1)));
+            VERIFY_OK(study->saveSelection(selection));
+        }
+        sample::makeOld(path_, 8);
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        for (int i = 0; i < 3; ++i)
+            QVERIFY(sample::equal(study->loadGeneration(i).value(), sample::generationWithoutErrors(i)));
+        QVERIFY(study->loadChecks().value() == std::vector{sampleCheck(1)});
+        const study::SelectionRecord read = study->loadSelections().value().at(0);
+        for (std::size_t i = 0; i < 2; ++i)
+            QVERIFY(read.entries.at(i).fitness == selection.entries[i].fitness);
+        QCOMPARE(study->loadSettings().value().evolution.objectives, std::string("F_C, F_D, F_O"));
+    }
+
+    void aScoreOfNoObjectiveIsDamage() {
+        sample::write(path_, 2);
+        {
+            SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+            database.exec("DELETE FROM objective WHERE place = 1");
+        }
+        auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QVERIFY(sample::messageOf(study->loadGeneration(1)).contains("is damaged"));
+        QVERIFY(sample::messageOf(study->loadSummaries()).contains("is damaged"));
+        QVERIFY(sample::messageOf(study->loadWinners()).contains("is damaged"));
     }
 
     void studyOfVersion1IsBroughtUpToDate() {

@@ -8,9 +8,9 @@
 #include <random>
 #include <string>
 
+#include "tests/app/transports/hostile_sequence.h"
 #include "tests/ui/feeder/operator.h"
 #include "tests/ui/session/event_loop_probe.h"
-#include "tests/ui/transports/hostile_sequence.h"
 
 namespace trapwright::feeder {
 

@@ -6,10 +6,10 @@
 #include <QPushButton>
 #include <QSpinBox>
 
+#include "app/transports/make_drive.h"
+#include "app/transports/virtual_feeder.h"
 #include "tests/ui/pages/review_user.h"
 #include "ui/feeder/validate_page.h"
-#include "ui/transports/make_drive.h"
-#include "ui/transports/virtual_feeder.h"
 
 namespace trapwright::feeder {
 

@@ -1,4 +1,4 @@
-#include "ui/transports/modbus_tables.h"
+#include "app/transports/modbus_tables.h"
 
 #include <QModbusDataUnit>
 

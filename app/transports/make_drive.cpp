@@ -1,11 +1,11 @@
-#include "ui/transports/make_drive.h"
+#include "app/transports/make_drive.h"
 
 #include <fmt/format.h>
 
+#include "app/transports/modbus_transport.h"
+#include "app/transports/serial_transport.h"
 #include "core/drive/modbus_drive.h"
 #include "core/drive/reo_drive.h"
-#include "ui/transports/modbus_transport.h"
-#include "ui/transports/serial_transport.h"
 
 namespace trapwright::transports {
 

@@ -6,9 +6,9 @@
 #include <QTimer>
 #include <cstdlib>
 
+#include "app/transports/make_drive.h"
 #include "core/drive/drive_loop.h"
 #include "core/drive/profile_folder.h"
-#include "ui/transports/make_drive.h"
 
 using namespace trapwright;
 

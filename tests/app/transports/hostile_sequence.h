@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/drive/drive_loop.h"
-#include "tests/ui/transports/feeder_run.h"
-#include "tests/ui/transports/hostile_peer.h"
+#include "tests/app/transports/feeder_run.h"
+#include "tests/app/transports/hostile_peer.h"
 
 namespace trapwright::tests {
 

@@ -1,4 +1,4 @@
-#include "tests/ui/transports/hostile_peer.h"
+#include "tests/app/transports/hostile_peer.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -5,8 +5,8 @@
 #include <mutex>
 #include <vector>
 
+#include "app/transports/virtual_feeder.h"
 #include "core/drive/feeder_model.h"
-#include "ui/transports/virtual_feeder.h"
 
 namespace trapwright::transports {
 

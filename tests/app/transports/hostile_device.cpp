@@ -6,9 +6,9 @@
 #include <QTest>
 #include <cstdio>
 
+#include "tests/app/transports/hostile_sequence.h"
 #include "tests/ui/footprint.h"
 #include "tests/ui/session/event_loop_probe.h"
-#include "tests/ui/transports/hostile_sequence.h"
 
 using namespace trapwright;
 

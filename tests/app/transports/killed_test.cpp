@@ -5,7 +5,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "tests/ui/transports/feeder_run.h"
+#include "tests/app/transports/feeder_run.h"
 
 using namespace trapwright;
 

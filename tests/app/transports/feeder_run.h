@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "app/transports/make_drive.h"
+#include "app/transports/virtual_feeder.h"
 #include "core/drive/drive_loop.h"
 #include "core/drive/profile_folder.h"
-#include "ui/transports/make_drive.h"
-#include "ui/transports/virtual_feeder.h"
 
 namespace trapwright::tests {
 

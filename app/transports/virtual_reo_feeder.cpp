@@ -13,11 +13,11 @@
 #include <thread>
 #include <vector>
 
+#include "app/transports/pseudo_terminal.h"
+#include "app/transports/virtual_feeder.h"
+#include "app/transports/virtual_state.h"
 #include "core/drive/deadline.h"
 #include "core/drive/reo_frame.h"
-#include "ui/transports/pseudo_terminal.h"
-#include "ui/transports/virtual_feeder.h"
-#include "ui/transports/virtual_state.h"
 
 namespace trapwright::transports {
 

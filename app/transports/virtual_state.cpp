@@ -1,4 +1,4 @@
-#include "ui/transports/virtual_state.h"
+#include "app/transports/virtual_state.h"
 
 namespace trapwright::transports {
 

@@ -2,14 +2,14 @@
 #include <QtTest>
 #include <bit>
 
-#include "tests/ui/transports/feeder_run.h"
+#include "tests/app/transports/feeder_run.h"
 
 using namespace trapwright;
 
 namespace {
 
 QString script(const char* name) {
-    return QString(TRAPWRIGHT_SOURCE_DIR) + "/tests/ui/transports/" + name;
+    return QString(TRAPWRIGHT_SOURCE_DIR) + "/tests/app/transports/" + name;
 }
 
 /// A Modbus device by pymodbus in a process of its own.

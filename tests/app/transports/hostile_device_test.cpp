@@ -1,8 +1,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include "tests/ui/transports/hostile_sequence.h"
-#include "ui/transports/modbus_transport.h"
+#include "app/transports/modbus_transport.h"
+#include "tests/app/transports/hostile_sequence.h"
 
 using namespace trapwright;
 

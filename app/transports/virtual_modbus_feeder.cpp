@@ -14,10 +14,10 @@
 #include <mutex>
 #include <thread>
 
+#include "app/transports/modbus_tables.h"
+#include "app/transports/virtual_feeder.h"
+#include "app/transports/virtual_state.h"
 #include "core/drive/register_value.h"
-#include "ui/transports/modbus_tables.h"
-#include "ui/transports/virtual_feeder.h"
-#include "ui/transports/virtual_state.h"
 
 namespace trapwright::transports {
 

@@ -1,4 +1,4 @@
-#include "ui/transports/pseudo_terminal.h"
+#include "app/transports/pseudo_terminal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "ui/transports/modbus_transport.h"
+#include "app/transports/modbus_transport.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include <functional>
 #include <utility>
 
-#include "ui/transports/modbus_tables.h"
+#include "app/transports/modbus_tables.h"
 
 namespace trapwright::transports {
 

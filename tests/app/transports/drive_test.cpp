@@ -1,6 +1,6 @@
 #include <QtTest>
 
-#include "tests/ui/transports/feeder_run.h"
+#include "tests/app/transports/feeder_run.h"
 
 using namespace trapwright;
 using drive::State;

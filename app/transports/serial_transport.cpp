@@ -1,4 +1,4 @@
-#include "ui/transports/serial_transport.h"
+#include "app/transports/serial_transport.h"
 
 #include <fmt/format.h>
 
