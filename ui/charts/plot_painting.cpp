@@ -163,7 +163,10 @@ void Plot::paintCurves(QPainter& painter) const {
         if (!curves_[i].shown) continue;
         painter.setPen(curvePen(sheet_.curves[i].style, theme_));
         painter.setBrush(Qt::NoBrush);
-        for (const Piece& piece : piecesOf(curves_[i].points)) {
+        // A level is one line from edge to edge, whatever the step.
+        const std::vector<Piece> pieces =
+            sheet_.curves[i].level ? std::vector<Piece>{{0, 1}} : piecesOf(curves_[i].points);
+        for (const Piece& piece : pieces) {
             QPolygonF line;
             for (qsizetype at = piece.first; at <= piece.last; ++at)
                 line.append(placeOf(curves_[i].points[at]));

@@ -18,6 +18,11 @@ QString millimetres(double metres) {
     return look::numberText(metres / kMillimetre);
 }
 
+QString objectiveText(const study::EvolutionSettings& evolution) {
+    const auto list = objectives::readObjectives(evolution.objectives);
+    return QString::fromStdString(list ? objectives::describeSum(*list) : evolution.objectives);
+}
+
 Facts factsOf(const study::Settings& settings) {
     const study::TrackSettings& track = settings.track;
     const study::EvolutionSettings& evolution = settings.evolution;
@@ -53,6 +58,7 @@ Facts factsOf(const study::Settings& settings) {
          evolution.search == search::Method::genetic
              ? EvolveSummary::tr("genetic, tournaments of %1").arg(evolution.tournamentSize)
              : EvolveSummary::tr("random")},
+        {EvolveSummary::tr("Objective"), objectiveText(evolution)},
         {EvolveSummary::tr("Seed"), QString::number(evolution.seed)},
     };
 }

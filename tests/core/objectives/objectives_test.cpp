@@ -219,6 +219,7 @@ class ObjectivesTest : public QObject {
     void successIsTheShareOfTheMode() {
         const Judge judge;
         std::vector<Outcome> outcomes;
+        outcomes.reserve(10);
         for (int i = 0; i < 10; ++i)  // six within the tolerance of each other, two elsewhere, two stuck
             outcomes.push_back(finishedAfter(104e-3, 2.0, turn(i < 6 ? 3.0 * i : 90.0, base::Vec3::UnitX())));
         outcomes[8].ending = outcomes[9].ending = trial::Ending::stuck;
@@ -250,6 +251,7 @@ class ObjectivesTest : public QObject {
         base::Random random({21, 0, 0, 0, base::Purpose::test});
         for (int set = 0; set < kSets; ++set) {
             std::vector<Outcome> outcomes;
+            outcomes.reserve(60);
             for (int i = 0; i < 60; ++i)
                 outcomes.push_back(drawOutcome(random));
             for (const objectives::Score& score : judge.judge(outcomes).scores)

@@ -270,6 +270,30 @@ class StudyChartTest : public QObject {
         QCOMPARE(colourAt(10.4, 58.0), paper);
     }
 
+    /// What is attainable is a line from edge to edge, however many generations there are.
+    void levelsAreDrawn() {
+        FitnessChart chart;
+        chart.setStudies({someStudy(20)});
+        showChart(chart);
+        const auto plots = chart.shownPlots();
+        const auto found = std::find_if(plots.begin(), plots.end(), [](const Plot* plot) {
+            return plot->accessibleName().contains("F_O") || plot->accessibleName().contains("FO");
+        });
+        QVERIFY(found != plots.end());
+        Plot* plot = *found;
+        const QImage picture = plot->grab().toImage();
+        const double ratio = picture.devicePixelRatio();
+        const auto colourAt = [&](double x, double y) {
+            return picture.pixelColor((plot->toWidget({x, y}) * ratio).toPoint());
+        };
+        int inked = 0;  // where the picture below it, between the grid's lines, is not
+        for (int i = 0; i < 200; ++i) {
+            const double x = 1.0 + 0.08 * i;
+            inked += colourAt(x, 1.25) != colourAt(x, 1.15) ? 1 : 0;
+        }
+        QVERIFY2(inked > 60, qPrintable(QString::number(inked)));  // dots
+    }
+
     /// Of a study that has no success there is nothing to draw, and no line at 0.
     void unknownSuccessIsNotDrawn() {
         StudyCurves study = someStudy(20);
