@@ -125,7 +125,7 @@ Fitness measureAll(const Evaluation& evaluation, const ObjectiveList& summed) {
     return measureOthers(evaluation, measureSum(evaluation, summed));
 }
 
-Fitness measureOthers(const Evaluation& evaluation, Fitness summed) {
+Fitness measureOthers(const Evaluation& evaluation, const Fitness& summed) {
     Fitness fitness{summed.total, {}};
     for (const Objective& objective : allObjectives()) {
         const Score* known = findScore(summed, objective.key);

@@ -68,6 +68,6 @@ Fitness measureSum(const Evaluation& evaluation, const ObjectiveList& summed);
 /// The scores of all objectives, in their order.
 Fitness measureAll(const Evaluation& evaluation, const ObjectiveList& summed);
 /// Adds to scores of what counts those of all others.
-Fitness measureOthers(const Evaluation& evaluation, Fitness summed);
+Fitness measureOthers(const Evaluation& evaluation, const Fitness& summed);
 
 }  // namespace trapwright::objectives

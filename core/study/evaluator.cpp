@@ -231,7 +231,7 @@ base::Result<std::vector<IndividualRecord>> evaluateGeneration(
         objectives::Evaluation evaluation =
             makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, outcomes);
         evaluation.oriented = candidate.record.oriented;
-        candidate.record.fitness = objectives::measureOthers(evaluation, std::move(candidate.record.fitness));
+        candidate.record.fitness = objectives::measureOthers(evaluation, candidate.record.fitness);
     });
 
     std::vector<IndividualRecord> records;
