@@ -19,7 +19,7 @@ core/geometry   core/base core/geometry
 core/part       core/base core/geometry core/part
 core/search     core/base core/search core/stats
 core/stats      core/base core/stats
-core/store      core/base core/calibration core/drive core/geometry core/part core/search core/store core/study
+core/store      core/base core/calibration core/drive core/geometry core/part core/search core/store core/study core/trial
 core/study      core/base core/geometry core/part core/search core/stats core/study core/track core/traps core/trial
 core/track      core/base core/geometry core/track
 core/traps      core/base core/search core/track core/traps
@@ -60,6 +60,7 @@ SerialPort   ui/transports  ^(QtSerialPort|QSerialPort)
 ODE          tests/peers    ^ode/
 MuJoCo       tests/peers    ^mujoco/
 Random123    core/base      ^Random123/
+Zstandard    core/base      ^zstd
 meshoptimizer core/geometry ^meshoptimizer[.]h
 lib3mf       one            (^|/)(lib3mf|NMR_|Model/COM/)
 RULES

@@ -56,6 +56,7 @@ base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
                          q.x(), q.y(), q.z());
             row.exec();
         }
+        saveOutcomes(database, state_->program, OutcomeRun::selection, number, record.made);
         transaction.commit();
         return base::success();
     });
@@ -105,6 +106,7 @@ base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
             SQLite::bind(row, number, r.pose, r.trials, r.failures, r.wrongOrientation, r.stuck, r.fellOff);
             row.exec();
         }
+        saveOutcomes(database, state_->program, OutcomeRun::validation, number, record.made);
         transaction.commit();
         return base::success();
     });

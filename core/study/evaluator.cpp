@@ -170,9 +170,14 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
     return outcomes;
 }
 
-base::Result<std::vector<IndividualRecord>> evaluateGeneration(
-    const StudyInputs& inputs, int generation, std::span<const search::Proposal> proposals,
-    const std::function<void(const GenerationPlan&)>& planned, base::RunControl control) {
+trial::OutcomeMaker makerOf(const trial::Engine& engine) {
+    return {"", engine.name(), engine.instructionSet()};
+}
+
+base::Result<Evaluation> evaluateGeneration(const StudyInputs& inputs, int generation,
+                                            std::span<const search::Proposal> proposals,
+                                            const std::function<void(const GenerationPlan&)>& planned,
+                                            base::RunControl control) {
     std::vector<Candidate> candidates(proposals.size());
     base::parallelFor(proposals.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
         if (control.mayGoOn()) candidates[i] = prepare(inputs, proposals[i]);
@@ -203,11 +208,14 @@ base::Result<std::vector<IndividualRecord>> evaluateGeneration(
         candidates[i].record.oriented = countOriented(outcomes, expected, symmetry, tolerance);
     });
 
-    std::vector<IndividualRecord> records;
-    records.reserve(candidates.size());
-    for (Candidate& candidate : candidates)
-        records.push_back(std::move(candidate.record));
-    return records;
+    Evaluation evaluation;
+    evaluation.individuals.reserve(candidates.size());
+    for (Candidate& candidate : candidates) {
+        evaluation.individuals.push_back(std::move(candidate.record));
+        evaluation.outcomes.insert(evaluation.outcomes.end(), candidate.outcomes.begin(),
+                                   candidate.outcomes.end());
+    }
+    return evaluation;
 }
 
 }  // namespace trapwright::study

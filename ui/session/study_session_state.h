@@ -45,13 +45,15 @@ struct StudySession::Run {
     }
 };
 
-/// Trials that are being made again. Values that any thread may read.
+/// Trials that are listed or made again. Values that any thread may read.
 struct StudySession::Simulation {
     study::Settings settings;
     std::shared_ptr<const part::Part> part;
     workflow::StoredTrials stored;
     trial::TrialBatch batch;
+    std::optional<trial::MadeOutcomes> kept;  // in the study, of all trials of the batch
     std::shared_ptr<const trial::Engine> engine;
+    trial::OutcomeMaker maker;  // of what is simulated now
     base::RunControl control;
 };
 
