@@ -178,7 +178,7 @@ std::string describe(const OutcomeDifference& difference) {
         difference.stored.farthest.rotation.angularDistance(difference.replayed.farthest.rotation);
     std::string text = fmt::format("Stored: {} ({}).\nReplayed here: {}", stored,
                                    trial::describe(difference.storedBy), replayed);
-    if (angle >= kSeenAngle) text += fmt::format(", turned by {:.1f} deg from it", angle / base::kDegree);
+    if (angle >= kSeenAngle) text += fmt::format(", turned by {:.1f}° from it", angle / base::kDegree);
     if (stored == replayed && angle < kSeenAngle) text += ", but for its last digits";
     text += fmt::format(" ({}).\n", trial::describe(difference.replayedBy));
     if (difference.storedBy == difference.replayedBy)
