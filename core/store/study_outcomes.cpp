@@ -73,7 +73,8 @@ base::Result<std::optional<PackedOutcomes>> readOutcomes(SQLite::Database& datab
     const std::int64_t begin = range.getColumn(0).getInt64();
     const std::int64_t trials = range.getColumn(1).getInt();
     if (trials <= 0) return packed;
-    if (begin < 0) return damagedTrials(path);
+    constexpr std::int64_t kMostTrials = std::int64_t{1} << 53;  // far beyond what there can be
+    if (begin < 0 || begin > kMostTrials) return damagedTrials(path);
 
     SQLite::Statement any(database, "SELECT 1 FROM outcomes WHERE run = ? AND number = ? LIMIT 1");
     SQLite::bind(any, kind.name, number);

@@ -278,8 +278,11 @@ class StudySession : public QObject {
     void tellState();
 
     struct Simulation;
+    struct FoundTrials;
     using Deliver = base::Result<std::function<void()>>;  // to be called in the GUI thread
     using Simulate = std::function<Deliver(const std::shared_ptr<const Simulation>&)>;
+    [[nodiscard]] base::Result<std::shared_ptr<const workflow::StoredTrials>> findTrials(
+        const workflow::TrialsRequest& request);
     void makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
                    Simulate simulate);
     Deliver listStored(const Simulation& simulation, ListedTrials trials);

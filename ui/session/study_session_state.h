@@ -49,12 +49,18 @@ struct StudySession::Run {
 struct StudySession::Simulation {
     study::Settings settings;
     std::shared_ptr<const part::Part> part;
-    workflow::StoredTrials stored;
+    std::shared_ptr<const workflow::StoredTrials> stored;
     trial::TrialBatch batch;
     std::optional<trial::MadeOutcomes> kept;  // in the study, of all trials of the batch
     std::shared_ptr<const trial::Engine> engine;
     trial::OutcomeMaker maker;  // of what is simulated now
     base::RunControl control;
+};
+
+/// Trials that were asked for, and what the study holds of them.
+struct StudySession::FoundTrials {
+    workflow::TrialsRequest request;
+    std::shared_ptr<const workflow::StoredTrials> trials;
 };
 
 struct StudySession::State {
@@ -87,6 +93,7 @@ struct StudySession::State {
     QTimer tick;
     int simulations = 0;                // that are not done
     base::RunControl simulated;         // of those that are wanted
+    FoundTrials found;                  // the last; none once something else may hold
     base::RunControl estimate;          // of the last one
     base::RunControl speedTable;        // likewise
     base::RunControl dropping;          // likewise

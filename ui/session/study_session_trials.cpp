@@ -18,6 +18,12 @@ QString trialsFailed() {
     return StudySession::tr("The trials could not be simulated");
 }
 
+bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
+    return a.kind == b.kind && a.poses == b.poses && a.count == b.count && a.engine == b.engine &&
+           a.winner.generation == b.winner.generation && a.winner.individual == b.winner.individual &&
+           a.winner.record == b.winner.record;
+}
+
 void judge(const workflow::StoredTrials& stored, const part::Part& part, const study::Settings& settings,
            ListedTrials& trials) {
     trials.judged =
@@ -26,6 +32,21 @@ void judge(const workflow::StoredTrials& stored, const part::Part& part, const s
 
 }  // namespace
 
+/// What the study holds of these trials. Many of the same are replayed one after the other, and need not be
+/// read each time.
+base::Result<std::shared_ptr<const workflow::StoredTrials>> StudySession::findTrials(
+    const workflow::TrialsRequest& request) {
+    FoundTrials& last = state_->found;
+    if (last.trials && isSame(last.request, request)) return last.trials;
+    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, engines(), request);
+    if (!stored) return stored.error();
+    if (stored->engine.empty())
+        stored->engine = engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging);
+    if (!request.engine.empty()) stored->engine = request.engine;
+    last = {request, std::make_shared<const workflow::StoredTrials>(std::move(*stored))};
+    return last.trials;
+}
+
 /// Finds the trials and has `simulate` called on the thread that makes them again.
 void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
                              Simulate simulate) {
@@ -33,23 +54,20 @@ void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest&
         emit failed(what, QString::fromStdString(state_->cannotRead().message));
         return;
     }
-    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, engines(), request);
-    if (!stored || (stored->count == 0 && request.count == 0)) {
-        emit failed(what, stored ? noTrials() : QString::fromStdString(stored.error().message));
+    const auto found = findTrials(request);
+    if (!found || ((*found)->count == 0 && request.count == 0)) {
+        emit failed(what, found ? noTrials() : QString::fromStdString(found.error().message));
         return;
     }
-    if (stored->engine.empty())
-        stored->engine = engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging);
-    if (!request.engine.empty()) stored->engine = request.engine;
     postSimulation(
         what, state_->simulated,
-        [this, request, threads, stored = std::move(*stored), simulate = std::move(simulate),
-         settings = state_->settings, part = state_->part.part, control = state_->simulated]() -> Deliver {
-            auto batch = workflow::makeTrials(settings, part, request, stored);
+        [this, request, threads, stored = *found, simulate = std::move(simulate), settings = state_->settings,
+         part = state_->part.part, control = state_->simulated]() -> Deliver {
+            auto batch = workflow::makeTrials(settings, part, request, *stored);
             if (!batch) return batch.error();
-            auto kept = workflow::unpackTrials(stored, *batch);
+            auto kept = workflow::unpackTrials(*stored, *batch);
             if (!kept) return kept.error();
-            auto engine = state_->environment.engines.make(stored.engine, {threads, 0.0});
+            auto engine = state_->environment.engines.make(stored->engine, {threads, 0.0});
             if (!engine) return engine.error();
             trial::OutcomeMaker maker = study::makerOf(**engine);
             maker.program = state_->environment.program;
@@ -95,7 +113,7 @@ StudySession::Deliver StudySession::listStored(const Simulation& simulation, Lis
     trials.outcomes = simulation.kept->outcomes;
     trials.maker = simulation.kept->maker;
     trials.stored = true;
-    judge(simulation.stored, *simulation.part, simulation.settings, trials);
+    judge(*simulation.stored, *simulation.part, simulation.settings, trials);
     return std::function([this, trials = std::move(trials)] { emit trialsListed(trials); });
 }
 
@@ -111,7 +129,7 @@ StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Sim
     if (!outcomes) return outcomes.error();
     trials.outcomes.insert(trials.outcomes.end(), outcomes->front().begin(), outcomes->front().end());
     trials.maker = simulation->maker;
-    judge(simulation->stored, *simulation->part, simulation->settings, trials);
+    judge(*simulation->stored, *simulation->part, simulation->settings, trials);
     return std::function([this, simulation, trials = std::move(trials)] {
         if (static_cast<int>(trials.outcomes.size()) == trials.wanted) {
             emit trialsListed(trials);

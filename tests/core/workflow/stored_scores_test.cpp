@@ -102,11 +102,13 @@ class StoredScoresTest : public QObject {
         const study::Individual winner = file->loadWinners()->back();
         QVERIFY(workflow::selectAndSave(*file, inputs, *file->loadWinners(), {}).ok());
         QVERIFY(workflow::validateAndSave(*file, inputs, winner, std::nullopt, {}).ok());
-        for (const study::SelectionEntry& entry : file->loadSelections()->front().entries) {
+        const study::SelectionRecord selection = file->loadSelections()->front();
+        for (const study::SelectionEntry& entry : selection.entries) {
             const study::Individual individual{
                 entry.generation, entry.individual,
                 file->loadIndividual(entry.generation, entry.individual).value()};
             const auto [batch, outcomes] = read(*file, inputs, {TrialKind::selection, individual});
+            QCOMPARE(static_cast<int>(outcomes.size()), entry.trials);
             QVERIFY(agree(trial::calcFitness(*batch.track, outcomes, individual.record.overlaps,
                                              inputs.part->symmetry, evolution.orientationDistance),
                           entry.fitness));
@@ -147,7 +149,7 @@ class StoredScoresTest : public QObject {
             // But for the last bits they are what is known without an engine.
             if ((begun[i].initial.position - initial.position).norm() > 1e-9 ||
                 begun[i].initial.rotation.angularDistance(initial.rotation) > 1e-6)
-                return {};
+                return {trials.batch, {}};
             initial = begun[i].initial;
         }
         return trials;
