@@ -91,14 +91,14 @@ struct StudySession::State {
     RunState told = RunState::idle;      // by stateChanged()
     std::shared_ptr<Run> run;            // null while that thread is idle
     QTimer tick;
-    int simulations = 0;                // that are not done
-    base::RunControl simulated;         // of those that are wanted
-    FoundTrials found;                  // the last; none once something else may hold
-    base::RunControl estimate;          // of the last one
-    base::RunControl speedTable;        // likewise
-    base::RunControl dropping;          // likewise
-    std::optional<DropProgress> drops;  // that goes on
-    double secondsPerTrial = 0.0;       // while learning; 0: not known for these settings
+    int simulations = 0;                       // that are not done
+    base::RunControl simulated;                // of those that are wanted
+    std::shared_ptr<const FoundTrials> found;  // the last; null once something else may hold
+    base::RunControl estimate;                 // of the last one
+    base::RunControl speedTable;               // likewise
+    base::RunControl dropping;                 // likewise
+    std::optional<DropProgress> drops;         // that goes on
+    double secondsPerTrial = 0.0;              // while learning; 0: not known for these settings
 
     StudyWriter writer;
     std::unique_ptr<StudyLedger> ledger;

@@ -36,15 +36,15 @@ void judge(const workflow::StoredTrials& stored, const part::Part& part, const s
 /// read each time.
 base::Result<std::shared_ptr<const workflow::StoredTrials>> StudySession::findTrials(
     const workflow::TrialsRequest& request) {
-    FoundTrials& last = state_->found;
-    if (last.trials && isSame(last.request, request)) return last.trials;
+    if (state_->found && isSame(state_->found->request, request)) return state_->found->trials;
     auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, engines(), request);
     if (!stored) return stored.error();
     if (stored->engine.empty())
         stored->engine = engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging);
     if (!request.engine.empty()) stored->engine = request.engine;
-    last = {request, std::make_shared<const workflow::StoredTrials>(std::move(*stored))};
-    return last.trials;
+    auto trials = std::make_shared<const workflow::StoredTrials>(std::move(*stored));
+    state_->found = std::make_shared<const FoundTrials>(FoundTrials{request, trials});
+    return trials;
 }
 
 /// Finds the trials and has `simulate` called on the thread that makes them again.

@@ -41,7 +41,7 @@ class CompressionTest : public QObject {
         std::string few;
         for (int i = 0; i < 10000; ++i)
             few.push_back(static_cast<char>(random.below(2)));
-        QVERIFY(base::compress(std::vector<std::string>{noise, few}).size() < 10000 + 1600);
+        QVERIFY(base::compress(std::vector<std::string>{noise, few}).size() < 10000 + 2500);
     }
 
     void damageIsFound() {
