@@ -137,7 +137,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto difference = findDifference(*trials, *batch, options.trial, **engine, trajectory->outcome);
     if (!difference) return Failure{ExitCode::badInput, difference.error().message};
     if (*difference)
-        console.note("This replay ends otherwise than the trial that the study holds.\n" +
+        console.note("This replay ends otherwise than the stored trial.\n" +
                      workflow::describe(**difference));
 
     const trial::Outcome& outcome = trajectory->outcome;

@@ -24,7 +24,7 @@ bool endAlike(const Outcome& a, const Outcome& b) {
 }
 
 std::string describe(const OutcomeMaker& maker) {
-    return maker.program + ", engine " + maker.engine + ", instructions " + maker.instructionSet;
+    return maker.program + ", " + maker.engine + " with " + maker.instructionSet;
 }
 
 }  // namespace trapwright::trial

@@ -37,7 +37,7 @@ struct OutcomeMaker {
     friend bool operator==(const OutcomeMaker&, const OutcomeMaker&) = default;
 };
 
-/// "trapwright 0.1.0, engine native, instructions AVX2".
+/// "trapwright 0.1.0, native with AVX2".
 std::string describe(const OutcomeMaker& maker);
 
 /// The trials of a whole run, and what made them.

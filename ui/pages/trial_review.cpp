@@ -252,9 +252,8 @@ void TrialReview::takeTrials(const ListedTrials& trials) {
 
 void TrialReview::showOrigin(const ListedTrials& trials) {
     const QString maker = QString::fromStdString(trial::describe(trials.maker));
-    list_->setOrigin(trials.stored
-                         ? tr("As stored when they were simulated: %1.").arg(maker)
-                         : tr("The study does not hold these trials. Simulated again: %1.").arg(maker));
+    list_->setOrigin(trials.stored ? tr("As stored: %1.").arg(maker)
+                                   : tr("Not stored in this study. Simulated again: %1.").arg(maker));
 }
 
 void TrialReview::showTrials(std::vector<models::TrialRow> rows, int wanted, study::OrientationShares shares,
@@ -332,7 +331,7 @@ void TrialReview::showDifferences() {
     for (const ReplayedTrial& replay : scene_.trials())
         if (differences_.contains(replay.trial)) others.push_back(replay.trial);
     if (others.empty()) return bar_->setWarning({}, {});
-    QString what = tr("Replayed here, trial %1 ends otherwise than the study holds it").arg(others.front());
+    QString what = tr("This replay of trial %1 ends otherwise than the stored trial").arg(others.front());
     if (others.size() > 1)
         what += tr("; so do %n more of those shown", "", static_cast<int>(others.size()) - 1);
     bar_->setWarning(what, QString::fromStdString(workflow::describe(differences_.at(others.front()))));

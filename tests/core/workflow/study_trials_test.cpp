@@ -109,12 +109,11 @@ class StudyTrialsTest : public QObject {
             return difference ? QString::fromStdString(workflow::describe(*difference)) : QString();
         };
         replayed.farthest.position.x() = std::nextafter(0.56, 1.0);
-        QCOMPARE(
-            text(now),
-            QString("Stored: finished after 3.200 s at 560.00 mm (trapwright 1.0.0, engine native, "
-                    "instructions AVX3).\nReplayed here: finished after 3.200 s at 560.00 mm, but for its "
-                    "last digits (trapwright 1.1.0, engine native, instructions AVX2).\nScores and tables "
-                    "go by what is stored."));
+        QCOMPARE(text(now),
+                 QString("Stored: finished after 3.200 s at 560.00 mm (trapwright 1.0.0, native with "
+                         "AVX3).\nReplayed here: finished after 3.200 s at 560.00 mm, but for its "
+                         "last digits (trapwright 1.1.0, native with AVX2).\nScores and tables "
+                         "go by what is stored."));
         replayed.ending = trial::Ending::fellOff;
         replayed.time = 2.31;
         replayed.farthest.position.x() = 0.4123;

@@ -52,7 +52,7 @@ class ReviewPageTest : public QObject {
         ReviewUser user(study_);
         QVERIFY(user.waitForReplay());
         const QString origin = user.find<QLabel>("trials.origin")->text();
-        QVERIFY2(origin.startsWith("As stored") && origin.contains("trapwright test, engine native"),
+        QVERIFY2(origin.startsWith("As stored") && origin.contains("trapwright test, native with"),
                  qPrintable(origin));
         QVERIFY(user.find<QWidget>("transport")->findChild<look::MessageBar*>()->text().isEmpty());
     }
@@ -71,8 +71,8 @@ class ReviewPageTest : public QObject {
         QCOMPARE(trials.index(0, models::TrialModel::Time).data(models::ValueRole).toDouble(), 9.75);
         auto* warning = user.find<QWidget>("transport")->findChild<look::MessageBar*>();
         const QString text = warning->text();
-        QVERIFY2(text.startsWith("Replayed here, trial 0 ends otherwise than the study holds it") &&
-                     text.contains("Stored: timed out after 9.750 s") && text.contains("instructions AVX9") &&
+        QVERIFY2(text.startsWith("This replay of trial 0 ends otherwise than the stored trial") &&
+                     text.contains("Stored: timed out after 9.750 s") && text.contains("native with AVX9") &&
                      text.contains("trapwright test"),
                  qPrintable(text));
         // So do two of the ghosts.
