@@ -104,7 +104,7 @@ std::optional<std::uint32_t> ticksOf(double time) {
 /// A unit quaternion by its three lesser components, in their order, and by what the greatest one is.
 struct UnitRotation {
     explicit UnitRotation(const base::Quaternion& rotation) {
-        const Eigen::Vector4d all = rotation.coeffs();
+        const Eigen::Vector4d& all = rotation.coeffs();
         for (int i = 1; i < 4; ++i)
             if (std::abs(all[i]) > std::abs(all[greatest])) greatest = i;
         negative = std::signbit(all[greatest]);

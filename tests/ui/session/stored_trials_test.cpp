@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "core/store/study_file.h"
+#include "sim/native/kernel.h"
 #include "sim/native/native_engine.h"
 #include "tests/core/store/stored_outcomes.h"
 #include "tests/ui/session/session_fixture.h"
@@ -118,6 +119,26 @@ class StoredTrialsTest : public QObject {
             const std::string text = workflow::describe(difference);
             QVERIFY(text.find("AVX9") != std::string::npos && text.find(kProgram) != std::string::npos);
         }
+    }
+
+    /// As on a machine that has less.
+    void anotherInstructionSetIsNamed() {
+        const std::vector<std::string> sets = native::instructionSets();
+        if (sets.size() < 2) QSKIP("This machine has one instruction set only.");
+        QVERIFY(native::useInstructionSet(sets.back()));
+        const auto session = open();
+        int told = 0;
+        for (int trial = 0; trial < 4; ++trial) {
+            const auto replayed = replay(*session, trial);
+            QVERIFY(replayed);
+            if (!*replayed) continue;
+            ++told;
+            QCOMPARE((*replayed)->storedBy.instructionSet, sets.front());
+            QCOMPARE((*replayed)->replayedBy.instructionSet, sets.back());
+        }
+        QVERIFY(native::useInstructionSet(""));
+        qInfo("%d of 4 replays end otherwise with %s", told, sets.back().c_str());
+        QVERIFY(told > 0);
     }
 
     void whatIsNotStoredIsSimulatedAgain() {
