@@ -90,15 +90,14 @@ class StoredTrialsTest : public QObject {
     }
 
     void aReplayThatEndsOtherwiseIsTold() {
-        const int winner = open()->winners().back().individual;
+        const auto winner = static_cast<std::size_t>(open()->winners().back().individual);
         const trial::OutcomeMaker other{"trapwright 0.0-other", "native", "AVX9"};
         sample::changeMaker(study_, other);
         sample::changeOutcomes(study_, 1, [&](std::size_t trial, trial::Outcome& outcome) {
             // Of the second trial of each individual its last bit.
             if (trial % 4 == 1)
                 outcome.farthest.position.z() = std::nextafter(outcome.farthest.position.z(), 1.0);
-            if (trial == static_cast<std::size_t>(4 * winner + 2))
-                outcome = {trial::Ending::timedOut, {}, {}, 9.5};
+            if (trial == 4 * winner + 2) outcome = {trial::Ending::timedOut, {}, {}, 9.5};
         });
         const auto session = open();
         const auto listed = list(*session, {TrialKind::learning, session->winners().back()});
