@@ -20,7 +20,7 @@ core/objectives core/base core/objectives core/part core/stats core/track core/t
 core/part       core/base core/geometry core/part
 core/search     core/base core/search core/stats
 core/stats      core/base core/stats
-core/store      core/base core/calibration core/drive core/geometry core/objectives core/part core/search core/store core/study
+core/store      core/base core/calibration core/drive core/geometry core/objectives core/part core/search core/store core/study core/trial
 core/study      core/base core/geometry core/objectives core/part core/search core/stats core/study core/track core/traps core/trial
 core/track      core/base core/geometry core/track
 core/traps      core/base core/search core/track core/traps
@@ -61,6 +61,7 @@ SerialPort   app/transports  ^(QtSerialPort|QSerialPort)
 ODE          tests/peers    ^ode/
 MuJoCo       tests/peers    ^mujoco/
 Random123    core/base      ^Random123/
+Zstandard    core/base      ^zstd
 meshoptimizer core/geometry ^meshoptimizer[.]h
 lib3mf       one            (^|/)(lib3mf|NMR_|Model/COM/)
 RULES

@@ -17,7 +17,7 @@ packages=(
     # simulation
     libhwy-dev libsimbody-dev
     # studies and the command line
-    libcli11-dev libfmt-dev libsqlite3-dev libsqlitecpp-dev nlohmann-json3-dev
+    libcli11-dev libfmt-dev libsqlite3-dev libsqlitecpp-dev libzstd-dev nlohmann-json3-dev
     # the studio: window, charts, icons, 3D scene, films
     ffmpeg fonts-dejavu-core libgl1-mesa-dri libqt6opengl6-dev libvtk9-dev qt6-base-dev qt6-charts-dev qt6-svg-dev
     # the drives of feeders: Modbus and serial ports

@@ -8,6 +8,7 @@
 #include "app/trapwright/command.h"
 #include "app/trapwright/engines.h"
 #include "app/trapwright/json_records.h"
+#include "app/trapwright/program.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
@@ -81,6 +82,32 @@ nlohmann::ordered_json sampleToJson(const trial::TrajectorySample& sample) {
             {"contacts", sample.contacts}};
 }
 
+using Difference = std::optional<workflow::OutcomeDifference>;
+
+/// Where this replay of a trial ends otherwise than the study holds it.
+base::Result<Difference> findDifference(const workflow::StoredTrials& stored, const trial::TrialBatch& batch,
+                                        int trial, const trial::Engine& engine,
+                                        const trial::Outcome& replayed) {
+    const auto kept = workflow::unpackTrials(stored, batch);
+    if (!kept) return kept.error();
+    if (!*kept) return Difference();
+    trial::OutcomeMaker maker = study::makerOf(engine);
+    maker.program = kProgram;
+    return workflow::findDifference((*kept)->outcomes[static_cast<std::size_t>(trial)], (*kept)->maker,
+                                    replayed, maker);
+}
+
+nlohmann::ordered_json storedToJson(const Difference& difference) {
+    if (!difference) return nullptr;
+    const trial::Outcome& stored = difference->stored;
+    return {{"ending", trial::endingName(stored.ending)},
+            {"time_s", stored.time},
+            {"farthest_x_mm", stored.farthest.position.x() * 1e3},
+            {"program", difference->storedBy.program},
+            {"engine", difference->storedBy.engine},
+            {"instruction_set", difference->storedBy.instructionSet}};
+}
+
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openStudy(options.study, Access::read);
     if (!study) return study.failure();
@@ -107,6 +134,11 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                                  control);
     }();
     if (!trajectory) return describeRunFailure(control, trajectory.error());
+    const auto difference = findDifference(*trials, *batch, options.trial, **engine, trajectory->outcome);
+    if (!difference) return Failure{ExitCode::badInput, difference.error().message};
+    if (*difference)
+        console.note("This replay ends otherwise than the stored trial.\n" +
+                     workflow::describe(**difference));
 
     const trial::Outcome& outcome = trajectory->outcome;
     const std::string trialName =
@@ -140,6 +172,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   {"ending", trial::endingName(outcome.ending)},
                   {"time_s", outcome.time},
                   {"farthest_x_mm", outcome.farthest.position.x() * 1e3},
+                  {"stored_otherwise", storedToJson(*difference)},
                   {"file", options.out ? nlohmann::ordered_json(*options.out) : nlohmann::ordered_json()},
                   {"samples", samples}});
     return ExitCode::ok;

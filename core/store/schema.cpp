@@ -308,15 +308,33 @@ ALTER TABLE winner_check DROP COLUMN reference_orientation;
 UPDATE study SET settings = json_set(settings, '$.evolution.objectives', 'F_C, F_D, F_O');
 )sql";
 
-constexpr std::array<Migration, 9> kMigrations = {{{1, kVersion1},
-                                                   {2, kVersion2},
-                                                   {3, kVersion3},
-                                                   {4, kVersion4},
-                                                   {5, kVersion5},
-                                                   {6, kVersion6},
-                                                   {7, kVersion7},
-                                                   {8, kVersion8, &turnGenesIntoDesigns},
-                                                   {9, kVersion9}}};
+// The outcomes of trials. What was simulated before has none.
+constexpr const char* kVersion10 = R"sql(
+CREATE TABLE outcome_maker (
+    number INTEGER PRIMARY KEY,     -- from 0
+    program TEXT NOT NULL, engine TEXT NOT NULL, instruction_set TEXT NOT NULL
+);
+CREATE TABLE outcomes (             -- of the trials [first, first + count) of a run, all of one maker
+    run TEXT NOT NULL,              -- generation, selection, validation
+    number INTEGER NOT NULL,        -- of that
+    first INTEGER NOT NULL,         -- through its individuals, ranks, poses, one after the other
+    count INTEGER NOT NULL,
+    maker INTEGER NOT NULL REFERENCES outcome_maker (number),
+    trials BLOB NOT NULL,           -- packed (core/trial/outcome_codec.h)
+    PRIMARY KEY (run, number, first)
+);
+)sql";
+
+constexpr std::array<Migration, 10> kMigrations = {{{1, kVersion1},
+                                                    {2, kVersion2},
+                                                    {3, kVersion3},
+                                                    {4, kVersion4},
+                                                    {5, kVersion5},
+                                                    {6, kVersion6},
+                                                    {7, kVersion7},
+                                                    {8, kVersion8, &turnGenesIntoDesigns},
+                                                    {9, kVersion9},
+                                                    {10, kVersion10}}};
 
 }  // namespace
 

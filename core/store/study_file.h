@@ -36,6 +36,23 @@ struct IndividualPlace {
     friend bool operator==(const IndividualPlace&, const IndividualPlace&) = default;
 };
 
+/// Outcomes as they lie in the file; unpacking them takes a while, and any thread can do it.
+struct PackedOutcomes {
+    struct Piece {
+        std::size_t count = 0;
+        std::string bytes;  // core/trial/outcome_codec.h
+    };
+
+    trial::OutcomeMaker maker;
+    std::vector<Piece> pieces;
+    std::size_t before = 0;       // in the first piece, that are not meant
+    std::size_t count = 0;        // that are
+    std::filesystem::path study;  // for messages
+};
+
+/// Their initial poses are left out. An error if they are damaged.
+base::Result<std::vector<trial::Outcome>> unpack(const PackedOutcomes& packed);
+
 /// One design task in one SQLite file (`.trap`): settings, part, every generation and individual, selections
 /// and validations, simulated and on the real feeder.
 ///
@@ -111,6 +128,17 @@ class StudyFile {
     /// All validations, oldest first.
     [[nodiscard]] base::Result<std::vector<study::ValidationRecord>> loadValidations() const;
 
+    /// The trials that an individual was learned by; none if they were not stored, as by programs up to
+    /// schema version 9.
+    [[nodiscard]] base::Result<std::optional<PackedOutcomes>> loadLearningOutcomes(int generation,
+                                                                                   int individual) const;
+    /// The same of an entry of a selection, both by their places in loadSelections().
+    [[nodiscard]] base::Result<std::optional<PackedOutcomes>> loadSelectionOutcomes(int selection,
+                                                                                    int entry) const;
+    /// The same of a validation by its place, and of one of its poses.
+    [[nodiscard]] base::Result<std::optional<PackedOutcomes>> loadValidationOutcomes(int validation,
+                                                                                     int pose) const;
+
     /// Remembers which individual is the final track; none: nobody has chosen.
     base::Status chooseWinner(const std::optional<IndividualPlace>& winner);
     [[nodiscard]] base::Result<std::optional<IndividualPlace>> loadChosenWinner() const;
@@ -145,7 +173,6 @@ class StudyFile {
     /// For writing, with the lock beside it.
     static base::Result<StudyFile> openLocked(const std::filesystem::path& path, const std::string& program,
                                               FileLock lock);
-
     std::unique_ptr<State> state_;
 };
 

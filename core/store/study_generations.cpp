@@ -230,6 +230,7 @@ base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
         state.bind(1, record.index);
         bindBlob(state, 2, record.searchState);
         state.exec();
+        saveOutcomes(database, state_->program, OutcomeRun::generation, record.index, record.made);
         transaction.commit();
         return base::success();
     });

@@ -61,6 +61,7 @@ base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
             row.exec();
             scores.write({number, rank++}, e.fitness.scores);
         }
+        saveOutcomes(database, state_->program, OutcomeRun::selection, number, record.made);
         transaction.commit();
         return base::success();
     });
@@ -113,6 +114,7 @@ base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
             SQLite::bind(row, number, r.pose, r.trials, r.failures, r.wrongOrientation, r.stuck, r.fellOff);
             row.exec();
         }
+        saveOutcomes(database, state_->program, OutcomeRun::validation, number, record.made);
         transaction.commit();
         return base::success();
     });

@@ -52,6 +52,13 @@ base::Error damagedValue(const std::filesystem::path& path, const std::string& w
 /// Whether all of these can be counts out of `whole`: none negative, none more than there were.
 bool areCounts(int whole, std::initializer_list<int> parts);
 
+/// What trials belong to.
+enum class OutcomeRun { generation, selection, validation };
+
+/// Adds the trials of a run, within the caller's transaction; none are none. Throws SQLite::Exception.
+void saveOutcomes(SQLite::Database& database, const std::string& program, OutcomeRun run, int number,
+                  const trial::MadeOutcomes& made);
+
 /// A rotation (w, x, y, z) from column `first` on.
 base::Quaternion readRotation(const SQLite::Statement& statement, int first);
 std::string readBlob(const SQLite::Statement& statement, int column);

@@ -194,9 +194,14 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
     return outcomes;
 }
 
-base::Result<std::vector<IndividualRecord>> evaluateGeneration(
-    const StudyInputs& inputs, int generation, std::span<const search::Proposal> proposals,
-    const std::function<void(const GenerationPlan&)>& planned, base::RunControl control) {
+trial::OutcomeMaker makerOf(const trial::Engine& engine) {
+    return {"", engine.name(), engine.instructionSet()};
+}
+
+base::Result<JudgedGeneration> evaluateGeneration(const StudyInputs& inputs, int generation,
+                                                  std::span<const search::Proposal> proposals,
+                                                  const std::function<void(const GenerationPlan&)>& planned,
+                                                  base::RunControl control) {
     const objectives::ObjectiveList summed = summedObjectives(inputs.settings.evolution);
     std::vector<Candidate> candidates(proposals.size());
     base::parallelFor(proposals.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
@@ -234,11 +239,13 @@ base::Result<std::vector<IndividualRecord>> evaluateGeneration(
         candidate.record.fitness = objectives::measureOthers(evaluation, candidate.record.fitness);
     });
 
-    std::vector<IndividualRecord> records;
-    records.reserve(candidates.size());
-    for (Candidate& candidate : candidates)
-        records.push_back(std::move(candidate.record));
-    return records;
+    JudgedGeneration judged;
+    judged.individuals.reserve(candidates.size());
+    for (Candidate& candidate : candidates) {
+        judged.individuals.push_back(std::move(candidate.record));
+        judged.outcomes.insert(judged.outcomes.end(), candidate.outcomes.begin(), candidate.outcomes.end());
+    }
+    return judged;
 }
 
 }  // namespace trapwright::study

@@ -38,13 +38,23 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
                                                                  std::span<const trial::TrialBatch> batches,
                                                                  base::RunControl control);
 
+/// What makes outcomes here; the program is told by whoever stores them.
+trial::OutcomeMaker makerOf(const trial::Engine& engine);
+
+/// The individuals of a generation, and their trials one individual after the other.
+struct JudgedGeneration {
+    std::vector<IndividualRecord> individuals;
+    std::vector<trial::Outcome> outcomes;
+};
+
 /// Judges every proposal of a generation (paper, section 3, step 2a): its track is built, overlapping
 /// triangles are counted, and all trials of all individuals go to the engine at once; in a race, those of
 /// each round (core/search/racing.h). A track that overlaps itself is not simulated unless the settings
 /// want it. `planned` is called before the trials, in a race before those of each round. An error if
 /// cancelled.
-base::Result<std::vector<IndividualRecord>> evaluateGeneration(
-    const StudyInputs& inputs, int generation, std::span<const search::Proposal> proposals,
-    const std::function<void(const GenerationPlan&)>& planned, base::RunControl control);
+base::Result<JudgedGeneration> evaluateGeneration(const StudyInputs& inputs, int generation,
+                                                  std::span<const search::Proposal> proposals,
+                                                  const std::function<void(const GenerationPlan&)>& planned,
+                                                  base::RunControl control);
 
 }  // namespace trapwright::study

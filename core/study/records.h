@@ -57,6 +57,8 @@ struct GenerationRecord {
     /// The search's own after it was told of this generation (search::Search::save). A study keeps that of
     /// its last generation alone (LearningState).
     std::string searchState{};
+    /// Of all trials, one individual after the other. Only until they are saved: what is loaded has none.
+    trial::MadeOutcomes made{};
 };
 
 /// Where a learning run goes on.
@@ -124,6 +126,7 @@ struct SelectionEntry {
 struct SelectionRecord {
     std::string engine;
     std::vector<SelectionEntry> entries;
+    trial::MadeOutcomes made{};  // of all trials, one entry after the other; until they are saved
 };
 
 /// One row of the paper's Tables 2 and 3.
@@ -144,6 +147,7 @@ struct ValidationRecord {
     base::Quaternion expectedOrientation = base::Quaternion::Identity();
     double tolerance = 0.0;  // [rad]
     std::vector<ValidationRow> rows;
+    trial::MadeOutcomes made{};  // of all trials, one row after the other; until they are saved
 };
 
 }  // namespace trapwright::study

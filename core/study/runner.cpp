@@ -100,13 +100,14 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
          index < control.generationsOr(settings.evolution.generations); ++index) {
         if (control.stopRequested()) return LearningEnd::stopped;
         const auto begin = std::chrono::steady_clock::now();
-        auto individuals = evaluateGeneration(inputs, index, search->ask(), events.planned, control.run);
+        auto evaluation = evaluateGeneration(inputs, index, search->ask(), events.planned, control.run);
         if (control.run.cancelled()) return LearningEnd::cancelled;
-        if (!individuals) return individuals.error();
+        if (!evaluation) return evaluation.error();
 
-        search->tell(judgementsOf(*individuals, summed));
+        search->tell(judgementsOf(evaluation->individuals, summed));
         GenerationRecord record =
-            completeGeneration(index, std::move(*individuals), search->report(), summed);
+            completeGeneration(index, std::move(evaluation->individuals), search->report(), summed);
+        record.made = {makerOf(*inputs.engine), std::move(evaluation->outcomes)};
         record.searchState = search->save();
         record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         if (const auto saved = events.save(record); !saved) return saved.error();

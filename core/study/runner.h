@@ -14,8 +14,9 @@ namespace trapwright::study {
 struct LearningEvents {
     /// A generation's tracks are built and its trials begin. May be empty.
     std::function<void(const GenerationPlan&)> planned;
-    /// A generation is complete: keep it, in one transaction. An error ends the run.
-    std::function<base::Status(const GenerationRecord&)> save;
+    /// A generation is complete: keep it, in one transaction, or take away what is of no more use. An error
+    /// ends the run.
+    std::function<base::Status(GenerationRecord&)> save;
 };
 
 enum class LearningEnd {

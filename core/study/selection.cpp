@@ -89,6 +89,15 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         record.entries.push_back(std::move(entry));
     }
     std::sort(record.entries.begin(), record.entries.end(), isBetter);
+    record.made.maker = makerOf(*inputs.engine);
+    for (const SelectionEntry& entry : record.entries) {
+        const auto place = std::find_if(ranked.begin(), ranked.end(), [&](const Individual& winner) {
+            return winner.generation == entry.generation && winner.individual == entry.individual;
+        });
+        const std::vector<trial::Outcome>& own =
+            (*outcomes)[static_cast<std::size_t>(place - ranked.begin())];
+        record.made.outcomes.insert(record.made.outcomes.end(), own.begin(), own.end());
+    }
     return record;
 }
 

@@ -114,9 +114,11 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
         record.expectedOrientation =
             trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
     }
+    record.made.maker = makerOf(*inputs.engine);
     for (int pose = 0; pose < poses; ++pose) {
-        record.rows.push_back(
-            makeRow(pose, (*outcomes)[static_cast<std::size_t>(pose)], record, inputs.part->symmetry));
+        const std::vector<trial::Outcome>& own = (*outcomes)[static_cast<std::size_t>(pose)];
+        record.rows.push_back(makeRow(pose, own, record, inputs.part->symmetry));
+        record.made.outcomes.insert(record.made.outcomes.end(), own.begin(), own.end());
     }
     return record;
 }

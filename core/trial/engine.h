@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/instruction_set.h"
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/trial/batch.h"
@@ -34,6 +35,9 @@ class Engine {
 
     /// As in studies, on the command line and in an EngineRegistry.
     [[nodiscard]] virtual std::string name() const = 0;
+    /// The processor's instructions that its results depend on: the same program gives the same bits on every
+    /// machine where this is the same.
+    [[nodiscard]] virtual std::string instructionSet() const { return base::mathInstructionSet(); }
     /// The step of simulated time when none is asked for. [s]
     [[nodiscard]] virtual double defaultStep() const = 0;
 

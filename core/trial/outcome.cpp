@@ -19,4 +19,12 @@ std::string_view endingName(Ending ending) {
     return "";
 }
 
+bool endAlike(const Outcome& a, const Outcome& b) {
+    return a.ending == b.ending && a.farthest == b.farthest && a.time == b.time;
+}
+
+std::string describe(const OutcomeMaker& maker) {
+    return maker.program + ", " + maker.engine + " with " + maker.instructionSet;
+}
+
 }  // namespace trapwright::trial

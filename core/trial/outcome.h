@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,27 @@ struct Outcome {
     double time = 0.0;    // simulated [s]
 
     friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+/// Whether all bits are the same of what a trial ended with; the initial poses are not looked at.
+bool endAlike(const Outcome& a, const Outcome& b);
+
+/// What outcomes come from: of the same trials, the same makers give the same bits.
+struct OutcomeMaker {
+    std::string program;         // its name and version
+    std::string engine;          // Engine::name()
+    std::string instructionSet;  // Engine::instructionSet()
+
+    friend bool operator==(const OutcomeMaker&, const OutcomeMaker&) = default;
+};
+
+/// "trapwright 0.1.0, native with AVX2".
+std::string describe(const OutcomeMaker& maker);
+
+/// The trials of a whole run, and what made them.
+struct MadeOutcomes {
+    OutcomeMaker maker;
+    std::vector<Outcome> outcomes;
 };
 
 /// One moment of a replay. Pose in the room, track displacement and all.

@@ -54,4 +54,12 @@ TrialStart drawStart(const track::Track& track, const part::Part& part, const St
     return start;
 }
 
+base::Pose startInTrack(const track::Track& track, const TrialStart& start) {
+    base::Pose pose;
+    pose.position = track.shape.toTrack(start.pose.position, track.start);
+    pose.rotation =
+        base::Quaternion(track.shape.tangentFrame(pose.position.x()).transpose()) * start.pose.rotation;
+    return pose;
+}
+
 }  // namespace trapwright::trial

@@ -20,4 +20,8 @@ struct StartPolicy {
 TrialStart drawStart(const track::Track& track, const part::Part& part, const StartPolicy& policy,
                      base::Random& random);
 
+/// Outcome::initial of a trial that starts so, but for the last bits, which each engine rounds in its own
+/// way.
+base::Pose startInTrack(const track::Track& track, const TrialStart& start);
+
 }  // namespace trapwright::trial

@@ -34,6 +34,7 @@ Result<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study
     auto record = study::selectWinners(inputs, std::move(candidates), control);
     if (!record) return describeFailure(control, record.error());
     if (const auto saved = file.saveSelection(*record); !saved) return describeSaving(saved.error());
+    record->made = {};
     return std::move(*record);
 }
 
@@ -51,6 +52,7 @@ Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const st
     auto record = study::validate(inputs, individual, expected, control);
     if (!record) return describeFailure(control, record.error());
     if (const auto saved = file.saveValidation(*record); !saved) return describeSaving(saved.error());
+    record->made = {};
     return std::move(*record);
 }
 

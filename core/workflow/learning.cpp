@@ -19,9 +19,10 @@ Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& i
     FailureKind kind = FailureKind::simulation;
     study::LearningEvents watch;
     watch.planned = events.planned;
-    watch.save = [&](const study::GenerationRecord& record) -> base::Status {
+    watch.save = [&](study::GenerationRecord& record) -> base::Status {
         kind = FailureKind::saving;
         if (auto saved = file.saveGeneration(record); !saved) return saved;
+        record.made = {};
         if (events.saved) events.saved(record);
         if (checks != nullptr) {
             checks->add(record);

@@ -16,7 +16,7 @@ namespace trapwright::workflow {
 /// Who watches a learning run. Called on the thread that learns; each may be empty.
 struct LearnEvents {
     std::function<void(const study::GenerationPlan&)> planned;
-    std::function<void(const study::GenerationRecord&)> saved;  // it is in the file
+    std::function<void(const study::GenerationRecord&)> saved;  // it is in the file, with its trials
     CheckSaved checked;                                         // likewise
 };
 

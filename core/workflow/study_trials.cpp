@@ -1,27 +1,51 @@
 #include "core/workflow/study_trials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <string>
+#include <utility>
 
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "core/trial/orientations.h"
+#include "core/trial/start.h"
 
 namespace trapwright::workflow {
 
 namespace {
+
+constexpr double kSeenAngle = 0.05 * base::kDegree;  // what the rounded number shows [rad]
+
+using Kept = base::Result<std::optional<store::PackedOutcomes>>;
+
+/// Adds what is stored of one more part of the trials. What is not stored of one of them is not of all.
+base::Status addKept(Kept more, std::size_t before, StoredTrials& trials) {
+    if (!more) return more.error();
+    if (*more && trials.kept.size() == before) trials.kept.push_back(std::move(**more));
+    return base::success();
+}
 
 base::Result<StoredTrials> findSelectionTrials(const store::StudyFile& file, const study::Settings& settings,
                                                const study::Individual& individual) {
     const auto selections = file.loadSelections();
     if (!selections) return selections.error();
     StoredTrials trials;
-    for (const study::SelectionRecord& selection : *selections)
-        for (const study::SelectionEntry& entry : selection.entries)
-            if (entry.generation == individual.generation && entry.individual == individual.individual)
-                trials = {entry.trials, selection.engine, entry.modalOrientation,
-                          settings.validation.tolerance};
+    std::pair<int, int> place;
+    for (std::size_t number = 0; number < selections->size(); ++number) {
+        const study::SelectionRecord& selection = (*selections)[number];
+        for (std::size_t rank = 0; rank < selection.entries.size(); ++rank) {
+            const study::SelectionEntry& entry = selection.entries[rank];
+            if (entry.generation != individual.generation || entry.individual != individual.individual)
+                continue;
+            trials = {entry.trials, selection.engine, entry.modalOrientation, settings.validation.tolerance};
+            place = {static_cast<int>(number), static_cast<int>(rank)};
+        }
+    }
+    if (trials.count == 0) return trials;
+    const auto added = addKept(file.loadSelectionOutcomes(place.first, place.second), 0, trials);
+    if (!added) return added.error();
     return trials;
 }
 
@@ -32,16 +56,41 @@ base::Result<StoredTrials> findValidationTrials(const store::StudyFile& file,
     const auto validations = file.loadValidations();
     if (!validations) return validations.error();
     StoredTrials trials;
-    for (const study::ValidationRecord& validation : *validations) {
+    int number = 0;
+    for (std::size_t place = 0; place < validations->size(); ++place) {
+        const study::ValidationRecord& validation = (*validations)[place];
         if (validation.generation != individual.generation || validation.individual != individual.individual)
             continue;
         int count = 0;
         for (const study::ValidationRow& row : validation.rows)
             if (std::find(poses.begin(), poses.end(), row.pose) != poses.end()) count += row.trials;
-        if (count > 0)
-            trials = {count, validation.engine, validation.expectedOrientation, validation.tolerance};
+        if (count == 0) continue;
+        trials = {count, validation.engine, validation.expectedOrientation, validation.tolerance};
+        number = static_cast<int>(place);
+    }
+    if (trials.count == 0) return trials;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const auto added = addKept(file.loadValidationOutcomes(number, poses[i]), i, trials);
+        if (!added) return added.error();
     }
     return trials;
+}
+
+base::Result<StoredTrials> findLearningTrials(const store::StudyFile& file, const study::Settings& settings,
+                                              const trial::EngineRegistry& engines,
+                                              const study::Individual& individual) {
+    StoredTrials trials{individual.record.trials,
+                        engines.nameFor(settings.simulation.engine, trial::EngineUse::learning), std::nullopt,
+                        settings.validation.tolerance};
+    const auto added =
+        addKept(file.loadLearningOutcomes(individual.generation, individual.individual), 0, trials);
+    if (!added) return added.error();
+    return trials;
+}
+
+std::string describeEnd(const trial::Outcome& outcome) {
+    return fmt::format("{} after {:.3f} s at {:.2f} mm", trial::endingName(outcome.ending), outcome.time,
+                       outcome.farthest.position.x() / base::kMillimetre);
 }
 
 }  // namespace
@@ -49,12 +98,13 @@ base::Result<StoredTrials> findValidationTrials(const store::StudyFile& file,
 base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const study::Settings& settings,
                                             const trial::EngineRegistry& engines,
                                             const TrialsRequest& request) {
-    if (request.kind == TrialKind::selection) return findSelectionTrials(file, settings, request.winner);
-    if (request.kind == TrialKind::validation)
-        return findValidationTrials(file, request.winner, request.poses);
-    return StoredTrials{request.winner.record.trials,
-                        engines.nameFor(settings.simulation.engine, trial::EngineUse::learning), std::nullopt,
-                        settings.validation.tolerance};
+    auto trials = request.kind == TrialKind::selection ? findSelectionTrials(file, settings, request.winner)
+                  : request.kind == TrialKind::validation
+                      ? findValidationTrials(file, request.winner, request.poses)
+                      : findLearningTrials(file, settings, engines, request.winner);
+    // Of another engine there are none.
+    if (trials && !request.engine.empty() && request.engine != trials->engine) trials->kept.clear();
+    return trials;
 }
 
 base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
@@ -91,6 +141,50 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
         return batch;
     }
     return study::makeLearningBatch(scene, individual.generation, individual.individual, count);
+}
+
+base::Result<std::optional<trial::MadeOutcomes>> unpackTrials(const StoredTrials& stored,
+                                                              const trial::TrialBatch& batch) {
+    std::optional<trial::MadeOutcomes> made;
+    if (stored.kept.empty() || static_cast<std::size_t>(stored.count) < batch.trials.size()) return made;
+    made.emplace();
+    made->maker = stored.kept.front().maker;
+    for (const store::PackedOutcomes& kept : stored.kept) {
+        const auto some = store::unpack(kept);
+        if (!some) return some.error();
+        made->outcomes.insert(made->outcomes.end(), some->begin(), some->end());
+    }
+    // Not those of every pose are there.
+    if (made->outcomes.size() != static_cast<std::size_t>(stored.count)) return {std::nullopt};
+    made->outcomes.resize(batch.trials.size());
+    for (std::size_t i = 0; i < batch.trials.size(); ++i)
+        made->outcomes[i].initial = trial::startInTrack(*batch.track, batch.trials[i].start);
+    return made;
+}
+
+std::optional<OutcomeDifference> findDifference(const trial::Outcome& stored,
+                                                const trial::OutcomeMaker& storedBy,
+                                                const trial::Outcome& replayed,
+                                                const trial::OutcomeMaker& replayedBy) {
+    if (trial::endAlike(stored, replayed)) return std::nullopt;
+    return OutcomeDifference{stored, storedBy, replayed, replayedBy};
+}
+
+std::string describe(const OutcomeDifference& difference) {
+    const std::string stored = describeEnd(difference.stored);
+    const std::string replayed = describeEnd(difference.replayed);
+    const double angle =
+        difference.stored.farthest.rotation.angularDistance(difference.replayed.farthest.rotation);
+    std::string text = fmt::format("Stored: {} ({}).\nReplayed here: {}", stored,
+                                   trial::describe(difference.storedBy), replayed);
+    if (angle >= kSeenAngle) text += fmt::format(", turned by {:.1f}° from it", angle / base::kDegree);
+    if (stored == replayed && angle < kSeenAngle) text += ", but for its last digits";
+    text += fmt::format(" ({}).\n", trial::describe(difference.replayedBy));
+    if (difference.storedBy == difference.replayedBy)
+        text +=
+            "The same should come of both. Either the study was changed outside of Trapwright, or the "
+            "program or a library of this system was. ";
+    return text + "Scores and tables go by what is stored.";
 }
 
 JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,

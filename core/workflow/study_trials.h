@@ -35,6 +35,7 @@ struct StoredTrials {
     std::string engine;
     std::optional<base::Quaternion> expected{};  // the orientation that counted as success; none if learning
     double tolerance = 0.0;                      // of it [rad]
+    std::vector<store::PackedOutcomes> kept{};   // all of them, one piece for each pose; none: not stored
 };
 
 /// Of a selection or validation the last one that the individual was in. `settings` are the study's.
@@ -47,6 +48,28 @@ base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const 
 base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
                                            std::shared_ptr<const part::Part> part,
                                            const TrialsRequest& request, const StoredTrials& stored);
+
+/// What the study holds of the trials of this batch, made by makeTrials(); none if it does not hold all of
+/// them. An error if they are damaged.
+base::Result<std::optional<trial::MadeOutcomes>> unpackTrials(const StoredTrials& stored,
+                                                              const trial::TrialBatch& batch);
+
+/// A trial that ended otherwise when it was simulated again.
+struct OutcomeDifference {
+    trial::Outcome stored;
+    trial::OutcomeMaker storedBy;
+    trial::Outcome replayed;
+    trial::OutcomeMaker replayedBy;
+};
+
+/// None if all that is stored has the same bits.
+std::optional<OutcomeDifference> findDifference(const trial::Outcome& stored,
+                                                const trial::OutcomeMaker& storedBy,
+                                                const trial::Outcome& replayed,
+                                                const trial::OutcomeMaker& replayedBy);
+
+/// How the two ended, who made them, and what holds: some lines for people.
+std::string describe(const OutcomeDifference& difference);
 
 /// How a trial is counted. One that ran out of time is stuck.
 enum class TrialVerdict { success, wrongOrientation, stuck, fellOff };

@@ -164,6 +164,10 @@ NativeEngine::NativeEngine(const trial::EngineOptions& options)
       step_(options.step > 0.0 ? options.step : kDefaultStep),
       costs_(options.costs) {}
 
+std::string NativeEngine::instructionSet() const {
+    return native::instructionSet();
+}
+
 base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;

@@ -18,6 +18,8 @@ class NativeEngine : public trial::Engine {
     explicit NativeEngine(const trial::EngineOptions& options);
 
     [[nodiscard]] std::string name() const override { return kName; }
+    /// That of the kernel, which is never less than what the system's mathematics takes.
+    [[nodiscard]] std::string instructionSet() const override;
     [[nodiscard]] double defaultStep() const override { return kDefaultStep; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;

@@ -1,6 +1,7 @@
 #include "tests/fuzz/read_study.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/store/compare.h"
 #include "core/store/study_file.h"
@@ -19,6 +20,12 @@ bool check(const base::Result<Value>& result) {
     return result.ok();
 }
 
+void readOutcomes(const base::Result<std::optional<store::PackedOutcomes>>& packed) {
+    if (!check(packed) || !*packed) return;
+    const auto outcomes = store::unpack(**packed);
+    if (check(outcomes)) require(outcomes->size() == (*packed)->count, "all outcomes are there");
+}
+
 void readGenerations(const store::StudyFile& study) {
     const auto count = study.generationCount();
     if (!check(count)) return;
@@ -27,6 +34,7 @@ void readGenerations(const store::StudyFile& study) {
     for (int i = 0; i < std::min(*count, kMost); ++i) {
         check(study.loadGeneration(i));
         check(study.loadIndividual(i, 0));
+        readOutcomes(study.loadLearningOutcomes(i, 0));
     }
     check(study.loadSummaries());
     if (const auto state = study.loadLearningState(); check(state) && *state) {
@@ -61,6 +69,8 @@ void readWholeStudy(const std::filesystem::path& path) {
     check(study->loadChecks());
     check(study->loadSelections());
     check(study->loadValidations());
+    readOutcomes(study->loadSelectionOutcomes(0, 0));
+    readOutcomes(study->loadValidationOutcomes(0, 0));
     check(study->loadChosenWinner());
     if (const auto validations = study->loadPhysicalValidations(); check(validations)) {
         for (const study::PhysicalValidation& validation : *validations)

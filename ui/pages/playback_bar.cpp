@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "ui/look/icon.h"
+#include "ui/look/message_bar.h"
 #include "ui/look/text.h"
 
 namespace trapwright::pages {
@@ -31,6 +32,7 @@ int toLine(double time) {
 
 PlaybackBar::PlaybackBar(ReplayPlayer& player)
     : player_(player),
+      warning_(new look::MessageBar(this)),
       line_(new QSlider(Qt::Horizontal, this)),
       time_(new QLabel(this)),
       speed_(new QComboBox(this)) {
@@ -60,11 +62,16 @@ PlaybackBar::PlaybackBar(ReplayPlayer& player)
     for (QAction* action : {trace_, forces_})
         connect(action, &QAction::toggled, this, [this] { emit viewChanged(view()); });
 
+    auto* controls = new QVBoxLayout;
+    controls->setContentsMargins(12, 6, 12, 6);
+    controls->setSpacing(4);
+    controls->addWidget(line_);
+    controls->addLayout(row);
     auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(12, 6, 12, 6);
-    column->setSpacing(4);
-    column->addWidget(line_);
-    column->addLayout(row);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(warning_);
+    column->addLayout(controls);
 
     connect(&player_, &ReplayPlayer::timeChanged, this, &PlaybackBar::showTime);
     connect(&player_, &ReplayPlayer::durationChanged, this, &PlaybackBar::showTime);
@@ -81,6 +88,12 @@ void PlaybackBar::setFrequency(double frequency) {
 void PlaybackBar::setHint(const QString& hint) {
     hint_ = hint;
     showTime();
+}
+
+void PlaybackBar::setWarning(const QString& what, const QString& message) {
+    if (what.isEmpty()) return warning_->clear();
+    const QString text = what + ". " + message;
+    if (warning_->text() != text) warning_->show(look::MessageKind::warning, what, message);
 }
 
 ReplayView PlaybackBar::view() const {

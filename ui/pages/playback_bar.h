@@ -12,6 +12,10 @@ class QHBoxLayout;
 class QLabel;
 class QSlider;
 
+namespace trapwright::look {
+class MessageBar;
+}
+
 namespace trapwright::pages {
 
 /// What is below a scene in which something is replayed: the time line, and the buttons of a player. Each
@@ -25,6 +29,9 @@ class PlaybackBar : public QWidget {
     void setFrequency(double frequency);
     /// What is said while there is nothing to play.
     void setHint(const QString& hint);
+    /// What is said above the time line about the replay that is shown: `what`, and below it `message`; both
+    /// empty: nothing.
+    void setWarning(const QString& what, const QString& message);
     [[nodiscard]] ReplayView view() const;
 
  signals:
@@ -45,6 +52,7 @@ class PlaybackBar : public QWidget {
     ReplayPlayer& player_;
     double frequency_ = 50.0;
     QString hint_;
+    look::MessageBar* warning_;
     QSlider* line_;
     QLabel* time_;
     QComboBox* speed_;

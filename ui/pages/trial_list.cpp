@@ -40,6 +40,7 @@ TrialList::TrialList()
       empty_(new QLabel),
       stack_(new QStackedLayout),
       ghosts_(new QSpinBox(this)),
+      origin_(new QLabel(this)),
       busy_(new QWidget(this)),
       busyText_(new QLabel(busy_)),
       bar_(new QProgressBar(busy_)) {
@@ -148,8 +149,14 @@ QWidget* TrialList::makeFoot() {
     busy->addLayout(line);
     busy->addWidget(bar_);
 
+    origin_->setObjectName("trials.origin");
+    origin_->setWordWrap(true);
+    origin_->setForegroundRole(QPalette::PlaceholderText);
+    origin_->hide();
+
     auto* column = new QVBoxLayout(foot);
     column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(origin_);
     column->addLayout(row);
     column->addWidget(busy_);
     return foot;
@@ -197,6 +204,11 @@ void TrialList::applyPose() {
 
 void TrialList::setEmptyText(const QString& text) {
     empty_->setText(text);
+}
+
+void TrialList::setOrigin(const QString& text) {
+    origin_->setText(text);
+    origin_->setVisible(!text.isEmpty());
 }
 
 void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {

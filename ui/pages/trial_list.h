@@ -37,6 +37,9 @@ class TrialList : public QWidget {
     /// What is shown as long as there are no trials.
     void setEmptyText(const QString& text);
 
+    /// Where the trials come from, below them; empty: nothing.
+    void setOrigin(const QString& text);
+
     /// The first trials of `wanted`; what was selected stays selected.
     void setTrials(std::vector<models::TrialRow> rows, int wanted);
     [[nodiscard]] const models::TrialModel& trials() const { return model_; }
@@ -82,6 +85,7 @@ class TrialList : public QWidget {
     QLabel* empty_;
     QStackedLayout* stack_;
     QSpinBox* ghosts_;
+    QLabel* origin_;
     QWidget* busy_;
     QLabel* busyText_;
     QProgressBar* bar_;

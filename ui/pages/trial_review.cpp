@@ -11,7 +11,7 @@
 
 namespace trapwright::pages {
 
-using session::SimulatedTrials;
+using session::ListedTrials;
 using session::StudySession;
 using workflow::TrialKind;
 
@@ -24,7 +24,7 @@ bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) 
            a.winner.individual == b.winner.individual;
 }
 
-std::vector<models::TrialRow> makeRows(const SimulatedTrials& trials, const part::SymmetryGroup& symmetry) {
+std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::SymmetryGroup& symmetry) {
     std::vector<models::TrialRow> rows;
     // As many of each pose, one pose after the other.
     const std::vector<int>& poses = trials.request.poses;
@@ -103,7 +103,7 @@ void TrialReview::setSession(StudySession* session) {
     if (!session_) return;
     bar_->setFrequency(session_->settings().simulation.drive.frequency);
     connect(session_, &StudySession::trialsArrived, this, &TrialReview::takeTrials);
-    connect(session_, &StudySession::trialsSimulated, this, &TrialReview::takeTrials);
+    connect(session_, &StudySession::trialsListed, this, &TrialReview::takeTrials);
     connect(session_, &StudySession::replayed, this, &TrialReview::takeReplay);
     // The window tells why.
     connect(session_, &StudySession::failed, this, [this] { list_->setTrials(list_->trials().rows(), 0); });
@@ -208,34 +208,37 @@ void TrialReview::setSource(int source) {
 }
 
 void TrialReview::forgetTrials() {
-    if (simulated_ && session_) session_->cancelSimulations();
-    simulated_ = false;
+    if (listed_ && session_) session_->cancelSimulations();
+    listed_ = false;
     playWanted_ = false;
     counting_.cancel();
     wanted_.clear();
     requested_.clear();
     replays_.clear();
+    differences_.clear();
     list_->setTrials({}, 0);
+    list_->setOrigin({});
     orientation_->clear();
     showReplays();
 }
 
 void TrialReview::wantTrials() {
-    if (simulated_ || !visible_ || !session_ || source_ < 0 || source_ >= static_cast<int>(sources_.size()))
+    if (listed_ || !visible_ || !session_ || source_ < 0 || source_ >= static_cast<int>(sources_.size()))
         return;
-    simulated_ = true;
+    listed_ = true;
     const TrialSource& source = sources_[static_cast<std::size_t>(source_)];
-    list_->setEmptyText(tr("The trials are being simulated."));
+    list_->setEmptyText(tr("The trials are on their way."));
     list_->setTrials({}, source.count);
-    session_->simulateTrials(source.request);
+    session_->requestTrials(source.request);
 }
 
 bool TrialReview::isShown(const workflow::TrialsRequest& request) const {
-    return simulated_ && isSame(request, sources_[static_cast<std::size_t>(source_)].request);
+    return listed_ && isSame(request, sources_[static_cast<std::size_t>(source_)].request);
 }
 
-void TrialReview::takeTrials(const SimulatedTrials& trials) {
+void TrialReview::takeTrials(const ListedTrials& trials) {
     if (!isShown(trials.request)) return;
+    showOrigin(trials);
     const double tolerance = session_->settings().validation.tolerance;
     counting_.start([this, trials, tolerance, part = session_->part()]() -> session::NewestTask::Deliver {
         auto rows = makeRows(trials, part->symmetry);
@@ -245,6 +248,12 @@ void TrialReview::takeTrials(const SimulatedTrials& trials) {
             showTrials(std::move(rows), wanted, std::move(shares), tolerance);
         };
     });
+}
+
+void TrialReview::showOrigin(const ListedTrials& trials) {
+    const QString maker = QString::fromStdString(trial::describe(trials.maker));
+    list_->setOrigin(trials.stored ? tr("As stored: %1.").arg(maker)
+                                   : tr("Not stored in this study. Simulated again: %1.").arg(maker));
 }
 
 void TrialReview::showTrials(std::vector<models::TrialRow> rows, int wanted, study::OrientationShares shares,
@@ -264,7 +273,7 @@ void TrialReview::playFirstShown() {
 void TrialReview::wantReplays() {
     const std::vector<int> chosen = list_->chosen();
     emit chosenChanged();
-    if (chosen == wanted_ || !track_ || !simulated_) return;
+    if (chosen == wanted_ || !track_ || !listed_) return;
     const bool other = wanted_.empty() || chosen.empty() || chosen.front() != wanted_.front();
     wanted_ = chosen;
     if (other) {
@@ -285,9 +294,11 @@ void TrialReview::wantReplays() {
 }
 
 void TrialReview::takeReplay(const workflow::TrialsRequest& request, int trial,
-                             const std::shared_ptr<const trial::Trajectory>& trajectory) {
+                             const std::shared_ptr<const trial::Trajectory>& trajectory,
+                             const std::optional<workflow::OutcomeDifference>& difference) {
     if (!isShown(request) || !track_) return;
     std::erase(requested_, trial);
+    if (difference) differences_.insert_or_assign(trial, *difference);
     if (std::find(wanted_.begin(), wanted_.end(), trial) == wanted_.end()) return;
     const auto& rows = list_->trials().rows();
     const auto row = static_cast<std::size_t>(trial);
@@ -312,6 +323,18 @@ void TrialReview::showReplays() {
     if (!shown.empty() && shown.front().trial != wanted_.front()) shown.clear();
     scene_.setTrials(std::move(shown));
     player_.setDuration(scene_.duration());
+    showDifferences();
+}
+
+void TrialReview::showDifferences() {
+    std::vector<int> others;
+    for (const ReplayedTrial& replay : scene_.trials())
+        if (differences_.contains(replay.trial)) others.push_back(replay.trial);
+    if (others.empty()) return bar_->setWarning({}, {});
+    QString what = tr("This replay of trial %1 ends otherwise than the stored trial").arg(others.front());
+    if (others.size() > 1)
+        what += tr("; so do %n more of those shown", "", static_cast<int>(others.size()) - 1);
+    bar_->setWarning(what, QString::fromStdString(workflow::describe(differences_.at(others.front()))));
 }
 
 }  // namespace trapwright::pages

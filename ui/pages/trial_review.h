@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QPointer>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -24,7 +25,7 @@ namespace trapwright::pages {
 class PlaybackBar;
 
 /// The trials of one individual of a study: listed, replayed in the scene, and their orientations as a chart.
-/// Trials are simulated when they are to be seen.
+/// Trials are asked for when they are to be seen.
 class TrialReview : public QObject {
     Q_OBJECT
  public:
@@ -58,14 +59,17 @@ class TrialReview : public QObject {
     void makeSources();
     void setSource(int source);
     void wantTrials();
-    void takeTrials(const session::SimulatedTrials& trials);
+    void takeTrials(const session::ListedTrials& trials);
     void showTrials(std::vector<models::TrialRow> rows, int wanted, study::OrientationShares shares,
                     double tolerance);
+    void showOrigin(const session::ListedTrials& trials);
     void playFirstShown();
     void wantReplays();
     void takeReplay(const workflow::TrialsRequest& request, int trial,
-                    const std::shared_ptr<const trial::Trajectory>& trajectory);
+                    const std::shared_ptr<const trial::Trajectory>& trajectory,
+                    const std::optional<workflow::OutcomeDifference>& difference);
     void showReplays();
+    void showDifferences();
     void forgetTrials();
     [[nodiscard]] bool isShown(const workflow::TrialsRequest& request) const;
 
@@ -74,11 +78,12 @@ class TrialReview : public QObject {
     std::vector<TrialSource> sources_;
     int source_ = 0;
     bool visible_ = false;
-    bool simulated_ = false;      // the trials of the source are there or on their way
+    bool listed_ = false;         // the trials of the source are there or on their way
     bool playWanted_ = false;     // the first trial shown, when there is one
     std::vector<int> wanted_;     // replays, as they are to be shown
     std::vector<int> requested_;  // of these, that have not come yet
     std::vector<ReplayedTrial> replays_;
+    std::map<int, workflow::OutcomeDifference> differences_;  // of replays to what is stored, by trial
 
     session::TrackBuild build_;
     session::NewestTask counting_;

@@ -35,12 +35,14 @@ namespace trapwright::session {
 struct OpenedStudy;
 struct PartVersion;
 
-/// Trials that were simulated again, and how each is counted.
-struct SimulatedTrials {
+/// Trials of an individual, and how each is counted.
+struct ListedTrials {
     workflow::TrialsRequest request;
     int wanted = 0;                        // in the end
     std::vector<trial::Outcome> outcomes;  // slot i for trial i
     workflow::JudgedTrials judged;         // likewise
+    trial::OutcomeMaker maker;             // of the outcomes
+    bool stored = false;                   // in the study; else they were simulated again
 };
 
 /// Learning cut down to what a user waits for.
@@ -195,12 +197,13 @@ class StudySession : public QObject {
     [[nodiscard]] std::optional<DropProgress> drops() const;
     /// The last drop test of the part as it is; none without one.
     [[nodiscard]] std::optional<study::DropRecord> dropTest() const;
-    /// Simulates trials again, bit for bit as the first time. Ends with trialsSimulated() or failed(); until
-    /// then trialsArrived() tells the first ones. A replay need not wait for the last one.
-    void simulateTrials(const workflow::TrialsRequest& request);
-    /// Poses of one of these trials every `interval` seconds. Ends with replayed() or failed().
+    /// The trials as the study holds them; if it does not, they are simulated again. Ends with trialsListed()
+    /// or failed(); until then trialsArrived() tells the first ones. A replay need not wait for the last one.
+    void requestTrials(const workflow::TrialsRequest& request);
+    /// Simulates one of these trials again: its poses every `interval` seconds. Ends with replayed() or
+    /// failed().
     void replay(const workflow::TrialsRequest& request, int trial, double interval);
-    /// Nothing is heard of what simulateTrials() and replay() were asked for so far.
+    /// Nothing is heard of what requestTrials() and replay() were asked for so far.
     void cancelSimulations();
     /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
     /// from here. Does nothing while something goes on or the study has problems; what begins meanwhile ends
@@ -239,10 +242,12 @@ class StudySession : public QObject {
     void calibrationAdded(int calibration);
     void speedTableReady(const trapwright::calibration::SpeedTable& table);
     /// The first trials of those that are being simulated, and what they count as by what is known so far.
-    void trialsArrived(const trapwright::session::SimulatedTrials& trials);
-    void trialsSimulated(const trapwright::session::SimulatedTrials& trials);
+    void trialsArrived(const trapwright::session::ListedTrials& trials);
+    void trialsListed(const trapwright::session::ListedTrials& trials);
+    /// `difference`: the trial is stored, and ended otherwise.
     void replayed(const trapwright::workflow::TrialsRequest& request, int trial,
-                  const std::shared_ptr<const trapwright::trial::Trajectory>& trajectory);
+                  const std::shared_ptr<const trapwright::trial::Trajectory>& trajectory,
+                  const std::optional<trapwright::workflow::OutcomeDifference>& difference);
     /// 0: the estimate before does not hold any more.
     void estimated(double seconds);
     /// `what` could not be done (a short phrase), and why and what to do.
@@ -273,11 +278,15 @@ class StudySession : public QObject {
     void tellState();
 
     struct Simulation;
+    struct FoundTrials;
     using Deliver = base::Result<std::function<void()>>;  // to be called in the GUI thread
     using Simulate = std::function<Deliver(const std::shared_ptr<const Simulation>&)>;
+    [[nodiscard]] base::Result<std::shared_ptr<const workflow::StoredTrials>> findTrials(
+        const workflow::TrialsRequest& request);
     void makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
                    Simulate simulate);
-    Deliver simulateSome(const std::shared_ptr<const Simulation>& simulation, SimulatedTrials trials);
+    Deliver listStored(const Simulation& simulation, ListedTrials trials);
+    Deliver simulateSome(const std::shared_ptr<const Simulation>& simulation, ListedTrials trials);
     void postSimulation(const QString& what, const base::RunControl& control,
                         std::function<Deliver()> simulate);
     void countSimulations(int change);

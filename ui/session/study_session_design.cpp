@@ -63,6 +63,7 @@ void StudySession::applySettings(const study::Settings& settings) {
     // The part has commands of its own; how its poses count is no matter of the part.
     const study::Settings before = state_->settings;
     state_->settings = settings;
+    state_->found.reset();
     state_->settings.part = before.part;
     study::takePoseWeights(state_->settings.part, settings.part);
     state_->part.settings = state_->settings.part;

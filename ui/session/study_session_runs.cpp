@@ -165,6 +165,7 @@ void StudySession::startSelection() {
         if (!record) return record.error();
         tell(this, [this, record = std::move(*record)] {
             state_->selections.push_back(record);
+            state_->found.reset();
             emit selectionSaved();
         });
         return std::nullopt;
@@ -184,6 +185,7 @@ void StudySession::startValidation(const study::Individual& winner,
         if (!record) return record.error();
         tell(this, [this, record = std::move(*record)] {
             state_->validations.push_back(record);
+            state_->found.reset();
             emit validationSaved();
         });
         return std::nullopt;

@@ -45,14 +45,22 @@ struct StudySession::Run {
     }
 };
 
-/// Trials that are being made again. Values that any thread may read.
+/// Trials that are listed or made again. Values that any thread may read.
 struct StudySession::Simulation {
     study::Settings settings;
     std::shared_ptr<const part::Part> part;
-    workflow::StoredTrials stored;
+    std::shared_ptr<const workflow::StoredTrials> stored;
     trial::TrialBatch batch;
+    std::optional<trial::MadeOutcomes> kept;  // in the study, of all trials of the batch
     std::shared_ptr<const trial::Engine> engine;
+    trial::OutcomeMaker maker;  // of what is simulated now
     base::RunControl control;
+};
+
+/// Trials that were asked for, and what the study holds of them.
+struct StudySession::FoundTrials {
+    workflow::TrialsRequest request;
+    std::shared_ptr<const workflow::StoredTrials> trials;
 };
 
 struct StudySession::State {
@@ -83,13 +91,14 @@ struct StudySession::State {
     RunState told = RunState::idle;      // by stateChanged()
     std::shared_ptr<Run> run;            // null while that thread is idle
     QTimer tick;
-    int simulations = 0;                // that are not done
-    base::RunControl simulated;         // of those that are wanted
-    base::RunControl estimate;          // of the last one
-    base::RunControl speedTable;        // likewise
-    base::RunControl dropping;          // likewise
-    std::optional<DropProgress> drops;  // that goes on
-    double secondsPerTrial = 0.0;       // while learning; 0: not known for these settings
+    int simulations = 0;                       // that are not done
+    base::RunControl simulated;                // of those that are wanted
+    std::shared_ptr<const FoundTrials> found;  // the last; null once something else may hold
+    base::RunControl estimate;                 // of the last one
+    base::RunControl speedTable;               // likewise
+    base::RunControl dropping;                 // likewise
+    std::optional<DropProgress> drops;         // that goes on
+    double secondsPerTrial = 0.0;              // while learning; 0: not known for these settings
 
     StudyWriter writer;
     std::unique_ptr<StudyLedger> ledger;

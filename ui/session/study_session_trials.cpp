@@ -18,7 +18,34 @@ QString trialsFailed() {
     return StudySession::tr("The trials could not be simulated");
 }
 
+bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
+    return a.kind == b.kind && a.poses == b.poses && a.count == b.count && a.engine == b.engine &&
+           a.winner.generation == b.winner.generation && a.winner.individual == b.winner.individual &&
+           a.winner.record == b.winner.record;
+}
+
+void judge(const workflow::StoredTrials& stored, const part::Part& part, const study::Settings& settings,
+           ListedTrials& trials) {
+    trials.judged =
+        workflow::judgeTrials(trials.outcomes, part.symmetry, stored.expected, settings.validation.tolerance);
+}
+
 }  // namespace
+
+/// What the study holds of these trials. Many of the same are replayed one after the other, and need not be
+/// read each time.
+base::Result<std::shared_ptr<const workflow::StoredTrials>> StudySession::findTrials(
+    const workflow::TrialsRequest& request) {
+    if (state_->found && isSame(state_->found->request, request)) return state_->found->trials;
+    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, engines(), request);
+    if (!stored) return stored.error();
+    if (stored->engine.empty())
+        stored->engine = engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging);
+    if (!request.engine.empty()) stored->engine = request.engine;
+    auto trials = std::make_shared<const workflow::StoredTrials>(std::move(*stored));
+    state_->found = std::make_shared<const FoundTrials>(FoundTrials{request, trials});
+    return trials;
+}
 
 /// Finds the trials and has `simulate` called on the thread that makes them again.
 void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
@@ -27,24 +54,26 @@ void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest&
         emit failed(what, QString::fromStdString(state_->cannotRead().message));
         return;
     }
-    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, engines(), request);
-    if (!stored || (stored->count == 0 && request.count == 0)) {
-        emit failed(what, stored ? noTrials() : QString::fromStdString(stored.error().message));
+    const auto found = findTrials(request);
+    if (!found || ((*found)->count == 0 && request.count == 0)) {
+        emit failed(what, found ? noTrials() : QString::fromStdString(found.error().message));
         return;
     }
-    if (stored->engine.empty())
-        stored->engine = engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging);
-    if (!request.engine.empty()) stored->engine = request.engine;
     postSimulation(
         what, state_->simulated,
-        [this, request, threads, stored = std::move(*stored), simulate = std::move(simulate),
-         settings = state_->settings, part = state_->part.part, control = state_->simulated]() -> Deliver {
-            auto batch = workflow::makeTrials(settings, part, request, stored);
+        [this, request, threads, stored = *found, simulate = std::move(simulate), settings = state_->settings,
+         part = state_->part.part, control = state_->simulated]() -> Deliver {
+            auto batch = workflow::makeTrials(settings, part, request, *stored);
             if (!batch) return batch.error();
-            auto engine = state_->environment.engines.make(stored.engine, {threads, 0.0});
+            auto kept = workflow::unpackTrials(*stored, *batch);
+            if (!kept) return kept.error();
+            auto engine = state_->environment.engines.make(stored->engine, {threads, 0.0});
             if (!engine) return engine.error();
+            trial::OutcomeMaker maker = study::makerOf(**engine);
+            maker.program = state_->environment.program;
             return simulate(std::make_shared<const Simulation>(
-                Simulation{settings, part, stored, std::move(*batch), std::move(*engine), control}));
+                Simulation{settings, part, stored, std::move(*batch), std::move(*kept), std::move(*engine),
+                           maker, control}));
         });
 }
 
@@ -69,19 +98,28 @@ void StudySession::postSimulation(const QString& what, const base::RunControl& c
     });
 }
 
-void StudySession::simulateTrials(const workflow::TrialsRequest& request) {
+void StudySession::requestTrials(const workflow::TrialsRequest& request) {
     makeAgain(trialsFailed(), request, state_->threads,
               [this, request](const std::shared_ptr<const Simulation>& simulation) {
-                  SimulatedTrials trials;
+                  ListedTrials trials;
                   trials.request = request;
                   trials.wanted = static_cast<int>(simulation->batch.trials.size());
-                  return simulateSome(simulation, std::move(trials));
+                  return simulation->kept ? listStored(*simulation, std::move(trials))
+                                          : simulateSome(simulation, std::move(trials));
               });
+}
+
+StudySession::Deliver StudySession::listStored(const Simulation& simulation, ListedTrials trials) {
+    trials.outcomes = simulation.kept->outcomes;
+    trials.maker = simulation.kept->maker;
+    trials.stored = true;
+    judge(*simulation.stored, *simulation.part, simulation.settings, trials);
+    return std::function([this, trials = std::move(trials)] { emit trialsListed(trials); });
 }
 
 /// Simulates the next trials after these, and posts those that are left.
 StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Simulation>& simulation,
-                                                 SimulatedTrials trials) {
+                                                 ListedTrials trials) {
     trial::TrialBatch batch = simulation->batch;
     const auto first = static_cast<std::ptrdiff_t>(trials.outcomes.size());
     batch.trials.assign(
@@ -90,12 +128,11 @@ StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Sim
     const auto outcomes = study::runTrials(*simulation->engine, {&batch, 1}, simulation->control);
     if (!outcomes) return outcomes.error();
     trials.outcomes.insert(trials.outcomes.end(), outcomes->front().begin(), outcomes->front().end());
-    trials.judged =
-        workflow::judgeTrials(trials.outcomes, simulation->part->symmetry, simulation->stored.expected,
-                              simulation->settings.validation.tolerance);
+    trials.maker = simulation->maker;
+    judge(*simulation->stored, *simulation->part, simulation->settings, trials);
     return std::function([this, simulation, trials = std::move(trials)] {
         if (static_cast<int>(trials.outcomes.size()) == trials.wanted) {
-            emit trialsSimulated(trials);
+            emit trialsListed(trials);
             return;
         }
         emit trialsArrived(trials);
@@ -116,8 +153,13 @@ void StudySession::replay(const workflow::TrialsRequest& request, int trial, dou
                                                      interval, simulation->control);
             if (!replay) return replay.error();
             const auto trajectory = std::make_shared<const trial::Trajectory>(std::move(*replay));
-            return std::function(
-                [this, request, trial, trajectory] { emit replayed(request, trial, trajectory); });
+            std::optional<workflow::OutcomeDifference> difference;
+            if (const auto& kept = simulation->kept)
+                difference = workflow::findDifference(kept->outcomes[static_cast<std::size_t>(trial)],
+                                                      kept->maker, trajectory->outcome, simulation->maker);
+            return std::function([this, request, trial, trajectory, difference] {
+                emit replayed(request, trial, trajectory, difference);
+            });
         });
 }
 

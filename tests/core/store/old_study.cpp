@@ -106,6 +106,7 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 10) database.exec("DROP TABLE outcomes; DROP TABLE outcome_maker");
     if (version < 9) dropVersion9(database);
     if (version < 8) dropVersion8(database);
     if (version < 7) database.exec("DROP TABLE drop_pose; DROP TABLE drop_test;");

@@ -82,6 +82,13 @@ class StudyOfVersion7Test : public QObject {
             QVERIFY(first[i].design == stored[i].design && first[i].traits == stored[i].traits);
     }
 
+    void outcomesAreNotKnown() {
+        const auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        for (int i = 0; i < 4; ++i)
+            QVERIFY(!study->loadLearningOutcomes(2, i).value());
+    }
+
     /// The next generation is that which the old program had.
     void learningGoesOnAsItWouldHave() {
         const auto study = StudyFile::open(path_, sample::kProgram);

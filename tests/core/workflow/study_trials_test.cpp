@@ -59,6 +59,73 @@ class StudyTrialsTest : public QObject {
         QCOMPARE(make({TrialKind::selection, winner_}).trials.size(), std::size_t{9});
     }
 
+    void whatIsStoredIsWhatTheEngineGave() {
+        for (const workflow::TrialsRequest& request :
+             std::vector<workflow::TrialsRequest>{{TrialKind::learning, winner_},
+                                                  {TrialKind::selection, winner_},
+                                                  {TrialKind::validation, winner_, {1}},
+                                                  {TrialKind::validation, winner_, {2, 0}},
+                                                  {TrialKind::learning, winner_, {0}, 2}}) {
+            const trial::TrialBatch batch = make(request);
+            const auto stored = unpack(request);
+            QVERIFY(stored);
+            QCOMPARE(stored->maker.program, std::string("test"));
+            QCOMPARE(stored->maker.engine, std::string("fake"));
+            QCOMPARE(stored->maker.instructionSet, study_->inputs.engine->instructionSet());
+            const auto again = study::runTrials(*study_->inputs.engine, {&batch, 1}, {}).value().front();
+            QCOMPARE(stored->outcomes.size(), again.size());
+            for (std::size_t i = 0; i < again.size(); ++i) {
+                QVERIFY(trial::endAlike(stored->outcomes[i], again[i]));
+                QVERIFY(std::abs(stored->outcomes[i].initial.position.x() - batch.track->start) < 1e-12);
+            }
+        }
+    }
+
+    void otherTrialsAreNotStored() {
+        // More than there were, of another engine, of an individual that was not in it.
+        QVERIFY(!unpack({TrialKind::learning, winner_, {0}, 7}));
+        QVERIFY(!unpack({TrialKind::learning, winner_, {0}, 0, "simbody"}));
+        study::Individual other = winner_;
+        other.individual += 1;
+        QVERIFY(!unpack({TrialKind::selection, other, {0}, 3}));
+        QVERIFY(!unpack({TrialKind::validation, other, {2}, 3}));
+    }
+
+    void differencesAreToldInWords() {
+        const trial::OutcomeMaker before{"trapwright 1.0.0", "native", "AVX3"};
+        const trial::OutcomeMaker now{"trapwright 1.1.0", "native", "AVX2"};
+        trial::Outcome stored;
+        stored.ending = trial::Ending::finished;
+        stored.time = 3.2;
+        stored.farthest.position.x() = 0.56;
+        trial::Outcome replayed = stored;
+        QVERIFY(!workflow::findDifference(stored, before, replayed, now));
+        // Starts are no ends.
+        replayed.initial.position.x() = 1e-3;
+        QVERIFY(!workflow::findDifference(stored, before, replayed, now));
+
+        const auto text = [&](const trial::OutcomeMaker& maker) {
+            const auto difference = workflow::findDifference(stored, before, replayed, maker);
+            return difference ? QString::fromStdString(workflow::describe(*difference)) : QString();
+        };
+        replayed.farthest.position.x() = std::nextafter(0.56, 1.0);
+        QCOMPARE(text(now),
+                 QString("Stored: finished after 3.200 s at 560.00 mm (trapwright 1.0.0, native with "
+                         "AVX3).\nReplayed here: finished after 3.200 s at 560.00 mm, but for its "
+                         "last digits (trapwright 1.1.0, native with AVX2).\nScores and tables "
+                         "go by what is stored."));
+        replayed.ending = trial::Ending::fellOff;
+        replayed.time = 2.31;
+        replayed.farthest.position.x() = 0.4123;
+        replayed.farthest.rotation = Eigen::AngleAxisd(90.0 * base::kDegree, base::Vec3::UnitZ());
+        QVERIFY2(
+            text(now).contains("Replayed here: fell off after 2.310 s at 412.30 mm, turned by 90.0° from it"),
+            qPrintable(text(now)));
+        // The same program on the same machine: something is wrong.
+        QVERIFY(!text(now).contains("The same should come of both"));
+        QVERIFY(text(before).contains("The same should come of both"));
+    }
+
     void aPoseThatThePartDoesNotHave() {
         for (const int pose : {-1, 3, 999}) {
             const auto made = workflow::makeTrials(study_->inputs.settings, study_->inputs.part,
@@ -104,6 +171,12 @@ class StudyTrialsTest : public QObject {
             workflow::findStoredTrials(*study_->file, study_->inputs.settings, fake::lawEngines(), request);
         [&] { VERIFY_OK(stored); }();
         return *stored;
+    }
+
+    std::optional<trial::MadeOutcomes> unpack(const workflow::TrialsRequest& request) {
+        const auto made = workflow::unpackTrials(find(request), make(request));
+        [&] { VERIFY_OK(made); }();
+        return *made;
     }
 
     trial::TrialBatch make(const workflow::TrialsRequest& request) {

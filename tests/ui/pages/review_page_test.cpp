@@ -9,8 +9,11 @@
 #include "core/store/study_file.h"
 #include "core/study/pose_weights.h"
 #include "core/study/validation.h"
+#include "tests/core/store/stored_outcomes.h"
 #include "tests/ui/pages/review_user.h"
+#include "ui/look/message_bar.h"
 #include "ui/models/selection_model.h"
+#include "ui/models/trial_model.h"
 #include "ui/models/validation_model.h"
 
 using namespace trapwright;
@@ -43,6 +46,55 @@ class ReviewPageTest : public QObject {
         QVERIFY(user.scene().track && user.scene().part);
         QCOMPARE(user.scene().traces.size(), std::size_t{1});
         QVERIFY(!user.player().playing());
+    }
+
+    void storedTrialsAndTheirReplaysAgree() {
+        ReviewUser user(study_);
+        QVERIFY(user.waitForReplay());
+        const QString origin = user.find<QLabel>("trials.origin")->text();
+        QVERIFY2(origin.startsWith("As stored") && origin.contains("trapwright test, native with"),
+                 qPrintable(origin));
+        QVERIFY(user.find<QWidget>("transport")->findChild<look::MessageBar*>()->text().isEmpty());
+    }
+
+    void aReplayThatEndsOtherwiseIsTold() {
+        sample::changeMaker(study_.toStdString(), {"trapwright 0.0-other", "native", "AVX9"});
+        for (const int generation : {0, 1})
+            sample::changeOutcomes(study_.toStdString(), generation,
+                                   [](std::size_t trial, trial::Outcome& outcome) {
+                                       // The table shows it as stored; others are left alone.
+                                       if (trial % 16 < 3) outcome = {trial::Ending::timedOut, {}, {}, 9.75};
+                                   });
+        ReviewUser user(study_);
+        QVERIFY(user.waitForReplay());
+        const QAbstractItemModel& trials = *user.trials().model();
+        QCOMPARE(trials.index(0, models::TrialModel::Time).data(models::ValueRole).toDouble(), 9.75);
+        auto* warning = user.find<QWidget>("transport")->findChild<look::MessageBar*>();
+        const QString text = warning->text();
+        QVERIFY2(text.startsWith("This replay of trial 0 ends otherwise than the stored trial") &&
+                     text.contains("Stored: timed out after 9.750 s") && text.contains("native with AVX9") &&
+                     text.contains("trapwright test"),
+                 qPrintable(text));
+        // So do two of the ghosts.
+        user.find<QSpinBox>("trials.ghosts")->setValue(4);
+        QTRY_VERIFY_WITH_TIMEOUT(warning->text().contains("2 more"), kPatience);
+        user.find<QSpinBox>("trials.ghosts")->setValue(0);
+        // A replay that ends as stored says nothing.
+        user.click(user.trials(), 5, 0);
+        QTRY_VERIFY_WITH_TIMEOUT(warning->text().isEmpty(), kPatience);
+        QVERIFY(user.waitForReplay());
+        QVERIFY(warning->text().isEmpty());
+    }
+
+    void olderStudiesSimulateAgain() {
+        sample::dropOutcomes(study_.toStdString());
+        ReviewUser user(study_);
+        QTRY_COMPARE_WITH_TIMEOUT(user.trials().model()->rowCount(), 16, kPatience);
+        const QString origin = user.find<QLabel>("trials.origin")->text();
+        QVERIFY2(origin.contains("Simulated again") && origin.contains("trapwright test"),
+                 qPrintable(origin));
+        QVERIFY(user.waitForReplay());
+        QVERIFY(user.find<QWidget>("transport")->findChild<look::MessageBar*>()->text().isEmpty());
     }
 
     void filterShowsOneKindOfOutcome() {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/trial/outcome.h"
+
+/// Outcomes as few bytes, for the file of a study: 40 to 45 a trial. Every bit comes back of ending, farthest
+/// pose and time. The initial pose is left out, since it follows from the trial's start (startInTrack).
+namespace trapwright::trial {
+
+/// As many as are packed at most, so that whoever unpacks needs little memory.
+inline constexpr std::size_t kMostPacked = 16384;
+
+/// At most kMostPacked outcomes.
+std::string packOutcomes(std::span<const Outcome> outcomes);
+
+/// `count` outcomes, each with the identity for its initial pose. An error if the bytes are not that.
+base::Result<std::vector<Outcome>> unpackOutcomes(std::string_view bytes, std::size_t count);
+
+}  // namespace trapwright::trial
