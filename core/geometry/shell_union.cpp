@@ -24,6 +24,11 @@ bool isSame(double volume, double other, double share = kNothing) {
     return std::abs(volume - other) <= share * std::max(volume, other);
 }
 
+/// Negative if it is not known, never by rounding.
+double calcCommon(const SolidCombination& both) {
+    return both.common ? std::max(0.0, both.common->calcVolume()) : -1.0;
+}
+
 void append(TriangleMesh& mesh, const TriangleMesh& other) {
     const int first = static_cast<int>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
@@ -146,7 +151,7 @@ class Joiner {
                     exact = kSliver;
                 }
             const double volume = solid.calcVolume();
-            const double common = cut->common ? cut->common->calcVolume() : -1.0;
+            const double common = calcCommon(*cut);
             if (cut->rest) {
                 if (common >= 0.0 && !isSame(cut->rest->calcVolume() + common, volume, exact))
                     return describeOverlap(place, "the volumes do not add up");
@@ -216,7 +221,7 @@ class Joiner {
                         exact = kSliver;
                     }
                 const double sum = a.volume + b.volume;
-                const double common = both->common ? both->common->calcVolume() : -1.0;
+                const double common = calcCommon(*both);
                 const bool overlap = common > kNothing * std::min(a.volume, b.volume);
                 if (!both->whole) {
                     staysApart[{a.bodies, b.bodies}] = !overlap && common >= 0.0;
