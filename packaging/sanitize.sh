@@ -4,10 +4,9 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # The most valuable first, by what it finds in the time that it takes: what reads foreign bytes, then threads;
-# what takes many minutes (study: 15 of a processor for its drops) comes late; geometry is last because one scene of its
-# multi_shell_test is refused in clang's rounding (tests/studies/results/2026-11-21-sanitizers.md).
+# what takes many minutes (study: 15 of a processor for its drops) comes late.
 folders=(core_base core_drive core_store core_stats core_search core_traps core_trial core_calibration sim core_workflow core_part
-    core_track core_study ui_session core_bench core_verify app ui_scene core_geometry)
+    core_track core_study core_geometry ui_session core_bench core_verify app ui_scene)
 
 usage() {
     cat << 'USAGE'

@@ -6,7 +6,10 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
 
+#include <algorithm>
+#include <array>
 #include <exception>
+#include <map>
 #include <vector>
 
 #include "core/geometry/mass_properties.h"
@@ -22,6 +25,12 @@ using Faces = CGAL::Surface_mesh<Kernel::Point_3>;
 // By how much of itself the second solid grows where faces that lie on each other but for rounding come out
 // entangled: more than the rounding of doubles, then than that of floats.
 constexpr std::array<double, 3> kGrowths = {0.0, 1e-10, 1e-7};
+// The same where faces part from corners in common.
+constexpr std::array<double, 3> kTouchGrowths = {1e-10, 1e-9, 1e-8};
+constexpr double kOffsetDamping = 1e-6;   // against faces that are nearly parallel
+constexpr double kFarthestOffset = 4.0;   // of a corner, when its faces move by 1
+constexpr double kNarrowestFace = 100.0;  // that is more than an edge, in tolerances
+constexpr double kMostOverlap = 3.0;      // of faces that lie on each other, in tolerances
 
 /// To the nearest number; CGAL's own conversion of numbers that are not yet known exactly is good to 1e-5.
 double round(const Kernel::FT& number) {
@@ -53,6 +62,38 @@ Faces grow(const Faces& faces, double share) {
     for (const auto vertex : grown.vertices())
         grown.point(vertex) = middle + (1.0 + share) * (grown.point(vertex) - middle);
     return grown;
+}
+
+/// With every face moved outward by a length.
+Faces offset(const Faces& faces, double length) {
+    std::map<Faces::Face_index, base::Vec3> normals;
+    const auto calcPlace = [&](Faces::Vertex_index vertex) {
+        const Kernel::Point_3& p = faces.point(vertex);
+        return base::Vec3(round(p.x()), round(p.y()), round(p.z()));
+    };
+    for (const auto face : faces.faces()) {
+        std::array<base::Vec3, 3> corners;
+        std::size_t k = 0;
+        for (const auto vertex : faces.vertices_around_face(faces.halfedge(face)))
+            corners[k++] = calcPlace(vertex);
+        normals[face] = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    }
+    Faces moved = faces;
+    for (const auto vertex : faces.vertices()) {
+        // A corner goes where it is by that much in front of each of its faces, or as near as can be.
+        base::Mat3 matrix = kOffsetDamping * base::Mat3::Identity();
+        base::Vec3 sum = base::Vec3::Zero();
+        for (const auto face : faces.faces_around_target(faces.halfedge(vertex))) {
+            if (face == Faces::null_face()) continue;
+            matrix += normals[face] * normals[face].transpose();
+            sum += normals[face];
+        }
+        base::Vec3 way = matrix.inverse() * sum;
+        if (way.norm() > kFarthestOffset) way *= kFarthestOffset / way.norm();
+        way *= length;
+        moved.point(vertex) = faces.point(vertex) + Kernel::Vector_3(way.x(), way.y(), way.z());
+    }
+    return moved;
 }
 
 /// None if a result came out entangled.
@@ -114,6 +155,34 @@ TriangleMesh ExactSolid::toMesh() const {
 
 double ExactSolid::calcVolume() const {
     return calcMassProperties(toMesh(), 1.0).volume;
+}
+
+std::optional<SolidCombination> combineTouching(const ExactSolid& first, const ExactSolid& second,
+                                                Touching touching, double tolerance) {
+    const Faces& faces = first.surface().faces;
+    const TriangleMesh mesh = second.toMesh();
+    const double size = calcBoundingBox(mesh).size().norm();
+    const bool isOutside = touching == Touching::fromOutside;
+    try {
+        auto thick = std::make_shared<ExactSolid::Surface>();
+        thick->faces = offset(second.surface().faces, tolerance);
+        const auto probe = tryCombine(faces, thick->faces);
+        if (!probe || !probe->common) return std::nullopt;
+        // Where faces lie on each other, this is as deep as the tolerance, and as wide as they are.
+        const double common = probe->common->calcVolume();
+        const double beyond = isOutside ? common : ExactSolid(thick).calcVolume() - common;
+        if (beyond < kNarrowestFace * tolerance * tolerance * size ||
+            beyond > kMostOverlap * tolerance * calcMassProperties(mesh, 1.0).area)
+            return std::nullopt;
+        for (const double growth : kTouchGrowths) {
+            auto combination = tryCombine(faces, offset(second.surface().faces, growth * size));
+            if (combination && combination->common && (isOutside ? combination->whole : combination->rest))
+                return combination;
+        }
+    } catch (const std::exception&) {
+        return std::nullopt;  // it would cross itself
+    }
+    return std::nullopt;
 }
 
 base::Result<SolidCombination> combineSolids(const ExactSolid& first, const ExactSolid& second) {

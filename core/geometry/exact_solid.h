@@ -39,4 +39,14 @@ struct SolidCombination {
 /// crosses itself where it meets the other one.
 base::Result<SolidCombination> combineSolids(const ExactSolid& first, const ExactSolid& second);
 
+/// Where the second of two solids should lie.
+enum class Touching { fromOutside, fromInside };
+
+/// Of two solids that have corners in common and faces that should lie on each other, but part from there by
+/// rounding: exactly taken, what they make would touch itself in the edge between those corners. So the
+/// second one grows by next to nothing first. With what is in either, or in the first only; none if the
+/// second lies otherwise by more than `tolerance` [m], or touches the first in edges and corners only.
+std::optional<SolidCombination> combineTouching(const ExactSolid& first, const ExactSolid& second,
+                                                Touching touching, double tolerance);
+
 }  // namespace trapwright::geometry

@@ -20,8 +20,13 @@ constexpr std::size_t kProbes = 8;     // triangles of each shell beside which t
 constexpr double kProbeOffset = 0.01;  // from a triangle, of its size
 constexpr double kSliver = 1e-6;  // of a volume: what it makes between faces that should lie on each other
 
-bool isSame(double volume, double other) {
-    return std::abs(volume - other) <= kNothing * std::max(volume, other);
+bool isSame(double volume, double other, double share = kNothing) {
+    return std::abs(volume - other) <= share * std::max(volume, other);
+}
+
+/// Negative if it is not known, never by rounding.
+double calcCommon(const SolidCombination& both) {
+    return both.common ? std::max(0.0, both.common->calcVolume()) : -1.0;
 }
 
 void append(TriangleMesh& mesh, const TriangleMesh& other) {
@@ -136,12 +141,19 @@ class Joiner {
             if (!cavity) return cavity.error();
             if (!*cavity) continue;
             const base::Vec3 place = findContact(i, [](std::size_t) { return true; })->place;
-            const auto cut = combineSolids(solid, **cavity);
+            auto cut = combineSolids(solid, **cavity);
             if (!cut) return describeOverlap(place, cut.error().message);
+            double exact = kNothing;
+            if (!cut->rest)
+                if (auto touching =
+                        combineTouching(solid, **cavity, Touching::fromInside, calcWeldTolerance(mesh_))) {
+                    cut = std::move(*touching);
+                    exact = kSliver;
+                }
             const double volume = solid.calcVolume();
-            const double common = cut->common ? cut->common->calcVolume() : -1.0;
+            const double common = calcCommon(*cut);
             if (cut->rest) {
-                if (common >= 0.0 && !isSame(cut->rest->calcVolume() + common, volume))
+                if (common >= 0.0 && !isSame(cut->rest->calcVolume() + common, volume, exact))
                     return describeOverlap(place, "the volumes do not add up");
                 solid = *cut->rest;
                 if (touchesOwnBody(i)) ++cavitiesCut_;
@@ -201,15 +213,22 @@ class Joiner {
                 if (joint == nullptr || staysApart.contains({a.bodies, b.bodies})) continue;
                 auto both = combineSolids(a.solid, b.solid);
                 if (!both) return describeOverlap(joint->place, both.error().message);
+                double exact = kNothing;
+                if (!both->whole)
+                    if (auto touching = combineTouching(a.solid, b.solid, Touching::fromOutside,
+                                                        calcWeldTolerance(mesh_))) {
+                        both = std::move(*touching);
+                        exact = kSliver;
+                    }
                 const double sum = a.volume + b.volume;
-                const double common = both->common ? both->common->calcVolume() : -1.0;
+                const double common = calcCommon(*both);
                 const bool overlap = common > kNothing * std::min(a.volume, b.volume);
                 if (!both->whole) {
                     staysApart[{a.bodies, b.bodies}] = !overlap && common >= 0.0;
                     continue;
                 }
                 const double whole = both->whole->calcVolume();
-                if (common >= 0.0 && !isSame(whole + common, sum))
+                if (common >= 0.0 && !isSame(whole + common, sum, exact))
                     return describeOverlap(joint->place, "the volumes do not add up");
                 a.solid = *both->whole;
                 a.volume = whole;

@@ -1,8 +1,10 @@
 #include "core/geometry/sliver_removal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <queue>
 #include <set>
 #include <utility>
@@ -21,6 +23,9 @@ using Edge = std::pair<int, int>;
 
 constexpr double kSameVolume = 1e-6;
 constexpr std::size_t kMostCuts = 20;  // for each triangle
+// Of the tolerance: flat triangles that lie on each other can be cut in a circle without end, and are less
+// likely to where fewer count as flat.
+constexpr std::array<double, 4> kShares = {1.0, 0.5, 0.25, 0.1};
 
 bool isCollapsed(const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
@@ -130,17 +135,23 @@ TriangleMesh dropFlatShells(const TriangleMesh& mesh, double tolerance) {
     return kept;
 }
 
+std::optional<TriangleMesh> tryRemoveSlivers(const TriangleMesh& mesh, double tolerance) {
+    const TriangleMesh welded = weldVertices(mesh, tolerance);
+    Cutting cutting(welded, tolerance);
+    if (!cutting.run()) return std::nullopt;
+    TriangleMesh clean =
+        dropFlatShells(separateSheets(cutting.mesh(), FacingSheets::belongTogether), tolerance);
+    const double volume = calcMassProperties(mesh, 1.0).volume;
+    if (std::abs(calcMassProperties(clean, 1.0).volume - volume) > kSameVolume * volume) return std::nullopt;
+    return clean;
+}
+
 }  // namespace
 
 TriangleMesh removeSlivers(const TriangleMesh& mesh, double tolerance) {
-    const TriangleMesh welded = weldVertices(mesh, tolerance);
-    Cutting cutting(welded, tolerance);
-    if (!cutting.run()) return mesh;
-    const TriangleMesh clean =
-        dropFlatShells(separateSheets(cutting.mesh(), FacingSheets::belongTogether), tolerance);
-    const double volume = calcMassProperties(mesh, 1.0).volume;
-    const bool isSame = std::abs(calcMassProperties(clean, 1.0).volume - volume) <= kSameVolume * volume;
-    return isSame ? clean : mesh;
+    for (const double share : kShares)
+        if (auto clean = tryRemoveSlivers(mesh, share * tolerance)) return std::move(*clean);
+    return mesh;
 }
 
 }  // namespace trapwright::geometry

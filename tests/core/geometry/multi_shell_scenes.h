@@ -217,6 +217,12 @@ inline std::vector<Scene> makeScenes() {
     add("a cavity that reaches the top", {box.mesh(), turned(open.mesh())}, box.moments() - open.moments());
     add("a cavity that reaches an edge", {box.mesh(), turned(Block{{0, 3, 8}, {15, 25, 20}}.mesh())},
         box.moments() - Block{{0, 3, 8}, {15, 25, 20}}.moments());
+    const Block along0{{0, 0, 8}, {40, 12, 20}};
+    add("a cavity along an edge", {box.mesh(), turned(along0.mesh())}, box.moments() - along0.moments());
+    const Block slab{{0, 0, 0}, {40, 12, 20}};
+    add("a cavity that takes a side away", {box.mesh(), turned(slab.mesh())}, box.moments() - slab.moments());
+    const Block rib{{0, 0, 20}, {40, 6, 31}};
+    add("a rib along an edge", {box.mesh(), rib.mesh()}, box.moments() + rib.moments(), "united 2 shells");
     {
         // A bar of rhombic cross-section along y, one edge of it in the top.
         TriangleMesh bar = shapes::makePrism({{15, 10}, {20, 15}, {15, 20}, {10, 15}}, 10);
