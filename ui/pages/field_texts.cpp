@@ -155,14 +155,14 @@ std::vector<Choice> trapChoices() {
 }
 
 std::vector<Choice> objectiveChoices() {
-    std::vector<Choice> choices;
-    for (const std::string_view value : {objectives::kPaperObjectives, std::string_view("F_C, F_D, success"),
-                                         std::string_view("F_C, F_D, F_O, success"),
-                                         std::string_view("F_C, F_D, success, conveying_speed")}) {
-        const auto list = objectives::readObjectives(value);
-        if (list) choices.push_back({std::string(value), toText(objectives::describeSum(*list))});
-    }
-    return choices;
+    const auto tr = [](const char* text) { return translated(text); };
+    return {
+        {std::string(objectives::kPaperObjectives),
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper"))},
+        {"F_C, F_D, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success"))},
+        {"F_C, F_D, F_O, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, success"))},
+        {"F_C, F_D, success, conveying_speed",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success, speed"))}};
 }
 
 std::vector<Choice> engineChoices(const trial::EngineRegistry& engines) {

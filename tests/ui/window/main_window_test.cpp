@@ -10,6 +10,7 @@
 
 #include "tests/ui/window/user.h"
 #include "ui/look/theme.h"
+#include "ui/pages/field_texts.h"
 #include "ui/pages/value_edit.h"
 #include "ui/window/shortcut_list.h"
 
@@ -71,6 +72,22 @@ class MainWindowTest : public QObject {
         QVERIFY(user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
         user.choose("evolution.search", "Genetic");
         QVERIFY(!user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
+    }
+
+    // Every sum that is offered can be read, and is told on Evolve.
+    void objectivesAreChosen() {
+        User user;
+        QVERIFY(user.import("cuboid") && user.show("track"));
+        for (const pages::Choice& choice : pages::objectiveChoices()) {
+            QVERIFY(objectives::readObjectives(choice.value).ok());
+            user.choose("evolution.objectives", choice.label);
+            QCOMPARE(user.session()->settings().evolution.objectives, choice.value);
+        }
+        QVERIFY(user.show("evolve"));
+        QStringList facts;
+        for (const QLabel* label : user.find<QWidget>("evolve.summary")->findChildren<QLabel*>())
+            facts << label->text();
+        QVERIFY2(facts.contains("F_C + F_D + Success + Speed"), qPrintable(facts.join('|')));
     }
 
     void theSceneFollowsAnEdit() {
