@@ -28,8 +28,6 @@ constexpr double kMostTicks = 4294967295.0;
 struct Layout {
     bool tickedTimes = true;    // a number of units, and how far the time is from it
     bool unitRotations = true;  // three numbers, and how far the fourth is from what they make it
-
-    friend bool operator==(const Layout&, const Layout&) = default;
 };
 
 constexpr int kTicked = 1;
