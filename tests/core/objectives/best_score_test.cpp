@@ -8,7 +8,6 @@
 using namespace trapwright;
 using trial::OrientationDistance;
 
-Q_DECLARE_METATYPE(part::SymmetryGroup)
 Q_DECLARE_METATYPE(OrientationDistance)
 
 class BestScoreTest : public QObject {

@@ -14,26 +14,13 @@
 using namespace trapwright;
 using objectives::Evaluation;
 using objectives::Fitness;
+using testing::drawRotations;
 using testing::scoreOf;
+using testing::turn;
 using trial::OrientationDistance;
 using trial::Outcome;
 
-Q_DECLARE_METATYPE(part::SymmetryGroup)
-
 namespace {
-
-std::vector<base::Quaternion> drawRotations(std::uint64_t seed, int count) {
-    base::Random random({seed, 0, 0, 0, base::Purpose::test});
-    std::vector<base::Quaternion> rotations;
-    rotations.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i)
-        rotations.push_back(random.rotation());
-    return rotations;
-}
-
-base::Quaternion turn(double degrees, const base::Vec3& axis) {
-    return base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, axis));
-}
 
 track::Track makeTrack() {
     const track::CrossSection section{30e-3, {base::Vec2(-30e-3, 15e-3), base::Vec2(30e-3, 15e-3)}};
@@ -86,19 +73,9 @@ Outcome drawOutcome(base::Random& random) {
 class ObjectivesTest : public QObject {
     Q_OBJECT
 
-    static void addGroups() {
-        QTest::addColumn<part::SymmetryGroup>("group");
-        QTest::newRow("C1") << testing::makeC1();
-        QTest::newRow("D2") << testing::makeD2();
-        QTest::newRow("C5") << testing::makeCn(5);
-        QTest::newRow("Cinf") << testing::makeContinuous(false);
-        QTest::newRow("Dinf") << testing::makeContinuous(true);
-        QTest::newRow("SO3") << testing::makeSphere();
-    }
-
  private slots:
     // Eq. 5 written down as it stands, with rotation matrices: another way than the one tested.
-    void concentrationIsEquation5_data() { addGroups(); }
+    void concentrationIsEquation5_data() { testing::addGroups(); }
     void concentrationIsEquation5() {
         QFETCH(part::SymmetryGroup, group);
         const auto rotations = drawRotations(6, 40);
@@ -126,7 +103,7 @@ class ObjectivesTest : public QObject {
         QVERIFY(std::abs(got - expected) < 1e-10);
     }
 
-    void perfectConcentrationIsZero_data() { addGroups(); }
+    void perfectConcentrationIsZero_data() { testing::addGroups(); }
     void perfectConcentrationIsZero() {
         QFETCH(part::SymmetryGroup, group);
         const std::vector<base::Quaternion> same(50, drawRotations(7, 1)[0]);

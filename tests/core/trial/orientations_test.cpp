@@ -7,40 +7,14 @@
 #include "symmetry_groups.h"
 
 using namespace trapwright;
+using testing::drawRotations;
+using testing::turn;
 using trial::OrientationDistance;
 
-Q_DECLARE_METATYPE(part::SymmetryGroup)
 Q_DECLARE_METATYPE(OrientationDistance)
-
-namespace {
-
-std::vector<base::Quaternion> drawRotations(std::uint64_t seed, int count) {
-    base::Random random({seed, 0, 0, 0, base::Purpose::test});
-    std::vector<base::Quaternion> rotations;
-    rotations.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i)
-        rotations.push_back(random.rotation());
-    return rotations;
-}
-
-base::Quaternion turn(double degrees, const base::Vec3& axis) {
-    return base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, axis));
-}
-
-}  // namespace
 
 class OrientationsTest : public QObject {
     Q_OBJECT
-
-    static void addGroups() {
-        QTest::addColumn<part::SymmetryGroup>("group");
-        QTest::newRow("C1") << testing::makeC1();
-        QTest::newRow("D2") << testing::makeD2();
-        QTest::newRow("C5") << testing::makeCn(5);
-        QTest::newRow("Cinf") << testing::makeContinuous(false);
-        QTest::newRow("Dinf") << testing::makeContinuous(true);
-        QTest::newRow("SO3") << testing::makeSphere();
-    }
 
     static void addTurningGroups() {
         QTest::addColumn<part::SymmetryGroup>("group");
@@ -110,7 +84,7 @@ class OrientationsTest : public QObject {
     }
 
     // Changing an orientation by a symmetry of the part changes no angle; turning the whole world neither.
-    void angleIsInvariant_data() { addGroups(); }
+    void angleIsInvariant_data() { testing::addGroups(); }
     void angleIsInvariant() {
         QFETCH(part::SymmetryGroup, group);
         const auto as = drawRotations(3, 30);

@@ -1,7 +1,14 @@
 #pragma once
 
+#include <QtTest>
+#include <vector>
+
+#include "core/base/random.h"
 #include "core/part/part.h"
 
+Q_DECLARE_METATYPE(trapwright::part::SymmetryGroup)
+
+/// Symmetry groups, and rotations to try them with.
 namespace trapwright::testing {
 
 inline part::SymmetryGroup makeC1() {
@@ -42,6 +49,30 @@ inline part::SymmetryGroup makeSphere() {
     group.name = "SO3";
     group.sphere = true;
     return group;
+}
+
+/// A row of every kind of group, in the column "group".
+inline void addGroups() {
+    QTest::addColumn<part::SymmetryGroup>("group");
+    QTest::newRow("C1") << makeC1();
+    QTest::newRow("D2") << makeD2();
+    QTest::newRow("C5") << makeCn(5);
+    QTest::newRow("Cinf") << makeContinuous(false);
+    QTest::newRow("Dinf") << makeContinuous(true);
+    QTest::newRow("SO3") << makeSphere();
+}
+
+inline std::vector<base::Quaternion> drawRotations(std::uint64_t seed, int count) {
+    base::Random random({seed, 0, 0, 0, base::Purpose::test});
+    std::vector<base::Quaternion> rotations;
+    rotations.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+        rotations.push_back(random.rotation());
+    return rotations;
+}
+
+inline base::Quaternion turn(double degrees, const base::Vec3& axis) {
+    return base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, axis));
 }
 
 }  // namespace trapwright::testing
