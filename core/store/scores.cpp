@@ -2,11 +2,14 @@
 
 #include <SQLiteCpp/Column.h>
 #include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
 #include <SQLiteCpp/Statement.h>
 #include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 
 namespace trapwright::store {
@@ -31,12 +34,15 @@ std::string makeSelect(const ScoreTable& table) {
         table.hasErrors ? "error" : "0", table.name, table.name, condition);
 }
 
-/// The keys in the order of their places.
+/// The keys in the order of their places. Throws SQLite::Exception if a place is missing.
 std::vector<std::string> readKeys(SQLite::Database& database) {
     std::vector<std::string> keys;
-    SQLite::Statement query(database, "SELECT key FROM objective ORDER BY place");
-    while (query.executeStep())
-        keys.push_back(query.getColumn(0).getString());
+    SQLite::Statement query(database, "SELECT place, key FROM objective ORDER BY place");
+    while (query.executeStep()) {
+        if (query.getColumn(0).getInt64() != static_cast<std::int64_t>(keys.size()))
+            throw SQLite::Exception("an objective is missing", SQLITE_CORRUPT);
+        keys.push_back(query.getColumn(1).getString());
+    }
     return keys;
 }
 

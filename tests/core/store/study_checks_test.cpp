@@ -127,6 +127,10 @@ class StudyChecksTest : public QObject {
         QVERIFY(sample::messageOf(study->loadGeneration(1)).contains("is damaged"));
         QVERIFY(sample::messageOf(study->loadSummaries()).contains("is damaged"));
         QVERIFY(sample::messageOf(study->loadWinners()).contains("is damaged"));
+        const auto saved = study->saveGeneration(sample::generation(2));
+        QVERIFY(!saved.ok() && saved.error().kind == base::ErrorKind::damaged);
+        QVERIFY2(sample::messageOf(saved).contains("an objective is missing"),
+                 qPrintable(sample::messageOf(saved)));
     }
 
     void studyOfVersion1IsBroughtUpToDate() {
