@@ -62,24 +62,26 @@ std::string toCsv(const std::string& about, const trial::Trajectory& trajectory)
         "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,room_x_mm,room_y_mm,room_z_mm,room_qw,room_qx,room_qy,room_qz,"
         "drive_x_mm,drive_y_mm,drive_z_mm,contacts\n";
     for (const trial::TrajectorySample& sample : trajectory.samples) {
+        const trial::PartState& part = sample.parts.front();
         fmt::format_to(std::back_inserter(text), "{:.6f}", sample.time);
-        appendPose(text, sample.track);
-        appendPose(text, sample.room);
+        appendPose(text, part.track);
+        appendPose(text, part.room);
         const base::Vec3 drive = sample.drive * 1e3;
         fmt::format_to(std::back_inserter(text), ",{:.6f},{:.6f},{:.6f},{}\n", drive.x(), drive.y(),
-                       drive.z(), sample.contacts);
+                       drive.z(), part.contacts);
     }
     return text;
 }
 
 nlohmann::ordered_json sampleToJson(const trial::TrajectorySample& sample) {
+    const trial::PartState& part = sample.parts.front();
     return {{"time_s", sample.time},
-            {"position_mm", toJson(sample.track.position, 1e3)},
-            {"rotation", toJson(sample.track.rotation)},
-            {"room_position_mm", toJson(sample.room.position, 1e3)},
-            {"room_rotation", toJson(sample.room.rotation)},
+            {"position_mm", toJson(part.track.position, 1e3)},
+            {"rotation", toJson(part.track.rotation)},
+            {"room_position_mm", toJson(part.room.position, 1e3)},
+            {"room_rotation", toJson(part.room.rotation)},
             {"drive_mm", toJson(sample.drive, 1e3)},
-            {"contacts", sample.contacts}};
+            {"contacts", part.contacts}};
 }
 
 using Difference = std::optional<workflow::OutcomeDifference>;
@@ -99,7 +101,7 @@ base::Result<Difference> findDifference(const workflow::StoredTrials& stored, co
 
 nlohmann::ordered_json storedToJson(const Difference& difference) {
     if (!difference) return nullptr;
-    const trial::Outcome& stored = difference->stored;
+    const trial::PartOutcome& stored = difference->stored;
     return {{"ending", trial::endingName(stored.ending)},
             {"time_s", stored.time},
             {"farthest_x_mm", stored.farthest.position.x() * 1e3},
@@ -140,7 +142,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         console.note("This replay ends otherwise than the stored trial.\n" +
                      workflow::describe(**difference));
 
-    const trial::Outcome& outcome = trajectory->outcome;
+    const trial::PartOutcome& outcome = trajectory->outcome.parts.front();
     const std::string trialName =
         options.kind == "validation"
             ? fmt::format("validation trial {} of pose {}", options.trial, options.pose)

@@ -20,13 +20,13 @@
 /// What a type consists of is told once for both directions, by a function beside it that its namespace
 /// finds:
 ///
-///     template <class Archive, base::OrConst<Outcome> T>
+///     template <class Archive, base::OrConst<PartOutcome> T>
 ///     void serialize(Archive& archive, T& outcome) {
 ///         auto& [ending, initial, farthest, time] = outcome;
 ///         archive(ending, initial, farthest, time);
 ///     }
 ///
-/// Who adds a field to Outcome is told so by the compiler, which counts the names in the brackets. Of an
+/// Who adds a field to PartOutcome is told so by the compiler, which counts the names in the brackets. Of an
 /// enumeration `lastOf(Ending)` gives the last value. Numbers have as many bytes as in memory, texts and
 /// lists a count before them, what is optional a byte that tells whether it is there.
 namespace trapwright::base {

@@ -73,7 +73,7 @@ base::Result<std::vector<Scene>> makeScenes() {
 trial::TrialBatch makeBatch(const Scene& scene, int trials) {
     trial::TrialBatch batch = study::makeTrackBatch(scene.track, scene.part, scene.simulation, 1, trials);
     for (trial::TrialSpec& trial : batch.trials)
-        trial.start.pose.position.z() += scene.lift;
+        trial.parts[0].pose.position.z() += scene.lift;
     return batch;
 }
 

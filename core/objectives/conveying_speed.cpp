@@ -12,8 +12,10 @@ namespace {
 Measured measureSpeed(const Evaluation& evaluation) {
     std::vector<double> speeds;
     for (const trial::Outcome& outcome : evaluation.outcomes) {
-        if (outcome.ending != trial::Ending::finished || !(outcome.time > 0.0)) continue;
-        speeds.push_back((outcome.farthest.position.x() - outcome.initial.position.x()) / outcome.time);
+        for (const trial::PartOutcome& part : outcome.parts) {
+            if (part.ending != trial::Ending::finished || !(part.time > 0.0)) continue;
+            speeds.push_back((part.farthest.position.x() - part.initial.position.x()) / part.time);
+        }
     }
     if (speeds.empty()) return {};
     const double sum = std::accumulate(speeds.begin(), speeds.end(), 0.0);

@@ -20,12 +20,14 @@ Measured measureDistance(const Evaluation& evaluation) {
     const track::Track& track = *evaluation.track;
     if (evaluation.outcomes.empty()) return {-track::segmentsToFinish(track, track.start)};
     std::vector<double> left;
-    left.reserve(evaluation.outcomes.size());
+    left.reserve(trial::countParts(evaluation.outcomes));
     double segments = 0.0;
     for (const trial::Outcome& outcome : evaluation.outcomes) {
-        const bool finished = outcome.ending == trial::Ending::finished;
-        left.push_back(finished ? 0.0 : track::segmentsToFinish(track, outcome.farthest.position.x()));
-        if (!finished) segments += left.back();
+        for (const trial::PartOutcome& part : outcome.parts) {
+            const bool finished = part.ending == trial::Ending::finished;
+            left.push_back(finished ? 0.0 : track::segmentsToFinish(track, part.farthest.position.x()));
+            if (!finished) segments += left.back();
+        }
     }
     return {-segments / static_cast<double>(left.size()), stats::calcStandardError(left)};
 }
@@ -36,8 +38,10 @@ Measured measureOrientation(const Evaluation& evaluation) {
     std::vector<base::Quaternion> initial;
     std::vector<base::Quaternion> farthest;
     for (const trial::Outcome& outcome : evaluation.outcomes) {
-        initial.push_back(outcome.initial.rotation);
-        farthest.push_back(outcome.farthest.rotation);
+        for (const trial::PartOutcome& part : outcome.parts) {
+            initial.push_back(part.initial.rotation);
+            farthest.push_back(part.farthest.rotation);
+        }
     }
     const Concentration ends = calcConcentration(farthest, *evaluation.symmetry, evaluation.distance);
     const Concentration starts = calcConcentration(initial, *evaluation.symmetry, evaluation.distance);

@@ -17,9 +17,9 @@ int countOriented(const Evaluation& evaluation) {
 Measured measureSuccess(const Evaluation& evaluation) {
     if (evaluation.outcomes.empty()) return {};
     const int oriented = evaluation.oriented ? *evaluation.oriented : countOriented(evaluation);
-    const auto trials = static_cast<double>(evaluation.outcomes.size());
-    const double share = oriented / trials;
-    return {share, trials < 2.0 ? 0.0 : std::sqrt(share * (1.0 - share) / (trials - 1.0))};
+    const auto parts = static_cast<double>(trial::countParts(evaluation.outcomes));
+    const double share = oriented / parts;
+    return {share, parts < 2.0 ? 0.0 : std::sqrt(share * (1.0 - share) / (parts - 1.0))};
 }
 
 }  // namespace

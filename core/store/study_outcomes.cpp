@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 
 #include "core/store/study_state.h"
 #include "core/trial/outcome_codec.h"
@@ -117,7 +118,8 @@ void saveOutcomes(SQLite::Database& database, const std::string& program, Outcom
     SQLite::Statement row(database, "INSERT INTO outcomes VALUES (?, ?, ?, ?, ?, ?)");
     std::span<const trial::Outcome> left(made.outcomes);
     for (std::int64_t first = 0; !left.empty();) {
-        const std::size_t count = std::min(left.size(), trial::kMostPacked);
+        const std::size_t count = trial::countPackable(left);
+        if (count == 0) throw std::length_error("a trial has more parts than a study can hold");
         const std::string bytes = trial::packOutcomes(left.first(count));
         row.reset();
         SQLite::bind(row, kindOf(run).name, number, first, static_cast<int>(count), maker);
@@ -139,9 +141,12 @@ base::Result<std::vector<trial::Outcome>> unpack(const PackedOutcomes& packed) {
         outcomes.insert(outcomes.end(), first, first + static_cast<std::ptrdiff_t>(wanted));
         skipped = 0;
     }
-    const bool finite = std::ranges::all_of(outcomes, [](const trial::Outcome& outcome) {
-        return outcome.farthest.position.allFinite() && outcome.farthest.rotation.coeffs().allFinite() &&
-               std::isfinite(outcome.time);
+    const auto isFinite = [](const trial::PartOutcome& part) {
+        return part.farthest.position.allFinite() && part.farthest.rotation.coeffs().allFinite() &&
+               std::isfinite(part.time);
+    };
+    const bool finite = std::ranges::all_of(outcomes, [&](const trial::Outcome& outcome) {
+        return std::ranges::all_of(outcome.parts, isFinite);
     });
     if (outcomes.size() != packed.count || !finite) return damagedTrials(packed.study);
     return outcomes;

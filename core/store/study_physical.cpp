@@ -31,9 +31,9 @@ bool hasValidation(SQLite::Database& database, int validation) {
 
 void insertTrial(SQLite::Database& database, int validation, const study::PhysicalTrial& trial) {
     SQLite::Statement row(database, "INSERT INTO physical_trial VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-    SQLite::bind(row, validation, trial.number, trial.pose, study::nameOf(trial.outcome), trial.seconds,
-                 trial.setPoint, trial.frequency, trial.note, trial.time, study::nameOf(trial.feeder),
-                 trial.drive, trial.halfStroke);
+    SQLite::bind(row, validation, trial.number, trial.pose, std::string(trial::verdictName(trial.outcome)),
+                 trial.seconds, trial.setPoint, trial.frequency, trial.note, trial.time,
+                 study::nameOf(trial.feeder), trial.drive, trial.halfStroke);
     row.exec();
 }
 
@@ -67,7 +67,7 @@ base::Result<study::PhysicalTrial> readTrial(const std::filesystem::path& path,
     trial.number = query.getColumn(0).getInt();
     trial.pose = query.getColumn(1).getInt();
     if (!areCounts(kMostPoses, {trial.pose})) return damagedValue(path, "the pose of a trial on the feeder");
-    const auto outcome = study::physicalOutcomeOf(query.getColumn(2).getString());
+    const auto outcome = trial::findVerdict(query.getColumn(2).getString());
     if (!outcome) return damagedValue(path, "the outcome of a trial on the feeder");
     trial.outcome = *outcome;
     trial.seconds = query.getColumn(3).getDouble();

@@ -49,12 +49,14 @@ Candidate prepare(const StudyInputs& inputs, const search::Proposal& proposal,
 void countEndings(std::span<const trial::Outcome> outcomes, IndividualRecord& record) {
     record.trials += static_cast<int>(outcomes.size());
     for (const trial::Outcome& outcome : outcomes) {
-        if (outcome.ending == trial::Ending::finished) {
-            ++record.finished;
-        } else if (outcome.ending == trial::Ending::fellOff) {
-            ++record.fellOff;
-        } else {
-            ++record.stuck;
+        for (const trial::PartOutcome& part : outcome.parts) {
+            if (part.ending == trial::Ending::finished) {
+                ++record.finished;
+            } else if (part.ending == trial::Ending::fellOff) {
+                ++record.fellOff;
+            } else {
+                ++record.stuck;
+            }
         }
     }
 }
@@ -182,8 +184,13 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
     for (std::size_t b = 0; b < batches.size(); ++b) {
         if ((*outcomes)[b].size() != batches[b].trials.size()) return brokenEngine(engine, "left out trials");
         for (std::size_t i = 0; i < batches[b].trials.size(); ++i) {
-            const trial::Outcome& outcome = (*outcomes)[b][i];
-            if (isFinite(outcome.initial) && isFinite(outcome.farthest)) continue;
+            const std::vector<trial::PartOutcome>& parts = (*outcomes)[b][i].parts;
+            if (parts.size() != batches[b].trials[i].parts.size())
+                return brokenEngine(engine, "left out parts");
+            const bool finite = std::ranges::all_of(parts, [](const trial::PartOutcome& part) {
+                return isFinite(part.initial) && isFinite(part.farthest);
+            });
+            if (finite) continue;
             const base::StreamKey& stream = batches[b].trials[i].stream;
             return brokenEngine(engine, "lost the part in trial " + std::to_string(stream.trial) +
                                             " of individual " + std::to_string(stream.individual) +

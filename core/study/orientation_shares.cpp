@@ -23,9 +23,11 @@ OrientationShares calcOrientationShares(const part::Part& part, std::span<const 
                                                      trial::OrientationDistance::symmetric));
     };
     for (const trial::Outcome& outcome : outcomes) {
-        count(outcome.initial.rotation, &PoseShare::start, shares.startAngles);
-        if (outcome.ending == trial::Ending::finished)
-            count(outcome.farthest.rotation, &PoseShare::finish, shares.finishAngles);
+        for (const trial::PartOutcome& one : outcome.parts) {
+            count(one.initial.rotation, &PoseShare::start, shares.startAngles);
+            if (one.ending == trial::Ending::finished)
+                count(one.farthest.rotation, &PoseShare::finish, shares.finishAngles);
+        }
     }
     std::sort(shares.startAngles.begin(), shares.startAngles.end());
     std::sort(shares.finishAngles.begin(), shares.finishAngles.end());

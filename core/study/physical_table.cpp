@@ -18,17 +18,17 @@ constexpr double kPercent = 100.0;
 constexpr double kMillimetre = 1e3;
 constexpr double kLevel = 0.05;
 
-void fail(SuccessCount& count, int number, PhysicalOutcome outcome) {
+void fail(SuccessCount& count, int number, trial::Verdict outcome) {
     switch (outcome) {
-        case PhysicalOutcome::success:
+        case trial::Verdict::success:
             return;
-        case PhysicalOutcome::wrongOrientation:
+        case trial::Verdict::wrongOrientation:
             count.wrongOrientation += number;
             break;
-        case PhysicalOutcome::stuck:
+        case trial::Verdict::stuck:
             count.stuck += number;
             break;
-        case PhysicalOutcome::fellOff:
+        case trial::Verdict::fellOff:
             count.fellOff += number;
             break;
     }
@@ -92,9 +92,9 @@ void countTrials(PhysicalRow& row, const ValidationRecord* simulated, const Phys
         for (const ValidationRow& other : simulated->rows) {
             if (!has(row.poses, other.pose)) continue;
             row.simulated.trials += other.trials;
-            fail(row.simulated, other.wrongOrientation, PhysicalOutcome::wrongOrientation);
-            fail(row.simulated, other.stuck, PhysicalOutcome::stuck);
-            fail(row.simulated, other.fellOff, PhysicalOutcome::fellOff);
+            fail(row.simulated, other.wrongOrientation, trial::Verdict::wrongOrientation);
+            fail(row.simulated, other.stuck, trial::Verdict::stuck);
+            fail(row.simulated, other.fellOff, trial::Verdict::fellOff);
         }
     }
     for (const PhysicalTrial& trial : physical.trials) {
@@ -366,9 +366,9 @@ std::string physicalTrialsCsv(const PhysicalValidation& physical) {
         "mm\n";
     for (const PhysicalTrial& trial : physical.trials) {
         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", trial.number + 1,
-                       trial.pose + 1, nameOf(trial.outcome), trial.seconds, kPercent * trial.setPoint,
-                       trial.frequency, base::csvField(trial.time), base::csvField(trial.note),
-                       nameOf(trial.feeder), base::csvField(trial.drive),
+                       trial.pose + 1, trial::verdictName(trial.outcome), trial.seconds,
+                       kPercent * trial.setPoint, trial.frequency, base::csvField(trial.time),
+                       base::csvField(trial.note), nameOf(trial.feeder), base::csvField(trial.drive),
                        trial.halfStroke > 0.0 ? fmt::format("{}", kMillimetre * trial.halfStroke) : "");
     }
     return text;

@@ -13,13 +13,6 @@ namespace trapwright::study {
 
 namespace {
 
-constexpr std::array<std::pair<PhysicalOutcome, const char*>, 4> kNames = {{
-    {PhysicalOutcome::success, "success"},
-    {PhysicalOutcome::wrongOrientation, "wrong-orientation"},
-    {PhysicalOutcome::stuck, "stuck"},
-    {PhysicalOutcome::fellOff, "fell-off"},
-}};
-
 constexpr std::array<std::pair<FeederKind, const char*>, 4> kFeeders = {{
     {FeederKind::unknown, "unknown"},
     {FeederKind::real, "real"},
@@ -32,18 +25,6 @@ std::string wereText(int count) {
 }
 
 }  // namespace
-
-std::string nameOf(PhysicalOutcome outcome) {
-    for (const auto& [known, name] : kNames)
-        if (known == outcome) return name;
-    return {};
-}
-
-std::optional<PhysicalOutcome> physicalOutcomeOf(const std::string& name) {
-    for (const auto& [outcome, known] : kNames)
-        if (name == known) return outcome;
-    return std::nullopt;
-}
 
 std::string nameOf(FeederKind kind) {
     for (const auto& [known, name] : kFeeders)

@@ -5,14 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/trial/orientations.h"
+
 namespace trapwright::study {
-
-/// How a trial on the real feeder ended, by what the operator saw.
-enum class PhysicalOutcome { success, wrongOrientation, stuck, fellOff };
-
-/// "success", "wrong-orientation", "stuck", "fell-off": in files.
-std::string nameOf(PhysicalOutcome outcome);
-std::optional<PhysicalOutcome> physicalOutcomeOf(const std::string& name);
 
 /// What moved the parts in a trial.
 enum class FeederKind {
@@ -44,10 +39,10 @@ std::vector<int> orderOfTrials(const PhysicalPlan& plan);
 struct PhysicalTrial {
     int number = 0;  // from 0, in the order of the plan
     int pose = 0;
-    PhysicalOutcome outcome = PhysicalOutcome::success;
-    double seconds = 0.0;    // from start to outcome; 0 if it was not timed
-    double setPoint = 0.0;   // share of full at the start
-    double frequency = 0.0;  // [Hz]; 0 where the drive does not tell
+    trial::Verdict outcome = trial::Verdict::success;  // by what the operator saw
+    double seconds = 0.0;                              // from start to outcome; 0 if it was not timed
+    double setPoint = 0.0;                             // share of full at the start
+    double frequency = 0.0;                            // [Hz]; 0 where the drive does not tell
     std::string note;
     std::string time;  // UTC, "2026-03-31T12:00:00Z"
     FeederKind feeder = FeederKind::unknown;

@@ -45,18 +45,19 @@ base::Result<track::Track> buildPlane(const part::Part& part, double height) {
 /// The stable pose in which the part stays through the last looks; none if it does not.
 std::optional<std::size_t> findLastingPose(const part::Part& part, const trial::Trajectory& trajectory) {
     const auto& samples = trajectory.samples;
-    if (trajectory.outcome.ending != trial::Ending::timedOut || samples.size() < kLooks) return std::nullopt;
+    if (trajectory.outcome.parts.front().ending != trial::Ending::timedOut || samples.size() < kLooks)
+        return std::nullopt;
     std::optional<std::size_t> pose;
     for (std::size_t i = samples.size() - kLooks; i < samples.size(); ++i) {
-        const part::NearestPose nearest = part::findStablePose(part, samples[i].room.rotation);
+        const part::NearestPose nearest = part::findStablePose(part, samples[i].parts.front().room.rotation);
         if (nearest.angle >= kLargestTilt || (pose && *pose != nearest.index)) return std::nullopt;
         pose = nearest.index;
     }
     return pose;
 }
 
-bool rests(const part::Part& part, const trial::TrajectorySample& sample) {
-    return sample.velocity.norm() + sample.angularVelocity.norm() * part.boundingRadius < kRestSpeed;
+bool rests(const part::Part& part, const trial::PartState& state) {
+    return state.velocity.norm() + state.angularVelocity.norm() * part.boundingRadius < kRestSpeed;
 }
 
 bool isLowest(const part::Part& part, std::size_t pose) {
@@ -68,7 +69,7 @@ bool isLowest(const part::Part& part, std::size_t pose) {
 /// Drops one part; -1 if it comes to rest in no pose.
 base::Result<int> dropOne(const trial::Engine& engine, trial::TrialBatch batch, std::size_t index,
                           double fall, base::RunControl control) {
-    const part::Part& part = *batch.part;
+    const part::Part& part = *batch.parts.front();
     for (const double duration : kDurations) {
         batch.termination = {fall + duration, 2.0 * (fall + duration), 1e-3};
         // A replay counts itself; a drop counts once.
@@ -77,7 +78,8 @@ base::Result<int> dropOne(const trial::Engine& engine, trial::TrialBatch batch, 
         if (!trajectory) return trajectory.error();
         const auto pose = findLastingPose(part, *trajectory);
         const bool last = duration == std::end(kDurations)[-1];
-        if (pose && (rests(part, trajectory->samples.back()) || (last && isLowest(part, *pose))))
+        if (pose &&
+            (rests(part, trajectory->samples.back().parts.front()) || (last && isLowest(part, *pose))))
             return static_cast<int>(*pose);
     }
     return -1;
@@ -158,18 +160,16 @@ base::Result<DropResult> simulateDrops(const trial::Engine& engine, std::shared_
     if (!plane) return plane.error();
     trial::TrialBatch batch;
     batch.track = std::make_shared<const track::Track>(*std::move(plane));
-    batch.part = std::move(part);
+    batch.parts = {part};
     batch.contact = settings.contact;
     batch.gravity = settings.gravity;
     batch.drive.halfStroke = 0.0;
     const int end = count < 0 ? settings.drops : std::min(settings.drops, first + count);
     for (int i = first; i < end; ++i) {
-        trial::TrialSpec spec;
-        spec.stream = {settings.seed, 0, 0, static_cast<std::uint32_t>(i), base::Purpose::stablePoseDrop};
-        base::Random random(spec.stream);
-        spec.start = trial::drawStart(*batch.track, *batch.part, {}, random);
-        spec.start.pose.position.z() += settings.height;
-        batch.trials.push_back(spec);
+        trial::TrialSpec& drop = batch.trials.emplace_back(trial::drawTrial(
+            *batch.track, *part, {},
+            {settings.seed, 0, 0, static_cast<std::uint32_t>(i), base::Purpose::stablePoseDrop}));
+        drop.parts.front().pose.position.z() += settings.height;
     }
 
     const double fall = std::sqrt(2.0 * settings.height / settings.gravity);  // [s]
@@ -191,7 +191,7 @@ base::Result<DropResult> simulateDrops(const trial::Engine& engine, std::shared_
         if (!status) return status.error();
 
     DropResult result;
-    result.counts.resize(batch.part->stablePoses.size());
+    result.counts.resize(part->stablePoses.size());
     for (const int pose : poseOf)
         ++(pose < 0 ? result.unsettled : result.counts[static_cast<std::size_t>(pose)]);
     return result;

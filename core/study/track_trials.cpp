@@ -19,15 +19,24 @@ TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::Sy
         expected ? *expected
                  : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
     for (const trial::Outcome& outcome : outcomes) {
-        counts.simulatedTime += outcome.time;
-        if (outcome.ending == trial::Ending::finished) {
-            ++counts.finished;
-        } else if (outcome.ending == trial::Ending::fellOff) {
-            ++counts.fellOff;
-        } else {
-            ++counts.stuck;
+        for (const trial::PartOutcome& part : outcome.parts) {
+            counts.simulatedTime += part.time;
+            switch (trial::judge(part, counts.expected, symmetry, tolerance)) {
+                case trial::Verdict::success:
+                    ++counts.oriented;
+                    ++counts.finished;
+                    break;
+                case trial::Verdict::wrongOrientation:
+                    ++counts.finished;
+                    break;
+                case trial::Verdict::fellOff:
+                    ++counts.fellOff;
+                    break;
+                case trial::Verdict::stuck:
+                    ++counts.stuck;
+                    break;
+            }
         }
-        if (trial::isOriented(outcome, counts.expected, symmetry, tolerance)) ++counts.oriented;
     }
     return counts;
 }

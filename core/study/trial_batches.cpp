@@ -13,19 +13,14 @@ trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& p
                             int trials) {
     trial::TrialBatch batch;
     batch.track = scene.track;
-    batch.part = scene.part;
+    batch.parts = {scene.part};
     batch.drive = scene.simulation->drive;
     batch.contact = scene.simulation->contact;
     batch.termination = scene.simulation->termination;
     batch.gravity = scene.simulation->gravity;
     batch.trials.reserve(static_cast<std::size_t>(trials));
-    for (int i = 0; i < trials; ++i, ++first.trial) {
-        base::Random random(first);
-        trial::TrialSpec spec;
-        spec.stream = first;
-        spec.start = trial::drawStart(*scene.track, *scene.part, policy, random);
-        batch.trials.push_back(spec);
-    }
+    for (int i = 0; i < trials; ++i, ++first.trial)
+        batch.trials.push_back(trial::drawTrial(*scene.track, *scene.part, policy, first));
     return batch;
 }
 

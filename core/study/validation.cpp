@@ -17,18 +17,20 @@ ValidationRow makeRow(int pose, std::span<const trial::Outcome> outcomes, const 
     row.pose = pose;
     row.trials = static_cast<int>(outcomes.size());
     for (const trial::Outcome& outcome : outcomes) {
-        switch (outcome.ending) {
-            case trial::Ending::finished:
-                if (!trial::isOriented(outcome, record.expectedOrientation, symmetry, record.tolerance))
+        for (const trial::PartOutcome& part : outcome.parts) {
+            switch (trial::judge(part, record.expectedOrientation, symmetry, record.tolerance)) {
+                case trial::Verdict::success:
+                    break;
+                case trial::Verdict::wrongOrientation:
                     ++row.wrongOrientation;
-                break;
-            case trial::Ending::fellOff:
-                ++row.fellOff;
-                break;
-            case trial::Ending::stuck:
-            case trial::Ending::timedOut:
-                ++row.stuck;
-                break;
+                    break;
+                case trial::Verdict::fellOff:
+                    ++row.fellOff;
+                    break;
+                case trial::Verdict::stuck:
+                    ++row.stuck;
+                    break;
+            }
         }
     }
     row.failures = row.wrongOrientation + row.stuck + row.fellOff;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/base/math.h"
@@ -22,20 +23,22 @@ struct Termination {
     double stuckProgress = 1e-3;  // along the track [m]
 };
 
-/// Where and how one part starts: at rest in the room, in this pose of the track at its mean position (room
-/// axes), displaced with the track by the drive's phase.
-struct TrialStart {
-    base::Pose pose;     // part frame to room
-    double phase = 0.0;  // of the drive at time 0 [rad]
+/// Where and how one part of a trial starts: in this pose of the track at its mean position (room axes),
+/// displaced with the track to where the drive has it then.
+struct PartStart {
+    std::size_t part = 0;  // which of the batch's
+    base::Pose pose;       // part frame to room
     base::Vec3 velocity =
         base::Vec3::Zero();  // of the centre of mass in the room; at rest when learning [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
+    double time = 0.0;                                // when it is put there [s]
 };
 
 /// One simulated run to be made. Scales are relative to the batch's contact parameters.
 struct TrialSpec {
-    base::StreamKey stream;  // names the trial for ever; its start was drawn from it
-    TrialStart start;
+    base::StreamKey stream;        // names the trial for ever; its starts were drawn from it
+    double phase = 0.0;            // of the drive at time 0 [rad]
+    std::vector<PartStart> parts;  // in the order in which they come
     double frictionScale = 1.0;
     double restitutionScale = 1.0;
 };
@@ -43,9 +46,10 @@ struct TrialSpec {
 /// One track and N trials on it. Immutable values.
 struct TrialBatch {
     std::shared_ptr<const track::Track> track;
-    std::shared_ptr<const part::Part> part;
+    std::vector<std::shared_ptr<const part::Part>> parts;  // kinds of parts that its trials place
     Vibration drive;
-    ContactParameters contact;
+    ContactParameters contact;       // of parts with the track
+    ContactParameters partsContact;  // of parts with each other
     Termination termination;
     double gravity = base::kStandardGravity;  // [m/s^2]
     std::vector<TrialSpec> trials;
@@ -54,5 +58,10 @@ struct TrialBatch {
 /// Why no engine can simulate this batch, or its trial `index` alone; none if it can.
 std::optional<base::Error> findProblem(const TrialBatch& batch);
 std::optional<base::Error> findProblem(const TrialBatch& batch, std::size_t index);
+
+/// Likewise for an engine that simulates one part at a time, from time 0 on, and one kind of part in a batch.
+std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::string_view engine);
+std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::size_t index,
+                                                 std::string_view engine);
 
 }  // namespace trapwright::trial

@@ -83,34 +83,40 @@ void serialize(Archive& archive, T& termination) {
     archive(timeLimit, stuckTime, stuckProgress);
 }
 
-template <class Archive, base::OrConst<TrialStart> T>
+template <class Archive, base::OrConst<PartStart> T>
 void serialize(Archive& archive, T& start) {
-    auto& [pose, phase, velocity, angularVelocity] = start;
-    archive(pose, phase, velocity, angularVelocity);
+    auto& [part, pose, velocity, angularVelocity, time] = start;
+    archive(part, pose, velocity, angularVelocity, time);
 }
 
 template <class Archive, base::OrConst<TrialSpec> T>
 void serialize(Archive& archive, T& spec) {
-    auto& [stream, start, frictionScale, restitutionScale] = spec;
-    archive(stream, start, frictionScale, restitutionScale);
+    auto& [stream, phase, parts, frictionScale, restitutionScale] = spec;
+    archive(stream, phase, parts, frictionScale, restitutionScale);
 }
 
 template <class Archive, base::OrConst<TrialBatch> T>
 void serialize(Archive& archive, T& batch) {
-    auto& [track, part, drive, contact, termination, gravity, trials] = batch;
-    archive(drive, contact, termination, gravity, trials);
+    auto& [track, parts, drive, contact, partsContact, termination, gravity, trials] = batch;
+    archive(drive, contact, partsContact, termination, gravity, trials);
 }
 
-template <class Archive, base::OrConst<Outcome> T>
+template <class Archive, base::OrConst<PartOutcome> T>
 void serialize(Archive& archive, T& outcome) {
     auto& [ending, initial, farthest, time] = outcome;
     archive(ending, initial, farthest, time);
 }
 
+template <class Archive, base::OrConst<Outcome> T>
+void serialize(Archive& archive, T& outcome) {
+    auto& [parts] = outcome;
+    archive(parts);
+}
+
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

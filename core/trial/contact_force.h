@@ -4,10 +4,16 @@
 
 namespace trapwright::trial {
 
-/// What the track does to the part at one contact.
+/// A body of a trial: the part of this place in TrialSpec::parts, or the track.
+using Body = int;
+inline constexpr Body kTrack = -1;
+
+/// What one body does to another at one contact.
 struct ContactForce {
+    Body bodyA = kTrack;
+    Body bodyB = 0;
     base::Vec3 point;  // in the frame of the track's mesh [m]
-    base::Vec3 force;  // on the part, in the axes of that frame [N]
+    base::Vec3 force;  // of A on B, in the axes of that frame [N]
 };
 
 }  // namespace trapwright::trial

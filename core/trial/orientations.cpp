@@ -8,6 +8,9 @@ namespace trapwright::trial {
 
 namespace {
 
+constexpr std::array<std::string_view, 4> kVerdictNames = {"success", "wrong-orientation", "stuck",
+                                                           "fell-off"};
+
 Eigen::Vector4d toVector(const base::Quaternion& q) {
     return q.normalized().coeffs();
 }
@@ -119,23 +122,46 @@ double calcOrientationAngle(const base::Quaternion& a, const base::Quaternion& b
 std::vector<base::Quaternion> finalOrientations(std::span<const Outcome> outcomes) {
     std::vector<base::Quaternion> orientations;
     for (const Outcome& outcome : outcomes) {
-        if (outcome.ending == Ending::finished) orientations.push_back(outcome.farthest.rotation);
+        for (const PartOutcome& part : outcome.parts)
+            if (part.ending == Ending::finished) orientations.push_back(part.farthest.rotation);
     }
     return orientations;
 }
 
-bool isOriented(const Outcome& outcome, const base::Quaternion& expected, const part::SymmetryGroup& symmetry,
-                double tolerance) {
-    return outcome.ending == Ending::finished &&
-           calcOrientationAngle(outcome.farthest.rotation, expected, symmetry,
-                                OrientationDistance::symmetric) <= tolerance;
+std::string_view verdictName(Verdict verdict) {
+    return kVerdictNames[static_cast<std::size_t>(verdict)];
+}
+
+std::optional<Verdict> findVerdict(std::string_view name) {
+    const auto found = std::ranges::find(kVerdictNames, name);
+    if (found == kVerdictNames.end()) return std::nullopt;
+    return static_cast<Verdict>(found - kVerdictNames.begin());
+}
+
+Verdict judge(const PartOutcome& outcome, const base::Quaternion& expected,
+              const part::SymmetryGroup& symmetry, double tolerance) {
+    switch (outcome.ending) {
+        case Ending::finished:
+            break;
+        case Ending::fellOff:
+            return Verdict::fellOff;
+        case Ending::stuck:
+        case Ending::timedOut:
+            return Verdict::stuck;
+    }
+    const double angle =
+        calcOrientationAngle(outcome.farthest.rotation, expected, symmetry, OrientationDistance::symmetric);
+    return angle <= tolerance ? Verdict::success : Verdict::wrongOrientation;
 }
 
 int countOriented(std::span<const Outcome> outcomes, const base::Quaternion& expected,
                   const part::SymmetryGroup& symmetry, double tolerance) {
-    return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(), [&](const Outcome& outcome) {
-        return isOriented(outcome, expected, symmetry, tolerance);
-    }));
+    int oriented = 0;
+    for (const Outcome& outcome : outcomes) {
+        for (const PartOutcome& part : outcome.parts)
+            oriented += judge(part, expected, symmetry, tolerance) == Verdict::success ? 1 : 0;
+    }
+    return oriented;
 }
 
 base::Quaternion findModalOrientation(std::span<const base::Quaternion> orientations,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/part/part.h"
@@ -46,15 +48,22 @@ base::Quaternion findNearestCopy(const base::Quaternion& orientation, const base
 /// A rotation by pi about an axis perpendicular to the axis of a continuous group.
 base::Quaternion makeFlip(const base::Vec3& axis);
 
-/// The orientations in which parts passed the finish line, in the trials' order.
-std::vector<base::Quaternion> finalOrientations(std::span<const Outcome> outcomes);
+/// What a part's run counts as. One that ran out of time is stuck.
+enum class Verdict { success, wrongOrientation, stuck, fellOff };
+
+/// As in files: "success", "wrong-orientation", "stuck", "fell-off".
+std::string_view verdictName(Verdict verdict);
+std::optional<Verdict> findVerdict(std::string_view name);
 
 /// Success (decisions.md#selection-and-success): finished within `tolerance` [rad] of the expected
 /// orientation, modulo the part's symmetry.
-bool isOriented(const Outcome& outcome, const base::Quaternion& expected, const part::SymmetryGroup& symmetry,
-                double tolerance);
+Verdict judge(const PartOutcome& outcome, const base::Quaternion& expected,
+              const part::SymmetryGroup& symmetry, double tolerance);
 
-/// How many of these succeeded.
+/// The orientations in which parts passed the finish line, in the trials' order.
+std::vector<base::Quaternion> finalOrientations(std::span<const Outcome> outcomes);
+
+/// How many of these parts succeeded (judge()).
 int countOriented(std::span<const Outcome> outcomes, const base::Quaternion& expected,
                   const part::SymmetryGroup& symmetry, double tolerance);
 

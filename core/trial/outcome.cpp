@@ -19,7 +19,14 @@ std::string_view endingName(Ending ending) {
     return "";
 }
 
-bool endAlike(const Outcome& a, const Outcome& b) {
+std::size_t countParts(std::span<const Outcome> outcomes) {
+    std::size_t parts = 0;
+    for (const Outcome& outcome : outcomes)
+        parts += outcome.parts.size();
+    return parts;
+}
+
+bool endAlike(const PartOutcome& a, const PartOutcome& b) {
     return a.ending == b.ending && a.farthest == b.farthest && a.time == b.time;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,19 +16,29 @@ enum class Ending { finished, fellOff, stuck, timedOut };
 /// "finished", "fell off", "stuck", "timed out".
 std::string_view endingName(Ending ending);
 
-/// How one trial ended. Poses are in track coordinates: position (x, y, z) of FeederShape, rotation in the
-/// tangent frame at the part's x (decisions.md#track-frame).
-struct Outcome {
+/// How one part's run ended. Poses are in track coordinates: position (x, y, z) of FeederShape, rotation in
+/// the tangent frame at the part's x (decisions.md#track-frame).
+struct PartOutcome {
     Ending ending = Ending::stuck;
     base::Pose initial;   // at the start
     base::Pose farthest;  // when it had come farthest along the track (paper, section 3.4)
-    double time = 0.0;    // simulated [s]
+    double time = 0.0;    // of the trial, simulated, when it ended [s]
+
+    friend bool operator==(const PartOutcome&, const PartOutcome&) = default;
+};
+
+/// How one trial ended.
+struct Outcome {
+    std::vector<PartOutcome> parts;  // in the order of TrialSpec::parts
 
     friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-/// Whether all bits are the same of what a trial ended with; the initial poses are not looked at.
-bool endAlike(const Outcome& a, const Outcome& b);
+/// Of all trials together.
+std::size_t countParts(std::span<const Outcome> outcomes);
+
+/// Whether all bits are the same of what a part ended with; the initial poses are not looked at.
+bool endAlike(const PartOutcome& a, const PartOutcome& b);
 
 /// What outcomes come from: of the same trials, the same makers give the same bits.
 struct OutcomeMaker {
@@ -46,16 +58,22 @@ struct MadeOutcomes {
     std::vector<Outcome> outcomes;
 };
 
-/// One moment of a replay. Pose in the room, track displacement and all.
-struct TrajectorySample {
-    double time = 0.0;                      // [s]
-    base::Pose room;                        // part frame to room
-    base::Pose track;                       // as in Outcome, relative to the vibrating track
-    base::Vec3 drive = base::Vec3::Zero();  // displacement of the track at the bowl radius in (x, y, z) [m]
+/// Where a part is, and how it moves.
+struct PartState {
+    base::Pose room;                                  // part frame to room
+    base::Pose track;                                 // as in PartOutcome, relative to the vibrating track
     base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
     int contacts = 0;                                 // that carried an impulse in the step before
-    std::vector<ContactForce> forces;  // of these, mean over that step; if the engine has no steps, now
+};
+
+/// One moment of a replay.
+struct TrajectorySample {
+    double time = 0.0;                      // [s]
+    base::Vec3 drive = base::Vec3::Zero();  // displacement of the track at the bowl radius in (x, y, z) [m]
+    std::vector<PartState> parts;           // in the order of TrialSpec::parts
+    std::vector<ContactForce> forces;  // of all contacts that carried an impulse in the step before, mean
+                                       // over that step; if the engine has no steps, now
 };
 
 struct Trajectory {

@@ -11,9 +11,10 @@
 
 #include "core/base/compression.h"
 
-// The bytes: kVersion, the Layout as one byte, then compressed (core/base/compression.h) the unit of time and
-// the planes. A plane has one byte of every trial, so that what is alike lies together: first all signs and
-// exponents of a number, last the ends of its mantissas, which nothing makes smaller.
+// The bytes: kVersion, the Layout as one byte, with kCounted the number of parts of all trials together in
+// four, then compressed (core/base/compression.h) the unit of time, with kCounted how many parts each trial
+// has, and the planes. A plane has one byte of every part, so that what is alike lies together: first all
+// signs and exponents of a number, last the ends of its mantissas, which nothing makes smaller.
 
 namespace trapwright::trial {
 
@@ -32,6 +33,7 @@ struct Layout {
 
 constexpr int kTicked = 1;
 constexpr int kUnit = 2;
+constexpr int kCounted = 4;  // not every trial has one part
 
 std::size_t bytesEach(const Layout& layout) {
     return std::size_t{1} + (layout.tickedTimes ? 5 : 8) + 24 + (layout.unitRotations ? 25 : 32);
@@ -126,18 +128,19 @@ struct UnitRotation {
     std::optional<std::uint8_t> steps;
 };
 
-Layout findLayout(std::span<const Outcome> outcomes) {
+Layout findLayout(std::span<const PartOutcome> outcomes) {
     Layout layout;
-    for (const Outcome& outcome : outcomes) {
+    for (const PartOutcome& outcome : outcomes) {
         layout.tickedTimes = layout.tickedTimes && ticksOf(outcome.time);
         layout.unitRotations = layout.unitRotations && UnitRotation(outcome.farthest.rotation).steps;
     }
     return layout;
 }
 
-void addEndings(std::span<const Outcome> outcomes, const Layout& layout, std::vector<std::string>& planes) {
+void addEndings(std::span<const PartOutcome> outcomes, const Layout& layout,
+                std::vector<std::string>& planes) {
     Planes endings(planes, 1);
-    for (const Outcome& outcome : outcomes) {
+    for (const PartOutcome& outcome : outcomes) {
         auto code = static_cast<unsigned>(outcome.ending);
         if (layout.unitRotations) {
             const UnitRotation rotation(outcome.farthest.rotation);
@@ -147,28 +150,29 @@ void addEndings(std::span<const Outcome> outcomes, const Layout& layout, std::ve
     }
 }
 
-void addTimes(std::span<const Outcome> outcomes, const Layout& layout, std::uint32_t unit,
+void addTimes(std::span<const PartOutcome> outcomes, const Layout& layout, std::uint32_t unit,
               std::vector<std::string>& planes) {
     if (!layout.tickedTimes) {
         Planes times(planes, 8);
-        for (const Outcome& outcome : outcomes)
+        for (const PartOutcome& outcome : outcomes)
             times.add(bitsOf(outcome.time));
         return;
     }
     Planes units(planes, 4);
     Planes steps(planes, 1);
-    for (const Outcome& outcome : outcomes) {
+    for (const PartOutcome& outcome : outcomes) {
         const std::uint32_t ticks = *ticksOf(outcome.time);
         units.add(ticks / unit);
         steps.add(*stepsFrom(ticks / kTicks, outcome.time));
     }
 }
 
-void addRotations(std::span<const Outcome> outcomes, const Layout& layout, std::vector<std::string>& planes) {
+void addRotations(std::span<const PartOutcome> outcomes, const Layout& layout,
+                  std::vector<std::string>& planes) {
     const int components = layout.unitRotations ? 3 : 4;
     for (int i = 0; i < components; ++i) {
         Planes numbers(planes, 8);
-        for (const Outcome& outcome : outcomes) {
+        for (const PartOutcome& outcome : outcomes) {
             const base::Quaternion& q = outcome.farthest.rotation;
             numbers.add(bitsOf(layout.unitRotations ? UnitRotation(q).lesser[static_cast<std::size_t>(i)]
                                                     : q.coeffs()[i]));
@@ -176,20 +180,20 @@ void addRotations(std::span<const Outcome> outcomes, const Layout& layout, std::
     }
     if (!layout.unitRotations) return;
     Planes steps(planes, 1);
-    for (const Outcome& outcome : outcomes)
+    for (const PartOutcome& outcome : outcomes)
         steps.add(*UnitRotation(outcome.farthest.rotation).steps);
 }
 
 /// What all times are multiples of.
-std::uint32_t findUnit(std::span<const Outcome> outcomes, const Layout& layout) {
+std::uint32_t findUnit(std::span<const PartOutcome> outcomes, const Layout& layout) {
     std::uint32_t unit = 0;
     if (layout.tickedTimes)
-        for (const Outcome& outcome : outcomes)
+        for (const PartOutcome& outcome : outcomes)
             unit = std::gcd(unit, *ticksOf(outcome.time));
     return std::max(unit, std::uint32_t{1});
 }
 
-void takeTimes(PlaneReader& planes, const Layout& layout, double unit, std::vector<Outcome>& outcomes) {
+void takeTimes(PlaneReader& planes, const Layout& layout, double unit, std::vector<PartOutcome>& outcomes) {
     const std::vector<std::uint64_t> numbers = planes.take(layout.tickedTimes ? 4 : 8);
     const std::vector<std::uint64_t> steps = planes.take(layout.tickedTimes ? 1 : 0);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -200,7 +204,7 @@ void takeTimes(PlaneReader& planes, const Layout& layout, double unit, std::vect
 }
 
 void takeRotations(PlaneReader& planes, const Layout& layout, const std::vector<std::uint64_t>& codes,
-                   std::vector<Outcome>& outcomes) {
+                   std::vector<PartOutcome>& outcomes) {
     std::array<std::vector<std::uint64_t>, 4> numbers;
     for (int i = 0; i < (layout.unitRotations ? 3 : 4); ++i)
         numbers[static_cast<std::size_t>(i)] = planes.take(8);
@@ -223,28 +227,73 @@ void takeRotations(PlaneReader& planes, const Layout& layout, const std::vector<
     }
 }
 
+/// A number in four bytes, the least one first.
+void appendWord(std::string& bytes, std::uint32_t word) {
+    for (int i = 0; i < 4; ++i)
+        bytes.push_back(static_cast<char>(word >> (8 * i)));
+}
+
+std::uint32_t readWord(std::string_view bytes) {
+    std::uint32_t word = 0;
+    for (std::size_t i = 4; i-- > 0;)
+        word = word << 8 | static_cast<unsigned char>(bytes[i]);
+    return word;
+}
+
+/// Parts by trial.
+std::vector<Outcome> group(std::vector<PartOutcome> parts, std::span<const std::uint32_t> counts) {
+    std::vector<Outcome> outcomes(counts.size());
+    auto from = parts.begin();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const auto to = from + counts[i];
+        outcomes[i].parts.assign(from, to);
+        from = to;
+    }
+    return outcomes;
+}
+
 }  // namespace
 
+std::size_t countPackable(std::span<const Outcome> outcomes) {
+    std::size_t parts = 0;
+    std::size_t trials = 0;
+    while (trials < outcomes.size() && trials < kMostPacked) {
+        parts += outcomes[trials].parts.size();
+        if (parts > kMostPacked) break;
+        ++trials;
+    }
+    return trials;
+}
+
 std::string packOutcomes(std::span<const Outcome> outcomes) {
-    assert(outcomes.size() <= kMostPacked);
-    const Layout layout = findLayout(outcomes);
-    const std::uint32_t unit = findUnit(outcomes, layout);
+    assert(countPackable(outcomes) == outcomes.size());
+    std::vector<PartOutcome> parts;
+    std::string counts;
+    bool single = true;
+    for (const Outcome& outcome : outcomes) {
+        parts.insert(parts.end(), outcome.parts.begin(), outcome.parts.end());
+        appendWord(counts, static_cast<std::uint32_t>(outcome.parts.size()));
+        single = single && outcome.parts.size() == 1;
+    }
+    const Layout layout = findLayout(parts);
+    const std::uint32_t unit = findUnit(parts, layout);
 
     std::vector<std::string> planes(1);
-    for (int i = 0; i < 4; ++i)
-        planes.front().push_back(static_cast<char>(unit >> (8 * i)));
-    addEndings(outcomes, layout, planes);
-    addTimes(outcomes, layout, unit, planes);
+    appendWord(planes.front(), unit);
+    if (!single) planes.push_back(counts);
+    addEndings(parts, layout, planes);
+    addTimes(parts, layout, unit, planes);
     for (int axis = 0; axis < 3; ++axis) {
         Planes positions(planes, 8);
-        for (const Outcome& outcome : outcomes)
+        for (const PartOutcome& outcome : parts)
             positions.add(bitsOf(outcome.farthest.position[axis]));
     }
-    addRotations(outcomes, layout, planes);
+    addRotations(parts, layout, planes);
 
     std::string bytes(1, static_cast<char>(kVersion));
-    bytes.push_back(
-        static_cast<char>((layout.tickedTimes ? kTicked : 0) | (layout.unitRotations ? kUnit : 0)));
+    bytes.push_back(static_cast<char>((layout.tickedTimes ? kTicked : 0) |
+                                      (layout.unitRotations ? kUnit : 0) | (single ? 0 : kCounted)));
+    if (!single) appendWord(bytes, static_cast<std::uint32_t>(parts.size()));
     return bytes + base::compress(planes);
 }
 
@@ -252,28 +301,46 @@ base::Result<std::vector<Outcome>> unpackOutcomes(std::string_view bytes, std::s
     const base::Error damaged{"These bytes are not " + std::to_string(count) + " outcomes of trials.",
                               base::ErrorKind::damaged};
     if (count > kMostPacked || bytes.size() < 2 || bytes.front() != kVersion ||
-        (bytes[1] & ~(kTicked | kUnit)) != 0)
+        (bytes[1] & ~(kTicked | kUnit | kCounted)) != 0)
         return damaged;
     const Layout layout{(bytes[1] & kTicked) != 0, (bytes[1] & kUnit) != 0};
-    const auto unpacked = base::decompress(bytes.substr(2), 4 + count * bytesEach(layout));
+    const bool counted = (bytes[1] & kCounted) != 0;
+    bytes.remove_prefix(2);
+    std::size_t partCount = count;
+    if (counted) {
+        if (bytes.size() < 4) return damaged;
+        partCount = readWord(bytes);
+        bytes.remove_prefix(4);
+        if (partCount > kMostPacked) return damaged;
+    }
+    const std::size_t before = 4 + (counted ? 4 * count : 0);
+    const auto unpacked = base::decompress(bytes, before + partCount * bytesEach(layout));
     if (!unpacked) return damaged;
+    const std::string_view plain = *unpacked;
+    std::vector<std::uint32_t> counts(count, 1);
+    if (counted) {
+        std::size_t sum = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            counts[i] = readWord(plain.substr(4 + 4 * i));
+            sum += counts[i];
+        }
+        if (sum != partCount) return damaged;
+    }
 
-    double unit = 0.0;
-    for (int i = 3; i >= 0; --i)
-        unit = 256.0 * unit + static_cast<unsigned char>((*unpacked)[static_cast<std::size_t>(i)]);
-    PlaneReader planes(std::string_view(*unpacked).substr(4), count);
-    std::vector<Outcome> outcomes(count);
+    const double unit = readWord(plain);
+    PlaneReader planes(plain.substr(before), partCount);
+    std::vector<PartOutcome> parts(partCount);
     const std::vector<std::uint64_t> codes = planes.take(1);
-    for (std::size_t i = 0; i < count; ++i)
-        outcomes[i].ending = static_cast<Ending>(codes[i] & 3);
-    takeTimes(planes, layout, unit, outcomes);
+    for (std::size_t i = 0; i < partCount; ++i)
+        parts[i].ending = static_cast<Ending>(codes[i] & 3);
+    takeTimes(planes, layout, unit, parts);
     for (int axis = 0; axis < 3; ++axis) {
         const std::vector<std::uint64_t> numbers = planes.take(8);
-        for (std::size_t i = 0; i < count; ++i)
-            outcomes[i].farthest.position[axis] = std::bit_cast<double>(numbers[i]);
+        for (std::size_t i = 0; i < partCount; ++i)
+            parts[i].farthest.position[axis] = std::bit_cast<double>(numbers[i]);
     }
-    takeRotations(planes, layout, codes, outcomes);
-    return outcomes;
+    takeRotations(planes, layout, codes, parts);
+    return group(std::move(parts), counts);
 }
 
 }  // namespace trapwright::trial

@@ -4,25 +4,25 @@
 
 namespace trapwright::trial {
 
-base::Pose poseOnTrack(const TrajectorySample& sample, const track::FeederShape& shape) {
-    if (shape.type == track::FeederType::linear)
-        return {sample.room.rotation, sample.room.position - sample.drive};
+base::Pose poseOnTrack(const TrajectorySample& sample, std::size_t part, const track::FeederShape& shape) {
+    const base::Pose& room = sample.parts[part].room;
+    if (shape.type == track::FeederType::linear) return {room.rotation, room.position - sample.drive};
     // Along the conveying direction a bowl turns.
     const double sense = shape.conveying == track::Conveying::clockwise ? -1.0 : 1.0;
     const base::Quaternion back(
         Eigen::AngleAxisd(-sense * sample.drive.x() / shape.bowlRadius, base::Vec3::UnitZ()));
-    return {back * sample.room.rotation,
-            back * sample.room.position - base::Vec3(0.0, 0.0, sample.drive.z())};
+    return {back * room.rotation, back * room.position - base::Vec3(0.0, 0.0, sample.drive.z())};
 }
 
 RecordedMotion::RecordedMotion(const Trajectory& trajectory, const track::FeederShape& shape) {
     times_.reserve(trajectory.samples.size());
-    poses_.reserve(trajectory.samples.size());
     forces_.reserve(trajectory.samples.size());
+    poses_.resize(trajectory.outcome.parts.size());
     for (const TrajectorySample& sample : trajectory.samples) {
         times_.push_back(sample.time);
-        poses_.push_back(poseOnTrack(sample, shape));
         forces_.push_back(sample.forces);
+        for (std::size_t part = 0; part < poses_.size(); ++part)
+            poses_[part].push_back(poseOnTrack(sample, part, shape));
     }
 }
 
@@ -31,13 +31,14 @@ std::size_t RecordedMotion::indexAt(double time) const {
     return later == times_.begin() ? 0 : static_cast<std::size_t>(later - times_.begin()) - 1;
 }
 
-base::Pose RecordedMotion::poseAt(double time) const {
+base::Pose RecordedMotion::poseAt(std::size_t part, double time) const {
     if (times_.empty()) return {};
+    const std::vector<base::Pose>& poses = poses_[part];
     const std::size_t before = indexAt(time);
-    if (before + 1 == times_.size() || time <= times_[before]) return poses_[before];
+    if (before + 1 == times_.size() || time <= times_[before]) return poses[before];
     const double share = (time - times_[before]) / (times_[before + 1] - times_[before]);
-    const base::Pose& from = poses_[before];
-    const base::Pose& to = poses_[before + 1];
+    const base::Pose& from = poses[before];
+    const base::Pose& to = poses[before + 1];
     return {from.rotation.slerp(share, to.rotation), (1.0 - share) * from.position + share * to.position};
 }
 
@@ -46,9 +47,9 @@ const std::vector<ContactForce>& RecordedMotion::forcesAt(double time) const {
     return times_.empty() ? kNone : forces_[indexAt(time)];
 }
 
-std::vector<base::Vec3> RecordedMotion::path(double spacing) const {
+std::vector<base::Vec3> RecordedMotion::path(std::size_t part, double spacing) const {
     std::vector<base::Vec3> points;
-    for (const base::Pose& pose : poses_) {
+    for (const base::Pose& pose : poses_[part]) {
         if (points.empty() || (pose.position - points.back()).norm() >= spacing)
             points.push_back(pose.position);
     }

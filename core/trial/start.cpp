@@ -37,11 +37,13 @@ double findLeadInHeight(const track::Track& track) {
 
 }  // namespace
 
-TrialStart drawStart(const track::Track& track, const part::Part& part, const StartPolicy& policy,
-                     base::Random& random) {
+TrialSpec drawTrial(const track::Track& track, const part::Part& part, const StartPolicy& policy,
+                    const base::StreamKey& stream) {
     assert(!part.hull.vertices.empty());
-    TrialStart start;
-    start.phase = random.uniform(0.0, 2.0 * base::kPi);
+    base::Random random(stream);
+    TrialSpec trial;
+    trial.stream = stream;
+    trial.phase = random.uniform(0.0, 2.0 * base::kPi);
     const double y = random.uniform(-policy.lateral, policy.lateral);
     const base::Quaternion inTrack = drawRotation(policy, random);
     double lowest = std::numeric_limits<double>::infinity();
@@ -49,12 +51,13 @@ TrialStart drawStart(const track::Track& track, const part::Part& part, const St
         lowest = std::min(lowest, (inTrack * vertex).z());
 
     const double z = findLeadInHeight(track) + kClearance - lowest;
+    PartStart& start = trial.parts.emplace_back();
     start.pose.position = track.shape.toRoom({track.start, y, z});
     start.pose.rotation = (base::Quaternion(track.shape.tangentFrame(track.start)) * inTrack).normalized();
-    return start;
+    return trial;
 }
 
-base::Pose startInTrack(const track::Track& track, const TrialStart& start) {
+base::Pose startInTrack(const track::Track& track, const PartStart& start) {
     base::Pose pose;
     pose.position = track.shape.toTrack(start.pose.position, track.start);
     pose.rotation =

@@ -15,13 +15,13 @@ struct StartPolicy {
     double lateral = 2e-3;                     // largest sideways offset from the middle of the track [m]
 };
 
-/// Draws the start of one trial: the part at rest, its lowest point 10 micrometres above the lead-in at
-/// track.start, as close above the surface as it can.
-TrialStart drawStart(const track::Track& track, const part::Part& part, const StartPolicy& policy,
-                     base::Random& random);
+/// Draws a trial of one part from `stream`: the drive's phase, and the part at rest, its lowest point 10
+/// micrometres above the lead-in at track.start, as close above the surface as it can.
+TrialSpec drawTrial(const track::Track& track, const part::Part& part, const StartPolicy& policy,
+                    const base::StreamKey& stream);
 
-/// Outcome::initial of a trial that starts so, but for the last bits, which each engine rounds in its own
+/// PartOutcome::initial of a part that starts so, but for the last bits, which each engine rounds in its own
 /// way.
-base::Pose startInTrack(const track::Track& track, const TrialStart& start);
+base::Pose startInTrack(const track::Track& track, const PartStart& start);
 
 }  // namespace trapwright::trial

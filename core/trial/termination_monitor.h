@@ -1,38 +1,52 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "core/trial/batch.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::trial {
 
-/// Follows one part along its track and says when and how its trial ends (paper, section 3.4;
-/// decisions.md#endings). Engines call update() every few milliseconds of simulated time.
+/// Follows the parts of one trial along their track and says when and how the run of each ends (paper,
+/// section 3.4; decisions.md#endings). Engines call update() every few milliseconds of simulated time.
 class TerminationMonitor {
  public:
-    TerminationMonitor(const track::Track& track, const Termination& termination)
-        : track_(&track), termination_(termination) {}
+    TerminationMonitor(const track::Track& track, const Termination& termination, std::size_t parts)
+        : track_(&track), termination_(termination), parts_(parts), running_(parts) {
+        outcome_.parts.resize(parts);
+    }
 
-    /// `pose`: part frame to the track's mesh frame (the room with the drive's displacement taken out).
-    /// Returns the ending when the trial is over; outcome() is then complete.
-    std::optional<Ending> update(double time, const base::Pose& pose);
+    /// `part`: its place in TrialSpec::parts. `pose`: part frame to the track's mesh frame (the room with the
+    /// drive's displacement taken out). Returns the ending when the part's run is over, which is then not
+    /// told of any more.
+    std::optional<Ending> update(std::size_t part, double time, const base::Pose& pose);
 
+    /// The trial is over when all runs are; outcome() is then complete.
+    [[nodiscard]] bool isOver() const { return running_ == 0; }
     [[nodiscard]] const Outcome& outcome() const { return outcome_; }
 
-    /// The pose in track coordinates, rotation in the tangent frame there.
-    [[nodiscard]] base::Pose toTrackCoordinates(const base::Pose& pose) const;
+    /// A part's pose in track coordinates, rotation in the tangent frame there.
+    [[nodiscard]] base::Pose toTrackCoordinates(std::size_t part, const base::Pose& pose) const;
 
  private:
-    [[nodiscard]] std::optional<Ending> findEnding(double time, const base::Vec3& position) const;
+    struct Progress {
+        bool started = false;
+        double startTime = 0.0;
+        double lastX = 0.0;
+        double markedX = 0.0;     // progress is measured from here ...
+        double markedTime = 0.0;  // ... and was last made then
+    };
+
+    [[nodiscard]] std::optional<Ending> findEnding(const Progress& progress, double time,
+                                                   const base::Vec3& position) const;
 
     const track::Track* track_;
     Termination termination_;
+    std::vector<Progress> parts_;
+    std::size_t running_;
     Outcome outcome_;
-    bool started_ = false;
-    double lastX_ = 0.0;
-    double markedX_ = 0.0;     // progress is measured from here ...
-    double markedTime_ = 0.0;  // ... and was last made then
 };
 
 }  // namespace trapwright::trial

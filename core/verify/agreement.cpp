@@ -56,7 +56,8 @@ base::Result<std::shared_ptr<const part::Part>> buildBundled(std::string_view na
 std::vector<double> transitTimes(const Outcomes& outcomes) {
     std::vector<double> times;
     for (const trial::Outcome& outcome : outcomes) {
-        if (outcome.ending == trial::Ending::finished) times.push_back(outcome.time);
+        const trial::PartOutcome& part = outcome.parts.front();
+        if (part.ending == trial::Ending::finished) times.push_back(part.time);
     }
     return times;
 }
@@ -81,7 +82,7 @@ bool lieInEachOthersIntervals(int a, int b, int trials) {
 }
 
 Agreement compare(const AgreementScene& scene, const Outcomes& own, const Outcomes& judged) {
-    const part::SymmetryGroup& symmetry = scene.batch.part->symmetry;
+    const part::SymmetryGroup& symmetry = scene.batch.parts.front()->symmetry;
     // Of both together: the mode of one side would favour that side.
     std::vector<base::Quaternion> ends = trial::finalOrientations(own);
     const std::vector<base::Quaternion> judgedEnds = trial::finalOrientations(judged);
@@ -94,10 +95,14 @@ Agreement compare(const AgreementScene& scene, const Outcomes& own, const Outcom
     Discordance finished;
     Discordance oriented;
     for (std::size_t i = 0; i < own.size(); ++i) {
-        const bool ownFinished = own[i].ending == trial::Ending::finished;
-        const bool judgedFinished = judged[i].ending == trial::Ending::finished;
-        const bool ownOriented = trial::isOriented(own[i], expected, symmetry, kTolerance);
-        const bool judgedOriented = trial::isOriented(judged[i], expected, symmetry, kTolerance);
+        const trial::PartOutcome& ownPart = own[i].parts.front();
+        const trial::PartOutcome& judgedPart = judged[i].parts.front();
+        const bool ownFinished = ownPart.ending == trial::Ending::finished;
+        const bool judgedFinished = judgedPart.ending == trial::Ending::finished;
+        const bool ownOriented =
+            trial::judge(ownPart, expected, symmetry, kTolerance) == trial::Verdict::success;
+        const bool judgedOriented =
+            trial::judge(judgedPart, expected, symmetry, kTolerance) == trial::Verdict::success;
         finished.count(ownFinished, judgedFinished);
         oriented.count(ownOriented, judgedOriented);
         result.engine.finished += ownFinished ? 1 : 0;

@@ -38,7 +38,7 @@ base::Result<double> measureSpeed(const trial::Engine& engine, const trial::Tria
     if (samples.size() < first + 3)
         return base::Error{"The part fell off the level track of the conveying test."};
     const std::size_t last = samples.size() - 2;
-    return (samples[last].room.position.x() - samples[first].room.position.x()) /
+    return (samples[last].parts[0].room.position.x() - samples[first].parts[0].room.position.x()) /
            (static_cast<double>(last - first) * period);
 }
 

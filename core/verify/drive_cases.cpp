@@ -32,7 +32,7 @@ double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene,
     const trial::Trajectory trajectory = replayScene(engine, scene, period, control);
     const auto& samples = trajectory.samples;
     if (static_cast<int>(samples.size()) <= toPeriod) return std::nan("");
-    return (samples[toPeriod].room.position.x() - samples[fromPeriod].room.position.x()) /
+    return (samples[toPeriod].parts[0].room.position.x() - samples[fromPeriod].parts[0].room.position.x()) /
            ((toPeriod - fromPeriod) * period);
 }
 
@@ -43,9 +43,10 @@ bool leavesTrack(const trial::Engine& engine, double halfStroke, const base::Run
     trial::TrialBatch scene = makeLying(drive, 0.2);
     scene.contact.restitution = 0.0;
     const trial::Trajectory trajectory = replayScene(engine, scene, 1e-5, control);
-    return std::any_of(
-        trajectory.samples.begin(), trajectory.samples.end(),
-        [](const trial::TrajectorySample& sample) { return sample.time > 0.04 && sample.contacts == 0; });
+    return std::any_of(trajectory.samples.begin(), trajectory.samples.end(),
+                       [](const trial::TrajectorySample& sample) {
+                           return sample.time > 0.04 && sample.parts[0].contacts == 0;
+                       });
 }
 
 /// Length of the first flight under vertical vibration without restitution, from the instant at which the
@@ -57,11 +58,11 @@ double measureFlight(const trial::Engine& engine, double throwNumber, const base
         throwNumber * base::kStandardGravity / (drive.angularFrequency() * drive.angularFrequency());
     trial::TrialBatch scene = makeLying(drive, 0.06);
     scene.contact.restitution = 0.0;
-    scene.trials[0].start.phase = -0.5 * base::kPi;  // at rest, like the part
+    scene.trials[0].phase = -0.5 * base::kPi;  // at rest, like the part
     const trial::Trajectory trajectory = replayScene(engine, scene, 1e-6, control);
     const double takeOff = (0.5 * base::kPi + std::asin(1.0 / throwNumber)) / drive.angularFrequency();
-    const double rest = trajectory.samples.front().track.position.z();
-    const auto gap = [&](std::size_t i) { return trajectory.samples[i].track.position.z() - rest; };
+    const double rest = trajectory.samples.front().parts[0].track.position.z();
+    const auto gap = [&](std::size_t i) { return trajectory.samples[i].parts[0].track.position.z() - rest; };
     for (std::size_t i = 2; i < trajectory.samples.size(); ++i) {
         const double time = trajectory.samples[i - 1].time;
         if (time < takeOff + 0.25 * drive.period() || gap(i) > 1e-7) continue;

@@ -32,7 +32,7 @@ double measureRebound(const trial::Engine& engine, const base::Quaternion& rotat
     double apex = 0.0;
     for (const trial::TrajectorySample& sample : trajectory.samples)
         if (sample.time > flight + 0.25 * restitution * flight + 5e-4)
-            apex = std::max(apex, sample.room.position.z() - rest);
+            apex = std::max(apex, sample.parts[0].room.position.z() - rest);
     return std::sqrt(std::max(apex, 0.0) / drop);
 }
 
@@ -44,12 +44,12 @@ std::vector<Row> runTumbling(const trial::EngineKind& kind, const base::RunContr
         makeStillScene(makeFlat(), makePaperCuboid(),
                        {base::Quaternion(0.9, 0.3, -0.2, 0.1).normalized(), Vec3(0.1, 0, 0.1)}, 10.0);
     scene.gravity = 0.0;
-    scene.trials[0].start.angularVelocity = Vec3(12.0, 9.0, -15.0);
+    scene.trials[0].parts[0].angularVelocity = Vec3(12.0, 9.0, -15.0);
     const trial::Trajectory trajectory = replayScene(*engine, scene, 0.01, control);
 
     const auto momentum = [&](const trial::TrajectorySample& s) -> Vec3 {
-        const base::Mat3 r = s.room.rotation.toRotationMatrix();
-        return r * (scene.part->massProperties.inertia * (r.transpose() * s.angularVelocity));
+        const base::Mat3 r = s.parts[0].room.rotation.toRotationMatrix();
+        return r * (scene.parts[0]->massProperties.inertia * (r.transpose() * s.parts[0].angularVelocity));
     };
     const Vec3 momentum0 = momentum(trajectory.samples.front());
     const double energy0 = calcEnergy(scene, trajectory.samples.front());
@@ -60,7 +60,7 @@ std::vector<Row> runTumbling(const trial::EngineKind& kind, const base::RunContr
         momentumError = std::max(momentumError, (momentum(sample) - momentum0).norm() / momentum0.norm());
     }
     const double tolerance = kind.freeMotionTolerance;
-    const bool whole = trajectory.outcome.time > 9.9;
+    const bool whole = trajectory.outcome.parts[0].time > 9.9;
     return {{"tumbling for 10 s: energy", fmt::format("within {:.0e}", tolerance),
              fmt::format("{:.1e}", energyError), whole && energyError < tolerance},
             {"tumbling for 10 s: angular momentum", fmt::format("within {:.0e}", tolerance),

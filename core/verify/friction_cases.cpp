@@ -55,14 +55,16 @@ std::vector<Row> runSlope(const trial::EngineKind& kind, const base::RunControl&
             trial::TrialBatch below = slope(24.0 * kDegree);
             below.contact = {kFriction, kFriction, 0.0};
             const trial::Trajectory rest = replayScene(*engine, below, 0.1, control);
-            creep = std::max(creep,
-                             (sampleAt(rest, 1.4).room.position - sampleAt(rest, 0.4).room.position).norm());
+            creep = std::max(creep, (sampleAt(rest, 1.4).parts[0].room.position -
+                                     sampleAt(rest, 0.4).parts[0].room.position)
+                                        .norm());
 
             const double angle = 30.0 * kDegree;
             trial::TrialBatch above = slope(angle);
             above.contact = {kFriction, kFriction, 0.0};
             const trial::Trajectory slide = replayScene(*engine, above, 0.01, control);
-            const double speed = (sampleAt(slide, 0.25).velocity - sampleAt(slide, 0.05).velocity).norm();
+            const double speed =
+                (sampleAt(slide, 0.25).parts[0].velocity - sampleAt(slide, 0.05).parts[0].velocity).norm();
             const double expected = base::kStandardGravity * (std::sin(angle) - kFriction * std::cos(angle));
             const double error = speed / 0.2 / expected - 1.0;
             if (std::abs(error) > std::abs(worst)) worst = error;
@@ -83,10 +85,11 @@ std::vector<Row> runSliding(const trial::EngineKind& kind, const base::RunContro
         trial::TrialBatch scene = makeStillScene(makeFlat(), makeFlatBlock(),
                                                  {turned, Vec3(0.1, 0, 17.0 * kMillimetre + 1e-7)}, 0.2);
         scene.contact = {kFriction, kFriction, 0.0};
-        scene.trials[0].start.velocity =
+        scene.trials[0].parts[0].velocity =
             0.3 * Vec3(std::cos(heading * kDegree), std::sin(heading * kDegree), 0.0);
         const trial::Trajectory slide = replayScene(*engine, scene, 1e-3, control);
-        const double loss = sampleAt(slide, 0.005).velocity.norm() - sampleAt(slide, 0.045).velocity.norm();
+        const double loss =
+            sampleAt(slide, 0.005).parts[0].velocity.norm() - sampleAt(slide, 0.045).parts[0].velocity.norm();
         least = std::min(least, loss / 0.04);
         most = std::max(most, loss / 0.04);
     }
@@ -105,8 +108,8 @@ std::vector<Row> runToppling(const trial::EngineKind& kind, const base::RunContr
                                               6.0 * kMillimetre, angle, 0.0, 0.0, 1.5);
         scene.contact = {1.5, 1.5, 0.0};
         const trial::Trajectory trajectory = replayScene(*engine, scene, 0.01, control);
-        const Vec3 up = scene.trials[0].start.pose.rotation * Vec3::UnitZ();
-        const Vec3 end = trajectory.samples.back().room.rotation * Vec3::UnitZ();
+        const Vec3 up = scene.trials[0].parts[0].pose.rotation * Vec3::UnitZ();
+        const Vec3 end = trajectory.samples.back().parts[0].room.rotation * Vec3::UnitZ();
         return end.dot(up) < std::cos(30.0 * kDegree);
     };
     double low = limit - 1.5 * kDegree;

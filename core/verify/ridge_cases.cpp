@@ -38,9 +38,10 @@ Quaternion lyingAlong() {
 double findDeepest(const trial::Trajectory& trajectory, const part::Part& part) {
     double deepest = 0.0;
     for (const trial::TrajectorySample& sample : trajectory.samples) {
-        const base::Mat3 back = sample.room.rotation.toRotationMatrix().transpose();
+        const base::Mat3 back = sample.parts[0].room.rotation.toRotationMatrix().transpose();
         for (int i = -60; i <= 60; ++i) {
-            const Vec3 p = back * (Vec3(kRidgeX, 0.5 * kMillimetre * i, kRidgeTop) - sample.room.position);
+            const Vec3 p =
+                back * (Vec3(kRidgeX, 0.5 * kMillimetre * i, kRidgeTop) - sample.parts[0].room.position);
             double outside = -1e300;
             for (const auto& face : part.hull.faces)
                 outside = std::max(outside, face.normal.dot(p) - face.offset);
@@ -60,7 +61,7 @@ double findEnergyGain(const trial::TrialBatch& scene, const trial::Trajectory& t
         gain = std::max(gain, energy - least);
         least = std::min(least, energy);
     }
-    const double scale = first - scene.part->massProperties.mass * scene.gravity * 15.0 * kMillimetre;
+    const double scale = first - scene.parts[0]->massProperties.mass * scene.gravity * 15.0 * kMillimetre;
     return gain / scale;
 }
 
@@ -77,7 +78,8 @@ std::vector<Row> runRidgeBalance(const trial::EngineKind& kind, const base::RunC
             makeRidge(10.0 * kMillimetre), makePaperCuboid(),
             {lyingAlong(), Vec3(kRidgeX + offset, 0.0, kRidgeTop + 2.0 * kMillimetre + 1e-9)}, 0.15);
         const trial::Trajectory trajectory = replayScene(*engine, scene, 0.01, control);
-        return (trajectory.samples.back().room.rotation * Vec3::UnitX()).x();  // sine of the tilt toward +x
+        return (trajectory.samples.back().parts[0].room.rotation * Vec3::UnitX())
+            .x();  // sine of the tilt toward +x
     };
     const double centred = tilt(0.0);
     const double forward = tilt(0.1 * kMillimetre);
@@ -99,12 +101,12 @@ std::vector<Row> runRidgeDrop(const trial::EngineKind& kind, const base::RunCont
         trial::TrialBatch scene = makeStillScene(
             makeRidge(i % 2 ? 10.0 * kMillimetre : 1.0 * kMillimetre), makePaperCuboid(),
             {rotation, Vec3(kRidgeX + random.uniform(-2e-3, 2e-3), 0.0, kRidgeTop + 8.0 * kMillimetre)}, 0.2);
-        scene.trials[0].start.velocity = Vec3(0.0, 0.0, -1.0);
-        scene.trials[0].start.angularVelocity =
+        scene.trials[0].parts[0].velocity = Vec3(0.0, 0.0, -1.0);
+        scene.trials[0].parts[0].angularVelocity =
             i == 0 ? Vec3::Zero().eval()
                    : Vec3(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
         const trial::Trajectory trajectory = replayScene(*engine, scene, 2e-4, control);
-        deepest = std::max(deepest, findDeepest(trajectory, *scene.part));
+        deepest = std::max(deepest, findDeepest(trajectory, *scene.parts[0]));
         gain = std::max(gain, findEnergyGain(scene, trajectory));
     }
     return {{"dropped on a ridge at 1 m/s, 40 ways: overlap", "< 0.1 mm",
@@ -125,11 +127,11 @@ std::vector<Row> runRidgeSlide(const trial::EngineKind& kind, const base::RunCon
             makeStillScene(makeRidge(20.0 * kMillimetre), makePaperCuboid(),
                            {rotation, Vec3(kRidgeX - 0.035, 0.0, 17.0 * kMillimetre + 1e-9)}, 0.5);
         scene.contact = {0.1, 0.1, 0.3};
-        scene.trials[0].start.velocity = Vec3(0.8, 0.0, 0.0);
+        scene.trials[0].parts[0].velocity = Vec3(0.8, 0.0, 0.0);
         const trial::Trajectory trajectory = replayScene(*engine, scene, 2e-4, control);
-        deepest = std::max(deepest, findDeepest(trajectory, *scene.part));
+        deepest = std::max(deepest, findDeepest(trajectory, *scene.parts[0]));
         gain = std::max(gain, findEnergyGain(scene, trajectory));
-        least = std::min(least, trajectory.samples.back().room.position.x());
+        least = std::min(least, trajectory.samples.back().parts[0].room.position.x());
     }
     return {{"sliding over a ridge at 0.8 m/s: overlap", "< 0.1 mm, gets across",
              fmt::format("{:.4f} mm, {:.0f} mm past the crest", deepest * 1e3, (least - kRidgeX) * 1e3),
@@ -151,11 +153,12 @@ std::vector<Row> runThinWall(const trial::EngineKind& kind, const base::RunContr
         trial::TrialBatch scene = makeStillScene(
             track, makePaperCuboid(),
             {random.rotation(), Vec3(kRidgeX - 0.02, random.uniform(-0.01, 0.01), 23.0 * kMillimetre)}, 0.12);
-        scene.trials[0].start.velocity = Vec3(1.0, 0.0, 0.0);
+        scene.trials[0].parts[0].velocity = Vec3(1.0, 0.0, 0.0);
         const trial::Trajectory trajectory = replayScene(*engine, scene, 2e-4, control);
         // Over the top is allowed; below it no centre may get to the other side.
         for (const trial::TrajectorySample& sample : trajectory.samples)
-            if (sample.room.position.x() > kRidgeX && sample.room.position.z() < 28.0 * kMillimetre) {
+            if (sample.parts[0].room.position.x() > kRidgeX &&
+                sample.parts[0].room.position.z() < 28.0 * kMillimetre) {
                 ++through;
                 break;
             }
@@ -178,8 +181,9 @@ std::vector<Row> runStillTrack(const trial::EngineKind& kind, const base::RunCon
         const trial::Trajectory trajectory = replayScene(*engine, scene, 1.0, control);
         if (trajectory.samples.size() < 12)
             return {{"no vibration on a rough track", "drift < 1 um in 10 s", "the part fell off", false}};
-        drift = std::max(drift,
-                         (trajectory.samples[11].room.position - trajectory.samples[1].room.position).norm());
+        drift = std::max(drift, (trajectory.samples[11].parts[0].room.position -
+                                 trajectory.samples[1].parts[0].room.position)
+                                    .norm());
     }
     return {{"no vibration on a rough track, 6 parts", "drift < 1 um in 10 s",
              fmt::format("{:.3g} um", drift * 1e6), drift < 1e-6}};

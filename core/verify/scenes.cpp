@@ -122,12 +122,13 @@ trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track,
                                  double duration) {
     trial::TrialBatch scene;
     scene.track = std::move(track);
-    scene.part = std::move(part);
+    scene.parts = {std::move(part)};
     scene.drive.halfStroke = 0.0;
     scene.termination.timeLimit = duration;
     scene.termination.stuckTime = 2.0 * duration;
     scene.trials.resize(1);
-    scene.trials[0].start.pose = pose;
+    scene.trials[0].parts.resize(1);
+    scene.trials[0].parts[0].pose = pose;
     return scene;
 }
 
@@ -139,10 +140,16 @@ trial::Trajectory replayScene(const trial::Engine& engine, const trial::TrialBat
 }
 
 double calcEnergy(const trial::TrialBatch& scene, const trial::TrajectorySample& sample) {
-    const geometry::MassProperties& mass = scene.part->massProperties;
-    const Vec3 spin = sample.room.rotation.conjugate() * sample.angularVelocity;
-    return 0.5 * mass.mass * sample.velocity.squaredNorm() + 0.5 * spin.dot(mass.inertia * spin) +
-           mass.mass * scene.gravity * sample.room.position.z();
+    double energy = 0.0;
+    for (std::size_t i = 0; i < sample.parts.size(); ++i) {
+        const trial::PartState& part = sample.parts[i];
+        const std::size_t kind = scene.trials[0].parts[i].part;
+        const geometry::MassProperties& mass = scene.parts[kind]->massProperties;
+        const Vec3 spin = part.room.rotation.conjugate() * part.angularVelocity;
+        energy += 0.5 * mass.mass * part.velocity.squaredNorm() + 0.5 * spin.dot(mass.inertia * spin) +
+                  mass.mass * scene.gravity * part.room.position.z();
+    }
+    return energy;
 }
 
 }  // namespace trapwright::verify

@@ -88,7 +88,7 @@ base::Result<StoredTrials> findLearningTrials(const store::StudyFile& file, cons
     return trials;
 }
 
-std::string describeEnd(const trial::Outcome& outcome) {
+std::string describeEnd(const trial::PartOutcome& outcome) {
     return fmt::format("{} after {:.3f} s at {:.2f} mm", trial::endingName(outcome.ending), outcome.time,
                        outcome.farthest.position.x() / base::kMillimetre);
 }
@@ -157,8 +157,14 @@ base::Result<std::optional<trial::MadeOutcomes>> unpackTrials(const StoredTrials
     // Not those of every pose are there.
     if (made->outcomes.size() != static_cast<std::size_t>(stored.count)) return {std::nullopt};
     made->outcomes.resize(batch.trials.size());
-    for (std::size_t i = 0; i < batch.trials.size(); ++i)
-        made->outcomes[i].initial = trial::startInTrack(*batch.track, batch.trials[i].start);
+    for (std::size_t i = 0; i < batch.trials.size(); ++i) {
+        const std::vector<trial::PartStart>& starts = batch.trials[i].parts;
+        std::vector<trial::PartOutcome>& parts = made->outcomes[i].parts;
+        // Those of another number of parts are not of these trials.
+        if (parts.size() != starts.size()) return {std::nullopt};
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            parts[k].initial = trial::startInTrack(*batch.track, starts[k]);
+    }
     return made;
 }
 
@@ -166,8 +172,12 @@ std::optional<OutcomeDifference> findDifference(const trial::Outcome& stored,
                                                 const trial::OutcomeMaker& storedBy,
                                                 const trial::Outcome& replayed,
                                                 const trial::OutcomeMaker& replayedBy) {
-    if (trial::endAlike(stored, replayed)) return std::nullopt;
-    return OutcomeDifference{stored, storedBy, replayed, replayedBy};
+    assert(stored.parts.size() == replayed.parts.size());
+    for (std::size_t i = 0; i < stored.parts.size(); ++i) {
+        if (!trial::endAlike(stored.parts[i], replayed.parts[i]))
+            return OutcomeDifference{stored.parts[i], storedBy, replayed.parts[i], replayedBy};
+    }
+    return std::nullopt;
 }
 
 std::string describe(const OutcomeDifference& difference) {
@@ -194,16 +204,8 @@ JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::S
         expected ? *expected
                  : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
     judged.verdicts.reserve(outcomes.size());
-    for (const trial::Outcome& outcome : outcomes) {
-        if (outcome.ending == trial::Ending::finished) {
-            judged.verdicts.push_back(trial::isOriented(outcome, judged.expected, symmetry, tolerance)
-                                          ? TrialVerdict::success
-                                          : TrialVerdict::wrongOrientation);
-        } else {
-            judged.verdicts.push_back(outcome.ending == trial::Ending::fellOff ? TrialVerdict::fellOff
-                                                                               : TrialVerdict::stuck);
-        }
-    }
+    for (const trial::Outcome& outcome : outcomes)
+        judged.verdicts.push_back(trial::judge(outcome.parts.front(), judged.expected, symmetry, tolerance));
     return judged;
 }
 

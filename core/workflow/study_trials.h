@@ -13,6 +13,7 @@
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
 #include "core/trial/engine_registry.h"
+#include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::workflow {
@@ -56,9 +57,9 @@ base::Result<std::optional<trial::MadeOutcomes>> unpackTrials(const StoredTrials
 
 /// A trial that ended otherwise when it was simulated again.
 struct OutcomeDifference {
-    trial::Outcome stored;
+    trial::PartOutcome stored;  // of the first part that ended otherwise
     trial::OutcomeMaker storedBy;
-    trial::Outcome replayed;
+    trial::PartOutcome replayed;
     trial::OutcomeMaker replayedBy;
 };
 
@@ -71,13 +72,10 @@ std::optional<OutcomeDifference> findDifference(const trial::Outcome& stored,
 /// How the two ended, who made them, and what holds: some lines for people.
 std::string describe(const OutcomeDifference& difference);
 
-/// How a trial is counted. One that ran out of time is stuck.
-enum class TrialVerdict { success, wrongOrientation, stuck, fellOff };
-
-/// Trials and how each is counted.
+/// Trials and what each counts as.
 struct JudgedTrials {
     base::Quaternion expected = base::Quaternion::Identity();  // the orientation that counts as success
-    std::vector<TrialVerdict> verdicts;                        // slot i for outcome i
+    std::vector<trial::Verdict> verdicts;                      // slot i for outcome i, of its first part
 };
 
 /// `expected`: the orientation that counts; without it the most frequent final one. `tolerance` [rad].

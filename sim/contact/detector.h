@@ -4,18 +4,21 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/trial/contact_force.h"
 #include "sim/contact/contact_body.h"
 #include "sim/contact/contact_track.h"
 #include "sim/contact/formulas/scalar.h"
 
 namespace trapwright::contact {
 
-/// A place where part and track touch or are about to.
+/// A place where two bodies touch or are about to.
 struct Contact {
     base::Vec3 point;       // track frame [m]
-    base::Vec3 normal;      // unit, out of the track into the part
+    base::Vec3 normal;      // unit, out of A into B
     double gap;             // along the normal; negative: overlap [m]
     std::uint64_t feature;  // names the pair of features, to recognise it in the next step
+    trial::Body bodyA = trial::kTrack;
+    trial::Body bodyB = 0;
 };
 
 /// Finds the contacts of one part with one track, step after step. Three kinds of feature pairs: part vertex

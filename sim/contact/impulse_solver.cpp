@@ -1,6 +1,10 @@
 #include "sim/contact/impulse_solver.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
 
 #include "sim/contact/manifold.h"
 
@@ -8,6 +12,68 @@ namespace trapwright::contact {
 
 using base::Mat3;
 using base::Vec3;
+
+namespace scalar {
+
+namespace {
+
+/// The motions of parts that touch each other. What formulas/step.inl does with one part it does with these.
+struct PartMotions {
+    std::vector<Motion> parts;
+};
+
+/// A contact of one of these parts, B, with another or the track.
+struct PairConstraint : ContactConstraint {
+    int a = -1;  // its place in PartMotions; -1: the track
+    int b = 0;
+    Triple turnA[3];    // scaled arm of A x axis
+    Real ratio = 0.0;   // B's mass over A's: impulses are per mass of B
+    Real weight = 1.0;  // B's mass over that of the first part, by which work is compared
+};
+
+Real velocityAlong(const PairConstraint& row, const PartMotions& motion, int k) {
+    const ContactConstraint& own = row;
+    const Real velocity = velocityAlong(own, motion.parts[static_cast<std::size_t>(row.b)], k);
+    if (row.a < 0) return velocity;
+    const Motion& other = motion.parts[static_cast<std::size_t>(row.a)];
+    return velocity - dot(row.axis[k], other.velocity) - dot(row.turnA[k], other.spin);
+}
+
+void applyImpulse(const PairConstraint& row, PartMotions& motion, int k, Real impulse) {
+    const ContactConstraint& own = row;
+    applyImpulse(own, motion.parts[static_cast<std::size_t>(row.b)], k, impulse);
+    if (row.a < 0) return;
+    Motion& other = motion.parts[static_cast<std::size_t>(row.a)];
+    other.velocity = mulAdd(-row.ratio * impulse, row.axis[k], other.velocity);
+    other.spin = mulAdd(-row.ratio * impulse, row.turnA[k], other.spin);
+}
+
+/// Of the slowest: what rests stays where it is, also beside what moves.
+Real squaredSpeed(const PartMotions& motion) {
+    Real least = squaredSpeed(motion.parts.front());
+    for (const Motion& part : motion.parts)
+        least = min(least, squaredSpeed(part));
+    return least;
+}
+
+Real workOf(const PairConstraint& row, Real work) {
+    return row.weight * work;
+}
+
+PartMotions blend(Real early, const PartMotions& first, const PartMotions& second) {
+    PartMotions result = first;
+    for (std::size_t i = 0; i < result.parts.size(); ++i)
+        result.parts[i] = blend(early, first.parts[i], second.parts[i]);
+    return result;
+}
+
+PartMotions select(Mask mask, const PartMotions& yes, const PartMotions& no) {
+    return mask ? yes : no;
+}
+
+}  // namespace
+
+}  // namespace scalar
 
 namespace {
 
@@ -43,53 +109,209 @@ class Scaling {
     Mat3 factor_;  // lower triangular; times its transpose: inverse inertia times mass
 };
 
-}  // namespace
-
-StepResult ImpulseSolver::solve(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
-                                const std::vector<MovingContact>& contacts,
-                                const trial::ContactParameters& law, double dt) {
-    const Scaling scaling(inertia);
-    const scalar::Law pair{law.staticFriction, law.kineticFriction, law.restitution};
-    const scalar::Motion scaledBefore = scaling.scale(before);
-    const scalar::Motion scaledFree = scaling.scale(free);
-    const scalar::Matrix turns = scaling.turns();
-    points_.clear();
-    for (const MovingContact& contact : contacts)
-        points_.push_back({contact.arm, contact.normal, contact.gap});
-    const int count = reduceManifold(points_, kept_);
-    rows_.resize(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i)
-        scalar::prepareConstraint(rows_[i], describe(contacts[kept_[i]]), turns, scaledBefore, scaledFree,
-                                  pair, dt);
-
-    const scalar::Motion after = scalar::solve(rows_.data(), count, scaledFree);
-    StepResult result;
-    result.motion = scaling.unscale(after);
-    result.advance = scaling.unscale(scalar::advancePose(rows_.data(), count, scaledFree, after, dt));
-
-    remembered_.clear();
-    for (int i = 0; i < count; ++i) {
-        const scalar::ContactConstraint& row = rows_[i];
-        result.carrying += row.normal > 0.0 ? 1 : 0;
-        // The impulse of an impact says nothing about the next step's.
-        const bool impact = row.target > 0.0;
-        remembered_.push_back({contacts[kept_[i]].feature, impact ? 0.0 : row.normal,
-                               impact ? scalar::Pair{0.0, 0.0} : row.tangential, row.sliding});
-    }
-    return result;
+scalar::Law lawOf(const MovingContact& contact, const ContactLaws& laws) {
+    const trial::ContactParameters& pair = contact.bodyA == trial::kTrack ? laws.track : laws.parts;
+    return {pair.staticFriction, pair.kineticFriction, pair.restitution};
 }
 
-std::vector<ContactImpulse> ImpulseSolver::impulses(double mass) const {
-    std::vector<ContactImpulse> result;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const scalar::ContactConstraint& row = rows_[i];
-        if (row.normal <= 0.0) continue;
-        const Vec3 perMass = row.normal * fromTriple(row.axis[0]) +
-                             row.tangential.x * fromTriple(row.axis[1]) +
-                             row.tangential.y * fromTriple(row.axis[2]);
-        result.push_back({kept_[i], mass * perMass});
+/// A part on its way through a step, scaled.
+struct ScaledBody {
+    explicit ScaledBody(const MovingBody& body)
+        : scaling(body.inertia),
+          turns(scaling.turns()),
+          before(scaling.scale(body.before)),
+          free(scaling.scale(body.free)),
+          mass(1.0 / body.inertia.inverseMass) {}
+
+    Scaling scaling;
+    scalar::Matrix turns;
+    scalar::Motion before, free;
+    double mass;  // [kg]
+};
+
+/// Like scalar::prepareConstraint, for a contact whose B is `b` and whose A, if it is a part, is `a`.
+void preparePair(scalar::PairConstraint& row, const scalar::MovingContact& touch, const Vec3& armA,
+                 const ScaledBody& b, const ScaledBody* a, const scalar::Law& law, double dt) {
+    if (a == nullptr) {
+        scalar::prepareConstraint(row, touch, b.turns, b.before, b.free, law, dt);
+        return;
     }
-    return result;
+    row.ratio = b.mass / a->mass;
+    scalar::setAxes(row, touch);
+    double speedBefore[3];
+    scalar::InverseMass inverse{};
+    const scalar::Triple arm = toTriple(armA);
+    for (int k = 0; k < 3; ++k) {
+        const scalar::Triple& axis = row.axis[k];
+        row.turn[k] = b.turns * scalar::cross(touch.arm, axis);
+        row.turnA[k] = a->turns * scalar::cross(arm, axis);
+        row.track[k] = 0.0;
+        const auto along = [&](const scalar::Motion& ofB, const scalar::Motion& ofA) {
+            return scalar::dot(axis, ofB.velocity - ofA.velocity) + scalar::dot(row.turn[k], ofB.spin) -
+                   scalar::dot(row.turnA[k], ofA.spin);
+        };
+        row.speed[k] = along(b.free, a->free);
+        speedBefore[k] = along(b.before, a->before);
+        inverse.along[k] = 1.0 + scalar::dot(row.turn[k], row.turn[k]) +
+                           row.ratio * (1.0 + scalar::dot(row.turnA[k], row.turnA[k]));
+    }
+    inverse.coupling =
+        scalar::dot(row.turn[1], row.turn[2]) + row.ratio * scalar::dot(row.turnA[1], row.turnA[2]);
+    scalar::applyLaw(row, touch, inverse, speedBefore, law, dt);
+}
+
+bool isOfSameBodies(const MovingContact& a, const MovingContact& b) {
+    return a.bodyA == b.bodyA && a.bodyB == b.bodyB;
+}
+
+}  // namespace
+
+/// Parts that touch each other, directly or by others, and what they touch.
+struct ImpulseSolver::Island {
+    std::vector<int> bodies;
+    std::vector<int> contacts;  // in their order
+};
+
+void ImpulseSolver::reduce(std::span<const MovingContact> contacts, bool sameBodies) {
+    if (sameBodies) {
+        points_.clear();
+        for (const MovingContact& contact : contacts)
+            points_.push_back({contact.arm, contact.normal, contact.gap});
+        kept_.resize(kMaxContacts);
+        kept_.resize(static_cast<std::size_t>(reduceManifold(points_, kept_)));
+        return;
+    }
+    kept_.clear();
+    std::vector<bool> taken(contacts.size(), false);
+    std::vector<int> own;
+    for (std::size_t first = 0; first < contacts.size(); ++first) {
+        if (taken[first]) continue;
+        own.clear();
+        points_.clear();
+        for (std::size_t i = first; i < contacts.size(); ++i) {
+            if (!isOfSameBodies(contacts[i], contacts[first])) continue;
+            taken[i] = true;
+            own.push_back(static_cast<int>(i));
+            points_.push_back({contacts[i].arm, contacts[i].normal, contacts[i].gap});
+        }
+        std::array<int, kMaxContacts> kept;
+        const int count = reduceManifold(points_, kept);
+        for (int i = 0; i < count; ++i)
+            kept_.push_back(own[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])]);
+    }
+}
+
+std::span<const StepResult> ImpulseSolver::solve(std::span<const MovingBody> bodies,
+                                                 std::span<const MovingContact> contacts,
+                                                 const ContactLaws& laws, double dt) {
+    results_.clear();
+    for (const MovingBody& body : bodies)
+        results_.push_back({body.free, body.free, 0});
+    impulses_.clear();
+    next_.clear();
+    reduce(contacts, bodies.size() == 1);
+    if (bodies.size() == 1) {
+        solveAlone(bodies, contacts, kept_, laws, dt);
+    } else {
+        // Which island each body is on: that of the first body on it.
+        std::vector<int> island(bodies.size());
+        std::iota(island.begin(), island.end(), 0);
+        for (const int i : kept_) {
+            const MovingContact& contact = contacts[static_cast<std::size_t>(i)];
+            if (contact.bodyA == trial::kTrack) continue;
+            const auto ofA = island[static_cast<std::size_t>(contact.bodyA)];
+            const auto ofB = island[static_cast<std::size_t>(contact.bodyB)];
+            std::replace(island.begin(), island.end(), std::max(ofA, ofB), std::min(ofA, ofB));
+        }
+        std::vector<Island> islands(bodies.size());
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            islands[static_cast<std::size_t>(island[i])].bodies.push_back(static_cast<int>(i));
+        for (const int i : kept_) {
+            const MovingContact& contact = contacts[static_cast<std::size_t>(i)];
+            islands[static_cast<std::size_t>(island[static_cast<std::size_t>(contact.bodyB)])]
+                .contacts.push_back(i);
+        }
+        for (const Island& one : islands) {
+            if (one.contacts.empty()) continue;
+            if (one.bodies.size() == 1)
+                solveAlone(bodies, contacts, one.contacts, laws, dt);
+            else
+                solveTogether(bodies, contacts, one, laws, dt);
+        }
+    }
+    std::swap(remembered_, next_);
+    return results_;
+}
+
+void ImpulseSolver::solveAlone(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
+                               std::span<const int> kept, const ContactLaws& laws, double dt) {
+    const auto index = kept.empty()
+                           ? std::size_t{0}
+                           : static_cast<std::size_t>(contacts[static_cast<std::size_t>(kept.front())].bodyB);
+    const ScaledBody body(bodies[index]);
+    const int count = static_cast<int>(kept.size());
+    rows_.resize(kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const MovingContact& contact = contacts[static_cast<std::size_t>(kept[i])];
+        scalar::prepareConstraint(rows_[i], describe(contact), body.turns, body.before, body.free,
+                                  lawOf(contact, laws), dt);
+    }
+    const scalar::Motion after = scalar::solve(rows_.data(), count, body.free);
+    StepResult& result = results_[index];
+    result.motion = body.scaling.unscale(after);
+    result.advance = body.scaling.unscale(scalar::advancePose(rows_.data(), count, body.free, after, dt));
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        keep(contacts[static_cast<std::size_t>(kept[i])], kept[i], rows_[i], body.mass);
+}
+
+void ImpulseSolver::solveTogether(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
+                                  const Island& island, const ContactLaws& laws, double dt) {
+    std::vector<ScaledBody> own;
+    scalar::PartMotions free;
+    for (const int body : island.bodies) {
+        own.emplace_back(bodies[static_cast<std::size_t>(body)]);
+        free.parts.push_back(own.back().free);
+    }
+    const auto placeOf = [&](trial::Body body) {
+        return static_cast<int>(std::ranges::find(island.bodies, body) - island.bodies.begin());
+    };
+    std::vector<scalar::PairConstraint> rows(island.contacts.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const MovingContact& contact = contacts[static_cast<std::size_t>(island.contacts[i])];
+        scalar::PairConstraint& row = rows[i];
+        row.b = placeOf(contact.bodyB);
+        row.a = contact.bodyA == trial::kTrack ? -1 : placeOf(contact.bodyA);
+        const ScaledBody& b = own[static_cast<std::size_t>(row.b)];
+        const ScaledBody* a = row.a < 0 ? nullptr : &own[static_cast<std::size_t>(row.a)];
+        row.weight = b.mass / own.front().mass;
+        preparePair(row, describe(contact), contact.armA, b, a, lawOf(contact, laws), dt);
+    }
+    const int count = static_cast<int>(rows.size());
+    const scalar::PartMotions after = scalar::solve(rows.data(), count, free);
+    const scalar::PartMotions advance = scalar::advancePose(rows.data(), count, free, after, dt);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        StepResult& result = results_[static_cast<std::size_t>(island.bodies[i])];
+        result.motion = own[i].scaling.unscale(after.parts[i]);
+        result.advance = own[i].scaling.unscale(advance.parts[i]);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        keep(contacts[static_cast<std::size_t>(island.contacts[i])], island.contacts[i], rows[i],
+             own[static_cast<std::size_t>(rows[i].b)].mass);
+}
+
+/// For the next step, and for whoever asks for impulses. `mass`: of B [kg].
+void ImpulseSolver::keep(const MovingContact& contact, int index, const scalar::ContactConstraint& row,
+                         double mass) {
+    // The impulse of an impact says nothing about the next step's.
+    const bool impact = row.target > 0.0;
+    next_.push_back({contact.bodyA, contact.bodyB, contact.feature, impact ? 0.0 : row.normal,
+                     impact ? scalar::Pair{0.0, 0.0} : row.tangential, row.sliding});
+    if (row.normal <= 0.0) return;
+    ++results_[static_cast<std::size_t>(contact.bodyB)].carrying;
+    if (contact.bodyA != trial::kTrack) ++results_[static_cast<std::size_t>(contact.bodyA)].carrying;
+    const Vec3 perMass = row.normal * fromTriple(row.axis[0]) + row.tangential.x * fromTriple(row.axis[1]) +
+                         row.tangential.y * fromTriple(row.axis[2]);
+    impulses_.push_back({index, mass * perMass});
 }
 
 scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact) const {
@@ -103,7 +325,8 @@ scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact) cons
                                 {0.0, 0.0},
                                 false};
     for (const Remembered& old : remembered_) {
-        if (old.feature != contact.feature) continue;
+        if (old.feature != contact.feature || old.bodyA != contact.bodyA || old.bodyB != contact.bodyB)
+            continue;
         touch.known = true;
         touch.normalImpulse = old.normal;
         touch.tangentialImpulse = old.tangential;

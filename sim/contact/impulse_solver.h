@@ -1,90 +1,97 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/trial/contact_force.h"
+#include "sim/contact/body_motion.h"
 #include "sim/contact/formulas/scalar.h"
 #include "sim/contact/law.h"
 #include "sim/contact/manifold_point.h"
 
 namespace trapwright::contact {
 
-/// Velocity of the centre of mass and angular velocity, or the impulses that change them. Room axes.
-struct BodyMotion {
-    base::Vec3 velocity = base::Vec3::Zero();         // [m/s]
-    base::Vec3 angularVelocity = base::Vec3::Zero();  // [rad/s]
-
-    [[nodiscard]] base::Vec3 at(const base::Vec3& arm) const { return velocity + angularVelocity.cross(arm); }
-};
-
-/// The part's inverse inertia in room axes.
-struct BodyInertia {
-    double inverseMass;         // [1/kg]
-    base::Mat3 inverseInertia;  // about the centre of mass [1/(kg m^2)]
+/// A part at the begin of a step.
+struct MovingBody {
+    BodyInertia inertia;
+    BodyMotion before;  // in the step before
+    BodyMotion free;    // before plus what gravity and gyroscopic torque add in this step
 };
 
 /// A contact of one step, in room axes.
 struct MovingContact {
-    base::Vec3 arm;                  // from the centre of mass to the point [m]
-    base::Vec3 normal;               // unit, track -> part
+    base::Vec3 arm;                  // from B's centre of mass to the point [m]
+    base::Vec3 normal;               // unit, A -> B
     double gap;                      // at the step's begin [m]
-    base::Vec3 trackVelocity;        // of the track at the point, mean over this step [m/s]
+    base::Vec3 trackVelocity;        // if A is the track: of it at the point, mean over this step [m/s]
     base::Vec3 trackVelocityBefore;  // the same over the step before [m/s]
     std::uint64_t feature;
+    trial::Body bodyA = trial::kTrack;
+    trial::Body bodyB = 0;
+    base::Vec3 armA = base::Vec3::Zero();  // if A is a part: from its centre of mass to the point [m]
 };
 
-/// What one contact gave the part in a step.
+/// The materials that touch.
+struct ContactLaws {
+    trial::ContactParameters track;  // parts with the track
+    trial::ContactParameters parts;  // parts with each other
+};
+
+/// What one contact gave its body B in a step; A has lost as much.
 struct ContactImpulse {
     int contact;         // index into the contacts of the step
     base::Vec3 impulse;  // room axes [N s]
 };
 
-/// What a step does to a part.
-struct StepResult {
-    BodyMotion motion;   // after the step's impulses
-    BodyMotion advance;  // moves the pose over the step: an impact happens inside it
-    int carrying = 0;    // contacts with an impulse
-};
-
-/// The discrete form of the contact law: impulses of one part's contacts over one time step, by projected
-/// Gauss-Seidel with warm starting. Velocities are means over a step (they live half-way between two poses),
-/// so free flight is exact and a resting part follows the track exactly. One solver per running trial: it
-/// remembers impulses from step to step.
+/// The discrete form of the contact law: impulses at the contacts of parts with the track and with each other
+/// over one time step, by projected Gauss-Seidel with warm starting. Velocities are means over a step (they
+/// live half-way between two poses), so free flight is exact and a resting part follows the track exactly.
+/// Parts that touch each other, directly or by others, are solved together; one that touches none moves as if
+/// it were alone, bit for bit. One solver per running trial: it remembers impulses from step to step.
 class ImpulseSolver {
  public:
-    /// before: motion in the step before. free: before plus what gravity and gyroscopic torque add in this
-    /// step. dt [s]. Contacts that say the same are taken as one, more than
-    /// kMaxContacts are thinned out.
-    StepResult solve(const BodyInertia& inertia, const BodyMotion& before, const BodyMotion& free,
-                     const std::vector<MovingContact>& contacts, const trial::ContactParameters& law,
-                     double dt);
+    /// dt [s]. Of each two bodies, contacts that say the same are taken as one, and more than kMaxContacts
+    /// are thinned out. Slot i of the result is for body i; valid until the next call.
+    std::span<const StepResult> solve(std::span<const MovingBody> bodies,
+                                      std::span<const MovingContact> contacts, const ContactLaws& laws,
+                                      double dt);
 
-    /// The impulse that each contact of the last solve gave a part of this mass [kg]; for contacts that stand
-    /// for others, theirs too.
-    [[nodiscard]] std::vector<ContactImpulse> impulses(double mass) const;
+    /// The impulse of each contact of the last solve; for contacts that stand for others, theirs too.
+    [[nodiscard]] const std::vector<ContactImpulse>& impulses() const { return impulses_; }
 
-    /// Forgets all impulses: the part no longer touches anything.
+    /// Forgets all impulses: nothing touches any more.
     void release() { remembered_.clear(); }
     [[nodiscard]] bool released() const { return remembered_.empty(); }
 
     static constexpr int kMaxContacts = 12;
 
  private:
+    /// What a contact's impulses were, per mass of B.
     struct Remembered {
+        trial::Body bodyA, bodyB;
         std::uint64_t feature;
         double normal;
-        scalar::Pair tangential;  // along the row's two tangents
+        scalar::Pair tangential;  // along the constraint's two tangents
         bool sliding;
     };
+    struct Island;
 
+    void reduce(std::span<const MovingContact> contacts, bool sameBodies);
+    void solveAlone(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
+                    std::span<const int> kept, const ContactLaws& laws, double dt);
+    void solveTogether(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
+                       const Island& island, const ContactLaws& laws, double dt);
+    void keep(const MovingContact& contact, int index, const scalar::ContactConstraint& row, double mass);
     [[nodiscard]] scalar::MovingContact describe(const MovingContact& contact) const;
 
+    std::vector<StepResult> results_;
+    std::vector<int> kept_;  // contacts that stand for all
     std::vector<scalar::ContactConstraint> rows_;
-    std::array<int, kMaxContacts> kept_{};  // which contact each row is of
     std::vector<ManifoldPoint> points_;
-    std::vector<Remembered> remembered_;
+    std::vector<Remembered> remembered_, next_;
+    std::vector<ContactImpulse> impulses_;
 };
 
 }  // namespace trapwright::contact

@@ -43,11 +43,12 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
             const Vec3 here = now_.toRoom(point.point);
             stepContacts_.push_back({here - pose.position, now_.turn(point.normal), point.gap,
                                      (next_.toRoom(point.point) - here) / dt_,
-                                     (here - before_.toRoom(point.point)) / dt_, point.feature});
+                                     (here - before_.toRoom(point.point)) / dt_, point.feature, point.bodyA,
+                                     point.bodyB});
         }
         const base::Mat3 rotation = pose.rotation.toRotationMatrix();
-        const BodyInertia inertia{inverseMass, rotation * inverseInertia * rotation.transpose()};
-        result = solver_.solve(inertia, before, free, stepContacts_, law_, dt_);
+        const MovingBody body{{inverseMass, rotation * inverseInertia * rotation.transpose()}, before, free};
+        result = solver_.solve({&body, 1}, stepContacts_, {law_, law_}, dt_).front();
     }
     laps.end(&trial::Costs::law);
 
@@ -59,13 +60,15 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
     return result;
 }
 
-std::vector<trial::ContactForce> PartContact::forces(double mass) const {
+std::vector<trial::ContactForce> PartContact::forces() const {
     std::vector<trial::ContactForce> result;
     if (points_.empty()) return result;
     // The track has moved on since.
-    for (const ContactImpulse& given : solver_.impulses(mass))
+    for (const ContactImpulse& given : solver_.impulses()) {
+        const Contact& contact = points_[static_cast<std::size_t>(given.contact)];
         result.push_back(
-            {points_[static_cast<std::size_t>(given.contact)].point, before_.turnBack(given.impulse) / dt_});
+            {contact.bodyA, contact.bodyB, contact.point, before_.turnBack(given.impulse) / dt_});
+    }
     return result;
 }
 

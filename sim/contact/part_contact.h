@@ -25,8 +25,8 @@ class PartContact {
 
     /// The part's pose relative to the track at the step that step() would take next.
     [[nodiscard]] base::Pose poseInTrack(const base::Pose& pose) const { return now_.toTrack(pose); }
-    /// What the contacts of the last step did to a part of this mass [kg], mean over the step.
-    [[nodiscard]] std::vector<trial::ContactForce> forces(double mass) const;
+    /// What the contacts of the last step did to the part, mean over the step.
+    [[nodiscard]] std::vector<trial::ContactForce> forces() const;
     /// Contacts of the last step.
     [[nodiscard]] const std::vector<Contact>& contacts() const { return points_; }
 

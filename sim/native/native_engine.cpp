@@ -38,7 +38,7 @@ struct Run {
         : scene(std::move(s)),
           batch(b),
           trial(t),
-          progress(*scene->batch->track, scene->batch->termination) {}
+          progress(*scene->batch->track, scene->batch->termination, 1) {}
 
     std::shared_ptr<const Scene> scene;
     std::size_t batch;
@@ -70,7 +70,7 @@ class RunningTrials {
         Run& run = runs_[lane];
         if (run.untilCheck-- > 0) return false;
         run.untilCheck = stepsPerCheck_ - 1;
-        return run.progress.update(time(lane), group_.poseInTrack(lane)).has_value();
+        return run.progress.update(0, time(lane), group_.poseInTrack(lane)).has_value();
     }
     /// One step of all lanes.
     void step() {
@@ -146,14 +146,15 @@ trial::TrajectorySample sampleOf(RunningTrials& trials, const contact::DriveMoti
     const double dt = group.model().step;
     trial::TrajectorySample sample;
     sample.time = trials.time(0);
-    sample.room = group.poseInRoom(0);
-    sample.room.rotation.normalize();
-    sample.track = trials.run(0).progress.toTrackCoordinates(group.poseInTrack(0));
     sample.drive = drive.displacement(sample.time);
-    sample.velocity = 0.5 * (three(group, kVelocityX, 0) + three(group, kAfterX, 0));
-    sample.angularVelocity = three(group, kSpinX, 0) +
-                             dt * (0.375 * three(group, kTurnX, 0) + 0.125 * three(group, kTurnBeforeX, 0));
-    sample.contacts = group.warmStarts[0].carrying;
+    trial::PartState& part = sample.parts.emplace_back();
+    part.room = group.poseInRoom(0);
+    part.room.rotation.normalize();
+    part.track = trials.run(0).progress.toTrackCoordinates(0, group.poseInTrack(0));
+    part.velocity = 0.5 * (three(group, kVelocityX, 0) + three(group, kAfterX, 0));
+    part.angularVelocity = three(group, kSpinX, 0) +
+                           dt * (0.375 * three(group, kTurnX, 0) + 0.125 * three(group, kTurnBeforeX, 0));
+    part.contacts = group.warmStarts[0].carrying;
     return sample;
 }
 
@@ -172,13 +173,13 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;
     for (const trial::TrialBatch& batch : batches) {
-        if (const auto problem = findProblem(batch)) return *problem;
+        if (const auto problem = findSinglePartProblem(batch, kName)) return *problem;
         outcomes.emplace_back(batch.trials.size());
     }
     for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
         const trial::TrialBatch& like = batches[members.front()];
-        const PackedBody body(contact::prepareBody(like.part->pieces));
-        const LaneModel model(*like.part, body, like.gravity, step_, anyBowl(batches, members));
+        const PackedBody body(contact::prepareBody(like.parts.front()->pieces));
+        const LaneModel model(*like.parts.front(), body, like.gravity, step_, anyBowl(batches, members));
         TrialQueue queue(batches, std::move(members));
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
@@ -192,10 +193,10 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
 
 base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                      double interval, base::RunControl control) const {
-    if (const auto problem = findProblem(batch, index)) return *problem;
-    const PackedBody body(contact::prepareBody(batch.part->pieces));
-    const LaneModel model(*batch.part, body, batch.gravity, step_, anyBowl({&batch, 1}, {0}));
-    const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].start.phase);
+    if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
+    const PackedBody body(contact::prepareBody(batch.parts.front()->pieces));
+    const LaneModel model(*batch.parts.front(), body, batch.gravity, step_, anyBowl({&batch, 1}, {0}));
+    const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].phase);
     RunningTrials trials(model, 1);
     trials.add(std::make_shared<const Scene>(batch), 0, index);
     std::vector<RecordedImpulse> recorded;
@@ -215,10 +216,11 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
         const base::Vec3 centre = trials.group().poseInTrack(0).position;
         const contact::TrackPlacement placement = drive.placement(trials.time(0));
         trials.finish();
-        const double rate = batch.part->massProperties.mass / step_;
+        const double rate = batch.parts.front()->massProperties.mass / step_;
         forces.clear();
         for (const RecordedImpulse& given : recorded)
-            forces.push_back({centre + given.arm, rate * placement.turnBack(given.impulse)});
+            forces.push_back(
+                {trial::kTrack, 0, centre + given.arm, rate * placement.turnBack(given.impulse)});
     }
     trajectory.outcome = trials.run(0).progress.outcome();
     control.advance(1);

@@ -75,8 +75,9 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     };
 
     // At rest in the room, where the track is at the drive's phase.
-    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.start.phase);
-    const base::Pose pose = drive.placement(0.0).toRoom(spec.start.pose);
+    const trial::PartStart& start = spec.parts.front();
+    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.phase);
+    const base::Pose pose = drive.placement(0.0).toRoom(start.pose);
     for (int k = 0; k < 3; ++k)
         position(k)[lane] = pose.position[k];
     set(kPositionX, pose.position.x());
@@ -87,21 +88,21 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     // Velocities belong to the middles of steps: go back by half of one.
     const double dt = model_->step;
     const Mat3 rotation = pose.rotation.toRotationMatrix();
-    const Mat3 inertia = rotation * batch.part->massProperties.inertia * rotation.transpose();
-    const Vec3& w = spec.start.angularVelocity;
+    const Mat3 inertia = rotation * batch.parts.front()->massProperties.inertia * rotation.transpose();
+    const Vec3& w = start.angularVelocity;
     const Vec3 turn = -inertia.inverse() * w.cross(inertia * w);
     setThree(kTurnX, turn);
     setThree(kTurnBeforeX, turn);
     setThree(kSpinX, w - 0.5 * dt * turn);
-    setThree(kVelocityX, spec.start.velocity + Vec3(0.0, 0.0, 0.5 * dt * batch.gravity));
+    setThree(kVelocityX, start.velocity + Vec3(0.0, 0.0, 0.5 * dt * batch.gravity));
 
     const double turns = batch.drive.frequency * dt;
-    const double start = spec.start.phase / (2.0 * base::kPi);
-    const auto sine = [&](int step) { return std::sin(2.0 * base::kPi * (start + step * turns)); };
+    const double begin = spec.phase / (2.0 * base::kPi);
+    const auto sine = [&](int step) { return std::sin(2.0 * base::kPi * (begin + step * turns)); };
     set(kDriveBefore, sine(-1));
     set(kDriveNow, sine(0));
     set(kDriveNext, sine(1));
-    phase[lane] = toTurns(start + 2.0 * turns);
+    phase[lane] = toTurns(begin + 2.0 * turns);
     cycle[lane] = toTurns(turns);
     const contact::DriveMotion::Amplitudes amplitudes = drive.amplitudes();
     set(kDriveAlong, amplitudes.along);

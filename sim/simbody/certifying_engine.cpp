@@ -18,14 +18,14 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
                                           double interval, const base::RunControl& control) {
     const trial::TrialBatch& batch = *scene.batch;
     const trial::TrialSpec& spec = batch.trials[index];
-    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.start.phase);
+    const trial::PartStart& start = spec.parts.front();
+    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.phase);
     const contact::TrackPlacement placement = drive.placement(0.0);
-    CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, batch.drive, spec.start.phase,
-                             batch.part->massProperties.mass, batch.part->massProperties.inertia,
-                             batch.gravity, lawOf(batch, spec)},
-                            placement.toRoom(spec.start.pose),
-                            {spec.start.velocity, spec.start.angularVelocity});
-    trial::TerminationMonitor progress(*batch.track, batch.termination);
+    CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, batch.drive, spec.phase,
+                             batch.parts.front()->massProperties.mass,
+                             batch.parts.front()->massProperties.inertia, batch.gravity, lawOf(batch, spec)},
+                            placement.toRoom(start.pose), {start.velocity, start.angularVelocity});
+    trial::TerminationMonitor progress(*batch.track, batch.termination, 1);
     trial::Trajectory trajectory;
     long checks = 0;
     double time = 0.0;
@@ -38,14 +38,14 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
         running.advanceTo(time);
         if (sampling) {
             const contact::BodyMotion motion = running.motion();
-            trajectory.samples.push_back({time, running.pose(),
-                                          progress.toTrackCoordinates(running.poseInTrack()),
-                                          drive.displacement(time), motion.velocity, motion.angularVelocity,
-                                          static_cast<int>(running.forces().size()), running.forces()});
+            const trial::PartState part{running.pose(), progress.toTrackCoordinates(0, running.poseInTrack()),
+                                        motion.velocity, motion.angularVelocity,
+                                        static_cast<int>(running.forces().size())};
+            trajectory.samples.push_back({time, drive.displacement(time), {part}, running.forces()});
             continue;
         }
         ++checks;
-        if (progress.update(time, running.poseInTrack())) break;
+        if (progress.update(0, time, running.poseInTrack())) break;
     }
     trajectory.outcome = progress.outcome();
     return trajectory;
@@ -61,7 +61,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> CertifyingEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;
     for (const trial::TrialBatch& batch : batches) {
-        if (const auto problem = findProblem(batch)) return *problem;
+        if (const auto problem = findSinglePartProblem(batch, kName)) return *problem;
         outcomes.emplace_back(batch.trials.size());
     }
     try {
@@ -83,7 +83,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> CertifyingEngine::run(
 
 base::Result<trial::Trajectory> CertifyingEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                          double interval, base::RunControl control) const {
-    if (const auto problem = findProblem(batch, index)) return *problem;
+    if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
     try {
         auto trajectory = simulate(Scene(batch), index, step_, interval, control);
         if (!trajectory) return base::Error{"The replay was cancelled."};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/contact/detector.h"
+#include "sim/contact/law.h"
 
 namespace trapwright::simbody {
 
@@ -73,7 +74,8 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
                 pressure * normal - pressure * contact::calcFrictionRatio(slip.norm(), law_) * slip;
             part.applyForceToBodyPoint(state, onPart, force, bodyForces);
             track.applyForceToBodyPoint(state, onTrack, -force, bodyForces);
-            pressing_.push_back({point.point, fromSimbody(SimTK::Vec3(~trackInRoom.R() * force))});
+            pressing_.push_back(
+                {point.bodyA, point.bodyB, point.point, fromSimbody(SimTK::Vec3(~trackInRoom.R() * force))});
         }
     }
 

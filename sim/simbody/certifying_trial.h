@@ -5,10 +5,11 @@
 #include "core/base/math.h"
 #include "core/track/feeder_shape.h"
 #include "core/trial/contact_force.h"
+#include "core/trial/contact_parameters.h"
 #include "core/trial/vibration.h"
+#include "sim/contact/body_motion.h"
 #include "sim/contact/contact_body.h"
 #include "sim/contact/contact_track.h"
-#include "sim/contact/impulse_solver.h"
 
 namespace trapwright::simbody {
 

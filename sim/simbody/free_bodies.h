@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/base/math.h"
-#include "sim/contact/impulse_solver.h"
+#include "sim/contact/body_motion.h"
 
 namespace trapwright::simbody {
 

@@ -61,7 +61,7 @@ class Worker {
     };
 
     [[nodiscard]] FreeBodies makeBodies(int count) const {
-        const geometry::MassProperties& mass = like_->part->massProperties;
+        const geometry::MassProperties& mass = like_->parts.front()->massProperties;
         return {mass.mass, mass.inertia, like_->gravity, count};
     }
 
@@ -112,7 +112,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;
     for (const trial::TrialBatch& batch : batches) {
-        if (const auto problem = findProblem(batch)) return *problem;
+        if (const auto problem = findSinglePartProblem(batch, kName)) return *problem;
         outcomes.emplace_back(batch.trials.size());
     }
 
@@ -136,9 +136,9 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
 
 base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                       double interval, base::RunControl control) const {
-    if (const auto problem = findProblem(batch, index)) return *problem;
+    if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
     try {
-        const geometry::MassProperties& mass = batch.part->massProperties;
+        const geometry::MassProperties& mass = batch.parts.front()->massProperties;
         FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);
         TrialLane lane(std::make_shared<const Scene>(batch), index, bodies, 0, step_);
         trial::CostLaps laps(nullptr);

@@ -19,25 +19,27 @@ trial::ContactParameters lawOf(const trial::TrialBatch& batch, const trial::Tria
 }
 
 Scene::Scene(const trial::TrialBatch& b)
-    : batch(&b), track(contact::prepareTrack(b.track->solid)), body(contact::prepareBody(b.part->pieces)) {}
+    : batch(&b),
+      track(contact::prepareTrack(b.track->solid)),
+      body(contact::prepareBody(b.parts.front()->pieces)) {}
 
 TrialLane::TrialLane(std::shared_ptr<const Scene> scene, std::size_t trial, FreeBodies& bodies, int slot,
                      double dt)
     : scene_(std::move(scene)),
       dt_(dt),
       stepsPerCheck_(std::max(1L, std::lround(kCheckInterval / dt))),
-      drive_(scene_->batch->drive, scene_->batch->track->shape, scene_->batch->trials[trial].start.phase),
+      drive_(scene_->batch->drive, scene_->batch->track->shape, scene_->batch->trials[trial].phase),
       contact_(scene_->track, scene_->body, drive_, lawOf(*scene_->batch, scene_->batch->trials[trial]), dt),
-      progress_(*scene_->batch->track, scene_->batch->termination) {
+      progress_(*scene_->batch->track, scene_->batch->termination, 1) {
     // At rest in the room, where the track is at the drive's phase.
-    const trial::TrialStart& start = scene_->batch->trials[trial].start;
+    const trial::PartStart& start = scene_->batch->trials[trial].parts.front();
     bodies.place(slot, drive_.placement(0.0).toRoom(start.pose), {start.velocity, start.angularVelocity}, dt);
 }
 
 std::optional<trial::Ending> TrialLane::step(FreeBodies& bodies, int slot, trial::CostLaps& laps) {
     const base::Pose pose = bodies.pose(slot);
     if (steps_ % stepsPerCheck_ == 0) {
-        const auto ending = progress_.update(time(), contact_.poseInTrack(pose));
+        const auto ending = progress_.update(0, time(), contact_.poseInTrack(pose));
         if (ending) return ending;
     }
     laps.end(&trial::Costs::integration);
@@ -53,14 +55,15 @@ std::optional<trial::Ending> TrialLane::step(FreeBodies& bodies, int slot, trial
 trial::TrajectorySample TrialLane::sample(const FreeBodies& bodies, int slot) const {
     trial::TrajectorySample sample;
     sample.time = time();
-    sample.room = bodies.pose(slot);
-    sample.track = progress_.toTrackCoordinates(contact_.poseInTrack(sample.room));
     sample.drive = drive_.displacement(sample.time);
+    trial::PartState& part = sample.parts.emplace_back();
+    part.room = bodies.pose(slot);
+    part.track = progress_.toTrackCoordinates(0, contact_.poseInTrack(part.room));
     const contact::BodyMotion motion = bodies.now(slot, dt_);
-    sample.velocity = motion.velocity;
-    sample.angularVelocity = motion.angularVelocity;
-    sample.contacts = carrying_;
-    if (steps_ > 0) sample.forces = contact_.forces(1.0 / bodies.inverseMass());
+    part.velocity = motion.velocity;
+    part.angularVelocity = motion.angularVelocity;
+    part.contacts = carrying_;
+    if (steps_ > 0) sample.forces = contact_.forces();
     return sample;
 }
 

@@ -31,7 +31,7 @@ class PhysicalTest : public QObject {
             physical.plan = {{0, 2}, 2};
             physical.trials.resize(3);
             physical.trials[1].number = 1;
-            physical.trials[1].outcome = study::PhysicalOutcome::fellOff;
+            physical.trials[1].outcome = trial::Verdict::fellOff;
             physical.trials[2].number = 2;
             physical.trials[2].pose = 2;
             VERIFY_OK(study->addPhysicalValidation({}));

@@ -30,7 +30,7 @@ class StoredTrialsTest : public QObject {
         const QJsonObject before = replay().json();
         sample::changeMaker(path(), {"trapwright 0.0-other", "native", "AVX9"});
         QVERIFY(replay().json()["stored_otherwise"].isNull());
-        sample::changeOutcomes(path(), 1, [](std::size_t, trial::Outcome& outcome) {
+        sample::changeOutcomes(path(), 1, [](std::size_t, trial::PartOutcome& outcome) {
             outcome.ending = trial::Ending::timedOut;
             outcome.time = 9.75;
         });

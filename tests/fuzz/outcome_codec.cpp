@@ -27,11 +27,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         double numbers[8];
         std::memcpy(numbers, bytes.data() + 65 * i, sizeof numbers);
-        outcomes[i].ending = static_cast<trial::Ending>(bytes[65 * i + 64] & 3);
-        outcomes[i].time = numbers[0];
-        outcomes[i].farthest.position = {numbers[1], numbers[2], numbers[3]};
-        outcomes[i].farthest.rotation = base::Quaternion(numbers[4], numbers[5], numbers[6], numbers[7]);
+        trial::PartOutcome part;
+        part.ending = static_cast<trial::Ending>(bytes[65 * i + 64] & 3);
+        part.time = numbers[0];
+        part.farthest.position = {numbers[1], numbers[2], numbers[3]};
+        part.farthest.rotation = base::Quaternion(numbers[4], numbers[5], numbers[6], numbers[7]);
+        // Most trials have one part, some have two or none.
+        const int kind = bytes[65 * i + 64] & 0xf0;
+        outcomes[i].parts.assign(kind == 0xf0 ? 2 : kind == 0xe0 ? 0 : 1, part);
     }
+    outcomes.resize(trial::countPackable(outcomes));
     const std::string packed = trial::packOutcomes(outcomes);
     const auto back = trial::unpackOutcomes(packed, outcomes.size());
     fuzz::require(back && trial::packOutcomes(*back) == packed, "outcomes come back");

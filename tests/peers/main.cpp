@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
                      "trapwright-peers");
     app::BenchOptions options;
     bool json = false;
-    app::addBenchOptions(program, options);
+    app::addBenchOptions(app::Command(program), options);
     program.add_flag("--json", json, "Print one JSON document for machines and nothing else");
     CLI11_PARSE(program, argc, argv);
 

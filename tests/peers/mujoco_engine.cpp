@@ -93,9 +93,9 @@ MujocoTrial::MujocoTrial(const MujocoScene& scene, std::size_t index)
     friction_ = batch_.contact.kineticFriction * spec.frictionScale;
     damping_ = calcDampingRatio(batch_.contact.restitution * spec.restitutionScale);
     // The start pose is told relative to the track already.
-    const base::Pose& pose = spec.start.pose;
+    const base::Pose& pose = spec.parts[0].pose;
     const contact::BodyMotion motion =
-        frame_.toFrame(pose.position, {spec.start.velocity, spec.start.angularVelocity});
+        frame_.toFrame(pose.position, {spec.parts[0].velocity, spec.parts[0].angularVelocity});
     const Vec3 spin = pose.rotation.conjugate() * motion.angularVelocity;
     const base::Quaternion& q = pose.rotation;
     const std::array<double, 4> rotation = {q.w(), q.x(), q.y(), q.z()};
@@ -116,7 +116,7 @@ contact::BodyMotion MujocoTrial::motionInTrack() const {
 }
 
 void MujocoTrial::applyInertialForces() {
-    const geometry::MassProperties& mass = batch_.part->massProperties;
+    const geometry::MassProperties& mass = batch_.parts.front()->massProperties;
     const base::Pose pose = poseInTrack();
     const base::Mat3 rotation = pose.rotation.toRotationMatrix();
     const Wrench wrench = frame_.calcInertialForces(mass.mass, rotation * mass.inertia * rotation.transpose(),

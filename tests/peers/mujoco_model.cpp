@@ -26,7 +26,7 @@ void writeMesh(std::string& xml, const std::string& name, const std::vector<Vec3
 
 base::Result<std::string> writeMujocoModel(const trial::TrialBatch& batch, double step) {
     const track::Track& track = *batch.track;
-    const part::Part& part = *batch.part;
+    const part::Part& part = *batch.parts.front();
     std::string assets;
     std::string trackGeoms;
     const double base = geometry::calcBoundingBox(track.solid).low.z();

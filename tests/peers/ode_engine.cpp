@@ -97,9 +97,9 @@ OdeScene::OdeScene(const trial::TrialBatch& b, double step) : batch(b), dt(step)
     dGeomTriMeshDataPreprocess2(
         mesh, 1U << dTRIDATAPREPROCESS_BUILD_CONCAVE_EDGES | 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES,
         nullptr);
-    box = findBox(*batch.part);
+    box = findBox(*batch.parts.front());
     if (box) return;
-    for (const geometry::ConvexPolytope& piece : batch.part->pieces)
+    for (const geometry::ConvexPolytope& piece : batch.parts.front()->pieces)
         pieces.emplace_back(piece);
 }
 
@@ -143,7 +143,7 @@ class OdeTrial : public PeerTrial {
     [[nodiscard]] int contacts() const override { return contacts_; }
 
  private:
-    void makePart(const trial::TrialStart& start);
+    void makePart(const trial::PartStart& start);
     void moveTrack();
     void touch(dGeomID geom);
 
@@ -164,8 +164,7 @@ class OdeTrial : public PeerTrial {
 };
 
 OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
-    : scene_(scene),
-      drive_(scene.batch.drive, scene.batch.track->shape, scene.batch.trials[index].start.phase) {
+    : scene_(scene), drive_(scene.batch.drive, scene.batch.track->shape, scene.batch.trials[index].phase) {
     initOde();
     const trial::TrialSpec& spec = scene.batch.trials[index];
     friction_ = scene.batch.contact.kineticFriction * spec.frictionScale;
@@ -181,7 +180,7 @@ OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
     dWorldSetContactSurfaceLayer(world_, kLength * kSurfaceLayer);
     dWorldSetContactMaxCorrectingVel(world_, kLength * kMaxCorrection);
     joints_ = dJointGroupCreate(0);
-    makePart(spec.start);
+    makePart(spec.parts.front());
     track_ = dBodyCreate(world_);
     dBodySetKinematic(track_);
     trackGeom_ = dCreateTriMesh(nullptr, scene.mesh, nullptr, nullptr, nullptr);
@@ -189,8 +188,8 @@ OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
     now_ = drive_.placement(0.0);
 }
 
-void OdeTrial::makePart(const trial::TrialStart& start) {
-    const part::Part& part = *scene_.batch.part;
+void OdeTrial::makePart(const trial::PartStart& start) {
+    const part::Part& part = *scene_.batch.parts.front();
     part_ = dBodyCreate(world_);
     const base::Mat3 inertia = kMass * kLength * kLength * part.massProperties.inertia;
     dMass mass;

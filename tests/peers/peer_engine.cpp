@@ -26,9 +26,9 @@ struct Running {
 std::optional<trial::Trajectory> simulate(const Running& running, std::size_t index, double interval,
                                           trial::CostLaps& laps) {
     const auto trial = running.scene.start(index);
-    trial::TerminationMonitor progress(*running.batch.track, running.batch.termination);
+    trial::TerminationMonitor progress(*running.batch.track, running.batch.termination, 1);
     const contact::DriveMotion drive(running.batch.drive, running.batch.track->shape,
-                                     running.batch.trials[index].start.phase);
+                                     running.batch.trials[index].phase);
     const long stepsPerCheck = std::max(1L, std::lround(kCheckInterval / running.dt));
     trial::Trajectory trajectory;
     for (long step = 0;; ++step) {
@@ -36,14 +36,14 @@ std::optional<trial::Trajectory> simulate(const Running& running, std::size_t in
         bool ended = false;
         if (step % stepsPerCheck == 0) {
             if (running.control.cancelled()) return std::nullopt;
-            ended = progress.update(time, trial->poseInTrack()).has_value();
+            ended = progress.update(0, time, trial->poseInTrack()).has_value();
         }
         const double due = static_cast<double>(trajectory.samples.size()) * interval;
         if (interval > 0.0 && (ended || time + 0.5 * running.dt >= due)) {
             const contact::BodyMotion motion = trial->motion();
-            trajectory.samples.push_back(
-                {time, trial->pose(), progress.toTrackCoordinates(trial->poseInTrack()),
-                 drive.displacement(time), motion.velocity, motion.angularVelocity, trial->contacts()});
+            const trial::PartState part{trial->pose(), progress.toTrackCoordinates(0, trial->poseInTrack()),
+                                        motion.velocity, motion.angularVelocity, trial->contacts()};
+            trajectory.samples.push_back({time, drive.displacement(time), {part}, {}});
         }
         if (ended) break;
         trial->step(laps);
@@ -64,7 +64,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> PeerEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;
     for (const trial::TrialBatch& batch : batches) {
-        if (const auto problem = findProblem(batch)) return *problem;
+        if (const auto problem = findSinglePartProblem(batch, name())) return *problem;
         const auto scene = prepare(batch);
         if (!scene) return scene.error();
         std::vector<trial::Outcome>& slots = outcomes.emplace_back(batch.trials.size());
@@ -82,7 +82,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> PeerEngine::run(
 
 base::Result<trial::Trajectory> PeerEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                    double interval, base::RunControl control) const {
-    if (const auto problem = findProblem(batch, index)) return *problem;
+    if (const auto problem = findSinglePartProblem(batch, index, name())) return *problem;
     const auto scene = prepare(batch);
     if (!scene) return scene.error();
     trial::CostLaps laps(nullptr);

@@ -6,7 +6,7 @@
 #include "core/verify/verify.h"
 #include "tests/peers/mujoco_engine.h"
 #include "tests/peers/ode_engine.h"
-#include "tests/sim/simbody/engine_scenes.h"
+#include "tests/sim/engines/engine_scenes.h"
 
 using namespace trapwright;
 using base::Vec3;
@@ -57,7 +57,7 @@ class PeersTest : public QObject {
         track::FeederShape shape;
         if (bowl) shape.type = track::FeederType::bowl;
         trial::TrialBatch batch = testing::makeLyingOn(shape, 0.3, 0.08);
-        trial::TrialStart& start = batch.trials.front().start;
+        trial::PartStart& start = batch.trials.front().parts.front();
         start.pose.position.z() += 0.06;
         start.velocity = Vec3(0.1, -0.05, 0.2);
         start.angularVelocity = Vec3(3.0, -8.0, 5.0);
@@ -65,20 +65,20 @@ class PeersTest : public QObject {
         const auto replay = makeEngine(engine, {1, step})->replay(batch, 0, 0.01, {});
         QVERIFY2(replay.ok(), replay.ok() ? "" : replay.error().message.c_str());
         QVERIFY(replay->samples.size() >= 8);
-        const base::Pose first = replay->samples.front().room;
-        const base::Mat3& inertia = batch.part->massProperties.inertia;
+        const base::Pose first = replay->samples.front().parts[0].room;
+        const base::Mat3& inertia = batch.parts.front()->massProperties.inertia;
         const auto momentum = [&](const trial::TrajectorySample& sample) {
-            const base::Mat3 rotation = sample.room.rotation.toRotationMatrix();
-            return Vec3(rotation * inertia * rotation.transpose() * sample.angularVelocity);
+            const base::Mat3 rotation = sample.parts[0].room.rotation.toRotationMatrix();
+            return Vec3(rotation * inertia * rotation.transpose() * sample.parts[0].angularVelocity);
         };
         for (const trial::TrajectorySample& sample : replay->samples) {
-            QCOMPARE(sample.contacts, 0);
+            QCOMPARE(sample.parts[0].contacts, 0);
             const Vec3 expected = first.position + sample.time * start.velocity -
                                   0.5 * batch.gravity * sample.time * sample.time * Vec3::UnitZ();
             // Semi-implicit steps of gravity fall short or far by half a step's worth of speed.
             const double error = 0.5 * batch.gravity * step * sample.time;
-            QVERIFY2((sample.room.position - expected).norm() < 1.1 * error + 1e-7,
-                     qPrintable(QString::number((sample.room.position - expected).norm())));
+            QVERIFY2((sample.parts[0].room.position - expected).norm() < 1.1 * error + 1e-7,
+                     qPrintable(QString::number((sample.parts[0].room.position - expected).norm())));
             const Vec3 before = momentum(replay->samples.front());
             QVERIFY((momentum(sample) - before).norm() < 0.01 * before.norm());
         }

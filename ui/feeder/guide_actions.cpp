@@ -1,14 +1,13 @@
 #include "ui/feeder/guide_actions.h"
 
 #include "ui/feeder/drive_link.h"
-#include "ui/feeder/outcome_look.h"
 #include "ui/feeder/trial_guide.h"
 #include "ui/look/icon.h"
 #include "ui/models/verdict_look.h"
 
 namespace trapwright::feeder {
 
-using study::PhysicalOutcome;
+using trial::Verdict;
 
 GuideActions::GuideActions(TrialGuide& guide, DriveLink& link, QObject* parent)
     : QObject(parent),
@@ -16,13 +15,12 @@ GuideActions::GuideActions(TrialGuide& guide, DriveLink& link, QObject* parent)
       link_(link),
       start_(make("feeder.trial.start", "start", tr("Start the trial"), Qt::Key_Space,
                   tr("The part lies as shown: let the drive run and take the time"))) {
-    addOutcome(PhysicalOutcome::success, "success", tr("Success"), Qt::Key_S,
+    addOutcome(trial::Verdict::success, "success", tr("Success"), Qt::Key_S,
                tr("The part is at the end in the right orientation"));
-    addOutcome(PhysicalOutcome::wrongOrientation, "wrong", tr("Wrong orientation"), Qt::Key_1,
+    addOutcome(trial::Verdict::wrongOrientation, "wrong", tr("Wrong orientation"), Qt::Key_1,
                tr("The part is at the end in another orientation"));
-    addOutcome(PhysicalOutcome::stuck, "stuck", tr("Stuck"), Qt::Key_2, tr("The part does not move on"));
-    addOutcome(PhysicalOutcome::fellOff, "fell", tr("Fell off"), Qt::Key_3,
-               tr("The part fell off the track"));
+    addOutcome(trial::Verdict::stuck, "stuck", tr("Stuck"), Qt::Key_2, tr("The part does not move on"));
+    addOutcome(trial::Verdict::fellOff, "fell", tr("Fell off"), Qt::Key_3, tr("The part fell off the track"));
     undo_ = make("feeder.trial.undo", "undo", tr("Take the last trial back"), Qt::Key_U,
                  tr("Takes the last outcome back, or the start of the trial that runs"));
     note_ = make("feeder.trial.note", "note", tr("Note"), Qt::Key_N,
@@ -61,10 +59,10 @@ QAction* GuideActions::make(const QString& name, const QString& icon, const QStr
     return action;
 }
 
-void GuideActions::addOutcome(PhysicalOutcome outcome, const QString& name, const QString& text, Qt::Key key,
+void GuideActions::addOutcome(trial::Verdict outcome, const QString& name, const QString& text, Qt::Key key,
                               const QString& tip) {
     QAction* action = make("feeder.trial." + name, {}, text, key, tip);
-    action->setIcon(models::verdictIcon(verdictOf(outcome)));
+    action->setIcon(models::verdictIcon(outcome));
     connect(action, &QAction::triggered, &guide_, [this, outcome] { guide_.finish(outcome); });
     outcomes_.push_back(action);
 }

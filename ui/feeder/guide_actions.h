@@ -30,7 +30,7 @@ class GuideActions : public QObject {
  private:
     QAction* make(const QString& name, const QString& icon, const QString& text, const QKeySequence& key,
                   const QString& tip);
-    void addOutcome(study::PhysicalOutcome outcome, const QString& name, const QString& text, Qt::Key key,
+    void addOutcome(trial::Verdict outcome, const QString& name, const QString& text, Qt::Key key,
                     const QString& tip);
     void update();
 

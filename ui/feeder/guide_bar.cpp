@@ -47,7 +47,7 @@ int stretchFor(const QAction& action) {
 int countSuccesses(const study::PhysicalValidation& validation) {
     return static_cast<int>(std::count_if(
         validation.trials.begin(), validation.trials.end(),
-        [](const study::PhysicalTrial& trial) { return trial.outcome == study::PhysicalOutcome::success; }));
+        [](const study::PhysicalTrial& trial) { return trial.outcome == trial::Verdict::success; }));
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ constexpr double kCloseUp = 1.0;
 base::Pose placingPose(const track::Track& track, const part::Part& part, const study::PhysicalPlan& plan,
                        int pose, int trial) {
     const trial::StartPolicy lying{part.stablePoses[static_cast<std::size_t>(pose)].rotation, 0.0, 0.0};
-    base::Random random({plan.seed, 0, 0, static_cast<std::uint32_t>(trial), base::Purpose::validation});
-    return trial::drawStart(track, part, lying, random).pose;
+    const base::StreamKey stream{plan.seed, 0, 0, static_cast<std::uint32_t>(trial),
+                                 base::Purpose::validation};
+    return trial::drawTrial(track, part, lying, stream).parts.front().pose;
 }
 
 PlacingScene::PlacingScene(QObject* parent) : QObject(parent), build_(this) {
@@ -89,14 +90,11 @@ void PlacingScene::draw() {
     if (!track_ || !known) {
         scene_->setCloseUp(std::nullopt);
         scene_->showTrack(track_, scene::TrackMarks());
-        scene_->showPart(nullptr);
+        scene_->setParts({});
         return;
     }
     scene_->showTrack(track_, marks);
-    if (scene_->contents().part != part) scene_->showPart(part);
-    const base::Pose pose = placingPose(*track_, *part, placing_->plan, *placing_->pose, placing_->trial);
-    scene_->setPartPoses({&pose, 1});
-    scene_->setPartColours({});
+    scene_->setParts({{part, placingPose(*track_, *part, placing_->plan, *placing_->pose, placing_->trial)}});
     scene_->setTraces({});
     scene_->setContacts({});
     scene_->setCloseUp(kCloseUp * part->boundingRadius);

@@ -167,7 +167,7 @@ QImage courseChart(const study::PhysicalValidation& validation, QSize pixels) {
     std::vector<double> rates;
     int good = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        good += validation.trials[i].outcome == study::PhysicalOutcome::success ? 1 : 0;
+        good += validation.trials[i].outcome == trial::Verdict::success ? 1 : 0;
         bounds.push_back(stats::calcClopperPearson(good, static_cast<int>(i) + 1));
         rates.push_back(static_cast<double>(good) / static_cast<double>(i + 1));
     }
@@ -200,7 +200,7 @@ QImage courseChart(const study::PhysicalValidation& validation, QSize pixels) {
     painter.setClipping(false);
     painter.setPen(QPen(Qt::black, 2.0));
     for (std::size_t i = 0; i < count; ++i) {
-        if (validation.trials[i].outcome == study::PhysicalOutcome::success) continue;
+        if (validation.trials[i].outcome == trial::Verdict::success) continue;
         painter.drawLine(QPointF(x(i), frame.area().bottom()), QPointF(x(i), frame.area().bottom() - 12));
     }
     constexpr std::size_t kLabels = 6;

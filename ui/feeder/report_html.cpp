@@ -6,7 +6,6 @@
 #include "ui/feeder/drive_match.h"
 #include "ui/feeder/drive_texts.h"
 #include "ui/feeder/expected_pose.h"
-#include "ui/feeder/outcome_look.h"
 #include "ui/feeder/report.h"
 #include "ui/look/text.h"
 #include "ui/models/numbers.h"
@@ -162,8 +161,7 @@ QString driveDifference(const Report& report) {
 QString secondsText(const study::PhysicalValidation& physical) {
     std::vector<double> times;
     for (const study::PhysicalTrial& trial : physical.trials)
-        if (trial.outcome == study::PhysicalOutcome::success && trial.seconds > 0.0)
-            times.push_back(trial.seconds);
+        if (trial.outcome == trial::Verdict::success && trial.seconds > 0.0) times.push_back(trial.seconds);
     if (times.empty()) return {};
     std::sort(times.begin(), times.end());
     return Texts::tr("median %1 s (%2 to %3 s)")
@@ -342,7 +340,7 @@ void addNotes(std::vector<QString>& pieces, const study::PhysicalValidation& phy
     for (const study::PhysicalTrial& trial : physical.trials) {
         if (trial.note.empty()) continue;
         rows.emplace_back(Texts::tr("Trial %1, pose %2").arg(trial.number + 1).arg(trial.pose + 1),
-                          models::verdictText(verdictOf(trial.outcome)) + ": " + inHtml(trial.note));
+                          models::verdictText(trial.outcome) + ": " + inHtml(trial.note));
     }
     const std::size_t more = rows.size() > kMostNotes ? rows.size() - kMostNotes : 0;
     rows.resize(rows.size() - more);

@@ -139,7 +139,7 @@ void TrialGuide::start() {
     if (driven_ && !link_.moves()) link_.start();
 }
 
-void TrialGuide::finish(study::PhysicalOutcome outcome) {
+void TrialGuide::finish(trial::Verdict outcome) {
     const std::optional<int> pose = this->pose();
     if (stage_ != Stage::running || !pose) return;
     study::PhysicalTrial trial;

@@ -61,7 +61,7 @@ class TrialGuide : public QObject {
     void setRestBetween(bool rest) { restBetween_ = rest; }
 
     void start();
-    void finish(study::PhysicalOutcome outcome);
+    void finish(trial::Verdict outcome);
     /// Of the trial that runs, or else the last one is taken back.
     void undo();
     void pause();

@@ -11,7 +11,7 @@ enum Role {
     IndividualRole,
     TrialRole,
     PoseRole,     // index into the part's stable poses; -1 for a total
-    VerdictRole,  // workflow::TrialVerdict as int: of the trial, or that the column counts; -1 otherwise
+    VerdictRole,  // trial::Verdict as int: of the trial, or that the column counts; -1 otherwise
     IsWinnerRole,
     SuccessRole,  // "95 %", or a dash where it is not known
     CsvRole       // a list: what a cell, or a heading, is in CSV; without it the ValueRole, or the title

@@ -41,7 +41,7 @@ void TrialModel::setTrials(std::vector<TrialRow> rows) {
     reset(std::move(rows));
 }
 
-int TrialModel::count(workflow::TrialVerdict verdict) const {
+int TrialModel::count(trial::Verdict verdict) const {
     return static_cast<int>(std::count_if(rows().begin(), rows().end(),
                                           [&](const TrialRow& row) { return row.verdict == verdict; }));
 }
@@ -66,7 +66,7 @@ TrialFilter::TrialFilter(QObject* parent)
     setSortRole(ValueRole);
 }
 
-void TrialFilter::setVerdicts(std::set<workflow::TrialVerdict> verdicts) {
+void TrialFilter::setVerdicts(std::set<trial::Verdict> verdicts) {
     verdicts_ = std::move(verdicts);
     invalidateFilter();
 }
@@ -78,7 +78,7 @@ void TrialFilter::setPose(std::optional<int> pose) {
 
 bool TrialFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
     const QModelIndex index = sourceModel()->index(row, 0, parent);
-    const auto verdict = static_cast<workflow::TrialVerdict>(index.data(VerdictRole).toInt());
+    const auto verdict = static_cast<trial::Verdict>(index.data(VerdictRole).toInt());
     return verdicts_.contains(verdict) && (!pose_ || index.data(PoseRole).toInt() == *pose_);
 }
 

@@ -14,8 +14,8 @@ namespace trapwright::models {
 struct TrialRow {
     int trial = 0;  // from 0
     int pose = -1;  // of the part's stable poses, where the trial began; -1: anyhow
-    workflow::TrialVerdict verdict = workflow::TrialVerdict::success;
-    trial::Outcome outcome;
+    trial::Verdict verdict = trial::Verdict::success;
+    trial::PartOutcome outcome;
     std::optional<double> angle{};  // of the last orientation to the expected one, if it finished [rad]
 };
 
@@ -28,7 +28,7 @@ class TrialModel : public RecordModel<TrialRow> {
     explicit TrialModel(QObject* parent = nullptr);
 
     void setTrials(std::vector<TrialRow> rows);
-    [[nodiscard]] int count(workflow::TrialVerdict verdict) const;
+    [[nodiscard]] int count(trial::Verdict verdict) const;
 
  protected:
     [[nodiscard]] QVariant more(const TrialRow& row, int column, int role) const override;
@@ -44,8 +44,8 @@ class TrialFilter : public QSortFilterProxyModel {
     explicit TrialFilter(QObject* parent = nullptr);
 
     /// All four at first.
-    void setVerdicts(std::set<workflow::TrialVerdict> verdicts);
-    [[nodiscard]] const std::set<workflow::TrialVerdict>& verdicts() const { return verdicts_; }
+    void setVerdicts(std::set<trial::Verdict> verdicts);
+    [[nodiscard]] const std::set<trial::Verdict>& verdicts() const { return verdicts_; }
     /// Only trials that began in this pose; none: in any.
     void setPose(std::optional<int> pose);
 
@@ -53,7 +53,7 @@ class TrialFilter : public QSortFilterProxyModel {
     [[nodiscard]] bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
 
  private:
-    std::set<workflow::TrialVerdict> verdicts_;
+    std::set<trial::Verdict> verdicts_;
     std::optional<int> pose_;
 };
 

@@ -83,11 +83,11 @@ QVariant transparentIcon() {
 int verdictOf(int column) {
     switch (column) {
         case ValidationModel::WrongOrientation:
-            return static_cast<int>(workflow::TrialVerdict::wrongOrientation);
+            return static_cast<int>(trial::Verdict::wrongOrientation);
         case ValidationModel::Stuck:
-            return static_cast<int>(workflow::TrialVerdict::stuck);
+            return static_cast<int>(trial::Verdict::stuck);
         case ValidationModel::FellOff:
-            return static_cast<int>(workflow::TrialVerdict::fellOff);
+            return static_cast<int>(trial::Verdict::fellOff);
         default:
             return -1;
     }

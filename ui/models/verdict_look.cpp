@@ -11,35 +11,35 @@ namespace trapwright::models {
 
 namespace {
 
-using workflow::TrialVerdict;
+using trial::Verdict;
 
 struct Text {
     Q_DECLARE_TR_FUNCTIONS(VerdictLook)
 };
 
 /// The sign of a verdict on a square of 16 x 16.
-QPainterPath signOf(TrialVerdict verdict) {
+QPainterPath signOf(trial::Verdict verdict) {
     QPainterPath path;
     switch (verdict) {
-        case TrialVerdict::success:  // tick
+        case trial::Verdict::success:  // tick
             path.moveTo(2.5, 8.5);
             path.lineTo(6.5, 12.5);
             path.lineTo(13.5, 3.5);
             break;
-        case TrialVerdict::wrongOrientation:  // arrow that has turned
+        case trial::Verdict::wrongOrientation:  // arrow that has turned
             path.arcMoveTo(3, 3, 10, 10, 200);
             path.arcTo(3, 3, 10, 10, 200, -250);
             path.moveTo(14, 6);
             path.lineTo(11.3, 11.6);
             path.lineTo(7.2, 8.2);
             break;
-        case TrialVerdict::stuck:  // two bars
+        case trial::Verdict::stuck:  // two bars
             path.moveTo(5, 3);
             path.lineTo(5, 13);
             path.moveTo(11, 3);
             path.lineTo(11, 13);
             break;
-        case TrialVerdict::fellOff:  // arrow over an edge
+        case trial::Verdict::fellOff:  // arrow over an edge
             path.moveTo(2, 3.5);
             path.lineTo(10, 3.5);
             path.lineTo(10, 13);
@@ -53,7 +53,7 @@ QPainterPath signOf(TrialVerdict verdict) {
 
 class SignEngine : public QIconEngine {
  public:
-    explicit SignEngine(TrialVerdict verdict) : verdict_(verdict) {}
+    explicit SignEngine(trial::Verdict verdict) : verdict_(verdict) {}
 
     void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
         constexpr double kSide = 16.0;
@@ -80,44 +80,44 @@ class SignEngine : public QIconEngine {
     }
 
  private:
-    TrialVerdict verdict_;
+    trial::Verdict verdict_;
 };
 
 }  // namespace
 
-QString verdictText(TrialVerdict verdict) {
+QString verdictText(trial::Verdict verdict) {
     switch (verdict) {
-        case TrialVerdict::success:
+        case trial::Verdict::success:
             return Text::tr("success");
-        case TrialVerdict::wrongOrientation:
+        case trial::Verdict::wrongOrientation:
             return Text::tr("wrong orientation");
-        case TrialVerdict::stuck:
+        case trial::Verdict::stuck:
             return Text::tr("stuck");
-        case TrialVerdict::fellOff:
+        case trial::Verdict::fellOff:
             return Text::tr("fell off");
     }
     return {};
 }
 
-QString verdictWord(TrialVerdict verdict) {
-    return verdict == TrialVerdict::wrongOrientation ? Text::tr("wrong") : verdictText(verdict);
+QString verdictWord(trial::Verdict verdict) {
+    return verdict == trial::Verdict::wrongOrientation ? Text::tr("wrong") : verdictText(verdict);
 }
 
-QColor verdictColour(TrialVerdict verdict) {
+QColor verdictColour(trial::Verdict verdict) {
     switch (verdict) {
-        case TrialVerdict::success:
+        case trial::Verdict::success:
             return look::kBluishGreen;
-        case TrialVerdict::wrongOrientation:
+        case trial::Verdict::wrongOrientation:
             return look::kOrange;
-        case TrialVerdict::stuck:
+        case trial::Verdict::stuck:
             return look::kReddishPurple;
-        case TrialVerdict::fellOff:
+        case trial::Verdict::fellOff:
             return look::kVermillion;
     }
     return {};
 }
 
-QIcon verdictIcon(TrialVerdict verdict) {
+QIcon verdictIcon(trial::Verdict verdict) {
     return QIcon(new SignEngine(verdict));
 }
 

@@ -9,16 +9,15 @@
 
 namespace trapwright::models {
 
-inline constexpr std::array kVerdicts{workflow::TrialVerdict::success,
-                                      workflow::TrialVerdict::wrongOrientation, workflow::TrialVerdict::stuck,
-                                      workflow::TrialVerdict::fellOff};
+inline constexpr std::array kVerdicts{trial::Verdict::success, trial::Verdict::wrongOrientation,
+                                      trial::Verdict::stuck, trial::Verdict::fellOff};
 
 /// How a verdict looks wherever it is shown: a word, a colour that reads on light and on dark, and a sign.
-QString verdictText(workflow::TrialVerdict verdict);
+QString verdictText(trial::Verdict verdict);
 /// The same where room is scarce: one or two short words.
-QString verdictWord(workflow::TrialVerdict verdict);
-QColor verdictColour(workflow::TrialVerdict verdict);
+QString verdictWord(trial::Verdict verdict);
+QColor verdictColour(trial::Verdict verdict);
 /// A tick, a turned arrow, a bar, a falling arrow, in the verdict's colour; drawn at any size.
-QIcon verdictIcon(workflow::TrialVerdict verdict);
+QIcon verdictIcon(trial::Verdict verdict);
 
 }  // namespace trapwright::models

@@ -397,7 +397,7 @@ std::vector<scene::Highlight> ExportPage::highlights() const {
 void ExportPage::showScene() {
     if (scene_ == nullptr) return;
     if (!shown_) return scene_->clear();
-    scene_->showPart(nullptr);
+    scene_->setParts({});
     scene_->showSolid(form_->split().apart() ? shown_->apart : shown_->together);
     scene_->setHighlights(highlights());
 }

@@ -54,33 +54,33 @@ void ReplayScene::showTrack() {
 
 void ReplayScene::showTrials() {
     if (scene_ == nullptr || !track_) return;
-    const std::shared_ptr<const part::Part> part = trials_.empty() ? nullptr : part_;
-    // A part that is there stays in view, where the camera may follow it.
-    if (scene_->contents().part != part) scene_->showPart(part);
-    std::vector<QColor> colours;
+    showTime(time_);
     std::vector<scene::Trace> traces;
-    for (const ReplayedTrial& trial : trials_) {
-        // The part itself is in the colour that it has everywhere.
-        const bool ghost = !colours.empty();
-        colours.push_back(ghost ? models::verdictColour(trial.verdict) : QColor());
-        if (view_.trace) traces.push_back({trial.motion->path(kTraceSpacing), colours.back()});
+    for (std::size_t i = 0; view_.trace && i < trials_.size(); ++i) {
+        for (std::size_t part = 0; part < trials_[i].motion->parts(); ++part)
+            traces.push_back({trials_[i].motion->path(part, kTraceSpacing), colourOf(i)});
     }
-    scene_->setPartColours(colours);
     scene_->setTraces(std::move(traces));
     scene_->setForceLegend(view_.forces && !trials_.empty());
-    showTime(time_);
+}
+
+/// The part itself is in the colour that it has everywhere.
+QColor ReplayScene::colourOf(std::size_t trial) const {
+    return trial == 0 ? QColor() : models::verdictColour(trials_[trial].verdict);
 }
 
 void ReplayScene::showTime(double time) {
     time_ = time;
-    if (scene_ == nullptr || trials_.empty()) return;
-    std::vector<base::Pose> poses;
-    poses.reserve(trials_.size());
-    for (const ReplayedTrial& trial : trials_)
-        poses.push_back(trial.motion->poseAt(time));
-    scene_->setPartPoses(poses);
+    if (scene_ == nullptr || !track_) return;
+    std::vector<scene::PartInScene> parts;
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+        const trial::RecordedMotion& motion = *trials_[i].motion;
+        for (std::size_t part = 0; part < motion.parts(); ++part)
+            parts.push_back({part_, motion.poseAt(part, time), colourOf(i), i > 0});
+    }
+    scene_->setParts(std::move(parts));
     std::vector<scene::ContactArrow> arrows;
-    if (view_.forces && time <= trials_.front().motion->duration()) {
+    if (view_.forces && !trials_.empty() && time <= trials_.front().motion->duration()) {
         for (const trial::ContactForce& force : trials_.front().motion->forcesAt(time))
             arrows.push_back({force.point, force.force});
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QColor>
 #include <memory>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace trapwright::pages {
 /// A trial that is shown, and how it is counted.
 struct ReplayedTrial {
     int trial = 0;
-    workflow::TrialVerdict verdict = workflow::TrialVerdict::success;
+    trial::Verdict verdict = trial::Verdict::success;
     std::shared_ptr<const trial::RecordedMotion> motion;
 };
 
@@ -27,8 +28,8 @@ struct ReplayView {
     bool forces = false;
 };
 
-/// A track with the trials that are replayed on it, in the 3D scene: the first as the part itself, the others
-/// as ghosts in the colours of their verdicts.
+/// A track with the trials that are replayed on it, in the 3D scene: the parts of the first as they are,
+/// those of the others as ghosts in the colours of their verdicts.
 class ReplayScene {
  public:
     /// The scene to draw in from now on, at once with everything; null: none.
@@ -47,6 +48,7 @@ class ReplayScene {
  private:
     void showTrack();
     void showTrials();
+    [[nodiscard]] QColor colourOf(std::size_t trial) const;
 
     scene::SceneView* scene_ = nullptr;
     std::shared_ptr<const track::Track> track_;

@@ -22,7 +22,7 @@ namespace trapwright::pages {
 
 using models::ValidationModel;
 using session::StudySession;
-using workflow::TrialVerdict;
+using trial::Verdict;
 
 namespace {
 
@@ -212,11 +212,11 @@ void ReviewPage::showValidation() {
 void ReviewPage::goToFailures(const QModelIndex& cell) {
     if (cell.column() == ValidationModel::Pose) return validation_.toggle(cell.row());
     if (cell.data(models::ValueRole).toInt() == 0) return;
-    std::set<TrialVerdict> verdicts;
+    std::set<trial::Verdict> verdicts;
     if (cell.data(models::VerdictRole).toInt() >= 0) {
-        verdicts = {static_cast<TrialVerdict>(cell.data(models::VerdictRole).toInt())};
+        verdicts = {static_cast<trial::Verdict>(cell.data(models::VerdictRole).toInt())};
     } else if (cell.column() == ValidationModel::Failures) {
-        verdicts = {TrialVerdict::wrongOrientation, TrialVerdict::stuck, TrialVerdict::fellOff};
+        verdicts = {trial::Verdict::wrongOrientation, trial::Verdict::stuck, trial::Verdict::fellOff};
     } else {
         return;
     }

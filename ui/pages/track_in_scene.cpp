@@ -9,12 +9,10 @@ void showTrackWithPart(scene::SceneView& scene, const std::shared_ptr<const trac
                        const std::shared_ptr<const part::Part>& part) {
     scene.showTrack(track);
     if (!track || !part) return;
-    scene.showPart(part);
-    if (part->stablePoses.empty()) return;
-    base::Random random({});
+    if (part->stablePoses.empty()) return scene.setParts({{part, {}}});
     const trial::StartPolicy lying{part->stablePoses.front().rotation, 0.0, 0.0};
-    const base::Pose pose = trial::drawStart(*track, *part, lying, random).pose;
-    scene.setPartPoses({&pose, 1});
+    const base::Pose pose = trial::drawTrial(*track, *part, lying, {}).parts.front().pose;
+    scene.setParts({{part, pose}});
 }
 
 }  // namespace trapwright::pages

@@ -105,7 +105,7 @@ QWidget* TrialList::makeChips() {
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setSpacing(4);
     int place = 0;
-    for (const workflow::TrialVerdict verdict : models::kVerdicts) {
+    for (const trial::Verdict verdict : models::kVerdicts) {
         auto* chip = new QToolButton(chips);
         chip->setObjectName("trials.chip" + QString::number(static_cast<int>(verdict)));
         chip->setIcon(models::verdictIcon(verdict));
@@ -252,7 +252,7 @@ void TrialList::fitColumns() {
 }
 
 void TrialList::showCounts(int wanted) {
-    for (const workflow::TrialVerdict verdict : models::kVerdicts) {
+    for (const trial::Verdict verdict : models::kVerdicts) {
         const QString count = QLocale().toString(model_.count(verdict));
         const QString text = tr("%1 %2").arg(count, models::verdictText(verdict));
         QToolButton& chip = *chips_[static_cast<int>(verdict)];
@@ -267,15 +267,15 @@ void TrialList::showCounts(int wanted) {
     bar_->setValue(done);
 }
 
-void TrialList::setVerdicts(const std::set<workflow::TrialVerdict>& verdicts) {
-    for (const workflow::TrialVerdict verdict : models::kVerdicts)
+void TrialList::setVerdicts(const std::set<trial::Verdict>& verdicts) {
+    for (const trial::Verdict verdict : models::kVerdicts)
         chips_[static_cast<int>(verdict)]->setChecked(verdicts.contains(verdict));
     applyChips();
 }
 
 void TrialList::applyChips() {
-    std::set<workflow::TrialVerdict> verdicts;
-    for (const workflow::TrialVerdict verdict : models::kVerdicts)
+    std::set<trial::Verdict> verdicts;
+    for (const trial::Verdict verdict : models::kVerdicts)
         if (chips_[static_cast<int>(verdict)]->isChecked()) verdicts.insert(verdict);
     filter_.setVerdicts(std::move(verdicts));
     if (ghosts_->value() > 0) emit chosenChanged();

@@ -45,7 +45,7 @@ class TrialList : public QWidget {
     [[nodiscard]] const models::TrialModel& trials() const { return model_; }
     [[nodiscard]] const models::TrialFilter& filter() const { return filter_; }
 
-    void setVerdicts(const std::set<workflow::TrialVerdict>& verdicts);
+    void setVerdicts(const std::set<trial::Verdict>& verdicts);
     /// Of trials that began in poses which look the same only those of this one; none: of all.
     void setPose(std::optional<int> pose);
     /// Selects this trial alone.

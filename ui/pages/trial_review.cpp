@@ -31,7 +31,7 @@ std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::S
     const std::size_t ofEachPose =
         std::max<std::size_t>(1, static_cast<std::size_t>(trials.wanted) / poses.size());
     for (std::size_t i = 0; i < trials.outcomes.size(); ++i) {
-        const trial::Outcome& outcome = trials.outcomes[i];
+        const trial::PartOutcome& outcome = trials.outcomes[i].parts.front();
         const int pose = trials.request.kind == TrialKind::validation
                              ? poses[std::min(i / ofEachPose, poses.size() - 1)]
                              : -1;
@@ -146,8 +146,7 @@ void TrialReview::setScene(scene::SceneView* scene) {
     wantTrials();
 }
 
-void TrialReview::goToTrials(const std::vector<int>& poses,
-                             const std::set<workflow::TrialVerdict>& verdicts) {
+void TrialReview::goToTrials(const std::vector<int>& poses, const std::set<trial::Verdict>& verdicts) {
     const auto wanted = std::find_if(sources_.begin(), sources_.end(), [&](const TrialSource& source) {
         const std::vector<int>& own = source.request.poses;
         return source.request.kind == TrialKind::validation && !poses.empty() &&
@@ -302,7 +301,7 @@ void TrialReview::takeReplay(const workflow::TrialsRequest& request, int trial,
     if (std::find(wanted_.begin(), wanted_.end(), trial) == wanted_.end()) return;
     const auto& rows = list_->trials().rows();
     const auto row = static_cast<std::size_t>(trial);
-    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : workflow::TrialVerdict::success,
+    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : trial::Verdict::success,
                         std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape)});
     showReplays();
     if (playWanted_ && trial == wanted_.front()) {

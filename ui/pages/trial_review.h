@@ -48,7 +48,7 @@ class TrialReview : public QObject {
 
     /// Lists the validation's trials of these poses that ended so, and plays the first of them as soon as it
     /// is known. One pose of several that look the same is listed alone.
-    void goToTrials(const std::vector<int>& poses, const std::set<workflow::TrialVerdict>& verdicts);
+    void goToTrials(const std::vector<int>& poses, const std::set<trial::Verdict>& verdicts);
 
  signals:
     void failed(const QString& what, const QString& message);

@@ -22,6 +22,14 @@ struct TrackMarks {
     friend bool operator==(const TrackMarks&, const TrackMarks&) = default;
 };
 
+/// A part where it lies or flies.
+struct PartInScene {
+    std::shared_ptr<const part::Part> part;  // never null
+    base::Pose pose;                         // part frame to room
+    QColor colour{};                         // invalid: the theme's
+    bool ghost = false;                      // see-through, without shadow and edges
+};
+
 /// The path of one part's centre of mass.
 struct Trace {
     std::vector<base::Vec3> points;  // in the room [m]
@@ -30,7 +38,8 @@ struct Trace {
     friend bool operator==(const Trace&, const Trace&) = default;
 };
 
-/// A force that acts on the part. Drawn with a length that grows with the square root of force / weight.
+/// A force that acts on a part. Drawn with a length that grows with the square root of force / weight of the
+/// first part.
 struct ContactArrow {
     base::Vec3 point;  // in the room [m]
     base::Vec3 force;  // [N]
@@ -57,15 +66,13 @@ struct SceneContents {
     std::shared_ptr<const geometry::TriangleMesh> solid;
     std::shared_ptr<const part::Part> stablePoses;  // of this part, side by side on a flat
     std::vector<double> poseShares;  // of parts, by group of alike poses; empty: the part's own
-    std::shared_ptr<const part::Part> part;
-    std::vector<base::Pose> partPoses;  // part frame to room; the first is solid, the others are ghosts
-    std::vector<QColor> partColours;    // by index; missing or invalid: the theme's
+    std::vector<PartInScene> parts;
     std::vector<Trace> traces;
     std::vector<ContactArrow> contacts;
     std::vector<Highlight> highlights;
     bool heightShading = false;
     bool edges = false;
-    bool forceLegend = false;  // how long the arrow of which force is; there is a part
+    bool forceLegend = false;  // how long the arrow of which force on the first part is
 };
 
 }  // namespace trapwright::scene

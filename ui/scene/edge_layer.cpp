@@ -13,7 +13,7 @@
 #include "ui/scene/actors.h"
 #include "ui/scene/layers.h"
 #include "ui/scene/meshes.h"
-#include "ui/scene/pose_row.h"
+#include "ui/scene/subject.h"
 
 namespace trapwright::scene {
 
@@ -50,19 +50,25 @@ struct Outline {
 struct EdgeLayer::State {
     vtkRenderer* renderer = nullptr;
     std::unique_ptr<Outline> subject;
-    std::vector<std::unique_ptr<Outline>> parts;
-    std::shared_ptr<const geometry::TriangleMesh> subjectMesh;  // what the outlines were made of
-    std::shared_ptr<const part::Part> part;
-    vtkSmartPointer<vtkPolyData> partMesh;
+    struct PartOutline {
+        std::unique_ptr<Outline> outline;
+        std::shared_ptr<const part::Part> part;  // what it was made of
+    };
+    std::vector<PartOutline> parts;
+    std::shared_ptr<const geometry::TriangleMesh> subjectMesh;  // what the outline was made of
 
-    void placeParts(std::span<const base::Pose> poses) {
-        while (parts.size() < poses.size()) {
-            parts.push_back(std::make_unique<Outline>(*renderer, kPartCrease));
-            parts.back()->silhouette->SetInputData(partMesh);
-        }
+    void placeParts(std::span<const PartInScene> shown) {
+        while (parts.size() < shown.size())
+            parts.push_back({std::make_unique<Outline>(*renderer, kPartCrease), nullptr});
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            parts[i]->actor->SetVisibility(i < poses.size());
-            if (i < poses.size()) setPose(*parts[i]->actor, poses[i]);
+            PartOutline& own = parts[i];
+            own.outline->actor->SetVisibility(i < shown.size());
+            if (i >= shown.size()) continue;
+            if (own.part != shown[i].part) {
+                own.part = shown[i].part;
+                own.outline->silhouette->SetInputData(makePlainMesh(own.part->mesh));
+            }
+            setPose(*own.outline->actor, shown[i].pose);
         }
     }
 };
@@ -86,21 +92,10 @@ void EdgeLayer::show(const SceneContents& contents, const Camera& camera, double
     }
     if (mesh && mesh != state.subjectMesh) state.subject->silhouette->SetInputData(makePlainMesh(*mesh));
     state.subjectMesh = mesh;
-    const auto& part = contents.stablePoses ? contents.stablePoses : contents.part;
-    if (part != state.part) {
-        state.part = part;
-        state.partMesh = part ? makePlainMesh(part->mesh) : nullptr;
-        for (const auto& outline : state.parts)
-            outline->silhouette->SetInputData(state.partMesh);
-    }
-    if (!part) {
-        state.placeParts({});
-    } else if (contents.stablePoses) {
-        state.placeParts(makePoseRow(*contents.stablePoses).poses);
-    } else {
-        const std::span<const base::Pose> poses = contents.partPoses;
-        state.placeParts(poses.first(std::min<std::size_t>(poses.size(), 1)));
-    }
+    std::vector<PartInScene> solids;
+    for (const PartInScene& shown : partsOf(contents))
+        if (!shown.ghost) solids.push_back(shown);
+    state.placeParts(solids);
     const QColor& colour = contents.theme.edge;
     const auto finish = [&](Outline& outline) {
         if (camera.parallel) {
@@ -112,8 +107,8 @@ void EdgeLayer::show(const SceneContents& contents, const Camera& camera, double
         outline.actor->GetProperty()->SetLineWidth(static_cast<float>(kEdgeWidth * pixelRatio));
     };
     finish(*state.subject);
-    for (const auto& outline : state.parts)
-        finish(*outline);
+    for (const State::PartOutline& own : state.parts)
+        finish(*own.outline);
 }
 
 }  // namespace trapwright::scene

@@ -47,7 +47,7 @@ void paintArrow(QPainter& painter, const QPointF& from, double length) {
 }  // namespace
 
 OverlayItem makeForceLegend(const SceneContents& contents, const Camera& camera, const QSizeF& screen) {
-    const part::Part& part = *contents.part;
+    const part::Part& part = *contents.parts.front().part;
     const double weight = part.massProperties.mass * base::kStandardGravity;
     // Where the part is; the camera's focus may be elsewhere.
     const double scale = camera.metresPerPixel(screen);

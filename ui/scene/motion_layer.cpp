@@ -20,8 +20,8 @@ constexpr double kTraceWidth = 2.0;  // logical pixels
 /// The arrows begin where they push.
 std::vector<Arrow> makeContactArrows(const SceneContents& contents) {
     std::vector<Arrow> arrows;
-    if (!contents.part) return arrows;
-    const part::Part& part = *contents.part;
+    if (contents.parts.empty()) return arrows;
+    const part::Part& part = *contents.parts.front().part;
     for (const ContactArrow& contact : contents.contacts) {
         const double force = contact.force.norm();
         const double length = arrowLength(part, force);

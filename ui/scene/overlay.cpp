@@ -125,7 +125,7 @@ void addTrackLabels(std::vector<OverlayItem>& items, const SceneContents& conten
     };
     if (contents.marks.startPoint) {
         // Above the part that lies there.
-        const double top = contents.part ? 1.5 * contents.part->boundingRadius : 0.0;
+        const double top = contents.parts.empty() ? 0.0 : 1.5 * contents.parts.front().part->boundingRadius;
         addMark(QCoreApplication::translate("scene", "Start"),
                 surfacePoint(track, track.start, 0.0) + top * Vec3::UnitZ(), 1.6 * metrics.height());
     }
@@ -236,7 +236,8 @@ std::vector<OverlayItem> overlayOf(const SceneContents& contents, const Camera& 
     if (contents.track) addTrackLabels(items, contents, camera, screen, legend);
     if (contents.stablePoses) addPoseLabels(items, contents, camera, screen);
     addScaleBar(items, contents, camera, screen);
-    if (contents.part && contents.forceLegend) items.push_back(makeForceLegend(contents, camera, screen));
+    if (!contents.parts.empty() && contents.forceLegend)
+        items.push_back(makeForceLegend(contents, camera, screen));
     items.push_back({orbitCubeArea(screen), [=, theme = contents.theme](QPainter& painter) {
                          paintOrbitCube(painter, camera, theme, screen, hovered);
                      }});

@@ -11,7 +11,7 @@
 #include "ui/scene/actors.h"
 #include "ui/scene/layers.h"
 #include "ui/scene/meshes.h"
-#include "ui/scene/pose_row.h"
+#include "ui/scene/subject.h"
 
 namespace trapwright::scene {
 
@@ -22,39 +22,50 @@ constexpr double kGhostOpacity = 0.75;
 }  // namespace
 
 struct PartLayer::State {
+    /// What all drawings of one part share.
+    struct Shape {
+        std::shared_ptr<const part::Part> part;
+        vtkNew<vtkPolyDataMapper> solid;
+        vtkNew<vtkPolyDataMapper> ghost;  // the same mesh
+        base::Vec3 middle;                // of the part's box, in the part frame [m]
+        base::Vec3 halfSize;              // [m]
+        bool isBox = true;                // rather than an ellipsoid, for its shadow
+
+        explicit Shape(std::shared_ptr<const part::Part> drawn) : part(std::move(drawn)) {
+            const auto mesh = makeCreasedMesh(part->mesh);
+            solid->SetInputData(mesh);
+            ghost->SetInputData(mesh);
+            const geometry::Box box = geometry::calcBoundingBox(part->mesh);
+            middle = 0.5 * (box.low + box.high);
+            halfSize = 0.5 * box.size();
+            // An ellipsoid fills 52 % of its box.
+            isBox = part->massProperties.volume > 0.75 * box.size().prod();
+        }
+    };
+
+    /// Those left over stay for later and are not seen.
+    struct Actors {
+        std::vector<vtkSmartPointer<vtkActor>> all;
+        std::size_t used = 0;
+    };
+
     vtkRenderer* renderer = nullptr;
-    vtkNew<vtkPolyDataMapper> solidMapper;
-    vtkNew<vtkPolyDataMapper> ghostMapper;  // the same mesh
-    std::vector<vtkSmartPointer<vtkActor>> solids;
-    std::vector<vtkSmartPointer<vtkActor>> ghosts;
-    std::shared_ptr<const part::Part> part;
+    std::vector<std::unique_ptr<Shape>> shapes;
+    Actors solids;
+    Actors ghosts;
     std::shared_ptr<const part::Part> rowOf;
-    std::vector<base::Pose> row;  // stable poses of rowOf
-    base::Vec3 middle;            // of the part's box, in the part frame [m]
-    base::Vec3 halfSize;          // [m]
-    bool isBox = true;            // rather than an ellipsoid, for its shadow
+    std::vector<PartInScene> row;  // of the stable poses of rowOf
     std::vector<Shade> shades;
 
-    void setPart(const std::shared_ptr<const part::Part>& wanted) {
-        if (part == wanted) return;
-        part = wanted;
-        if (!part) return;
-        const auto mesh = makeCreasedMesh(part->mesh);
-        solidMapper->SetInputData(mesh);
-        ghostMapper->SetInputData(mesh);
-        const geometry::Box box = geometry::calcBoundingBox(part->mesh);
-        middle = 0.5 * (box.low + box.high);
-        halfSize = 0.5 * box.size();
-        // An ellipsoid fills 52 % of its box.
-        isBox = part->massProperties.volume > 0.75 * box.size().prod();
+    const Shape& shapeOf(const std::shared_ptr<const part::Part>& part) {
+        const auto known = std::ranges::find(shapes, part, [](const auto& shape) { return shape->part; });
+        return known != shapes.end() ? **known : *shapes.emplace_back(std::make_unique<Shape>(part));
     }
 
-    /// As many actors as there are poses; those left over stay for later and are not seen.
-    void place(std::vector<vtkSmartPointer<vtkActor>>& actors, std::span<const base::Pose> poses,
-               bool ghost) {
-        while (actors.size() < poses.size()) {
+    vtkActor& nextActor(bool ghost) {
+        Actors& actors = ghost ? ghosts : solids;
+        if (actors.used == actors.all.size()) {
             auto actor = vtkSmartPointer<vtkActor>::New();
-            actor->SetMapper(ghost ? ghostMapper : solidMapper);
             setSurfaceShading(*actor, ghost ? SurfaceKind::ghost : SurfaceKind::plain);
             if (ghost) {
                 actor->GetProperty()->SetOpacity(kGhostOpacity);
@@ -64,18 +75,22 @@ struct PartLayer::State {
                 actor->GetProperty()->BackfaceCullingOn();
             }
             renderer->AddActor(actor);
-            actors.push_back(actor);
+            actors.all.push_back(actor);
         }
-        for (std::size_t i = 0; i < actors.size(); ++i) {
-            actors[i]->SetVisibility(i < poses.size());
-            if (i < poses.size()) setPose(*actors[i], poses[i]);
-        }
+        return *actors.all[actors.used++];
     }
 
-    void addShade(const base::Pose& pose) {
-        const base::Mat3 toUnit = (1.0 / (kDrawn * halfSize.array())).matrix().asDiagonal() *
-                                  pose.rotation.toRotationMatrix().transpose();
-        shades.push_back({toUnit, pose.apply(middle) * kDrawn, isBox});
+    void add(const PartInScene& shown, const QColor& colour) {
+        const Shape& shape = shapeOf(shown.part);
+        vtkActor& actor = nextActor(shown.ghost);
+        actor.SetMapper(shown.ghost ? shape.ghost : shape.solid);
+        setPose(actor, shown.pose);
+        setColour(actor, shown.colour.isValid() ? shown.colour : colour);
+        actor.VisibilityOn();
+        if (shown.ghost) return;
+        const base::Mat3 toUnit = (1.0 / (kDrawn * shape.halfSize.array())).matrix().asDiagonal() *
+                                  shown.pose.rotation.toRotationMatrix().transpose();
+        shades.push_back({toUnit, shown.pose.apply(shape.middle) * kDrawn, shape.isBox});
     }
 };
 
@@ -87,38 +102,28 @@ PartLayer::~PartLayer() = default;
 
 void PartLayer::show(const SceneContents& contents) {
     State& state = *state_;
-    state.setPart(contents.stablePoses ? contents.stablePoses : contents.part);
-    if (state.rowOf != contents.stablePoses) {
-        state.rowOf = contents.stablePoses;
-        state.row = state.rowOf ? makePoseRow(*state.rowOf).poses : std::vector<base::Pose>();
-    }
-    std::span<const base::Pose> solids = state.row;
-    std::span<const base::Pose> ghosts;
-    if (!contents.stablePoses) {
-        const std::span<const base::Pose> poses =
-            contents.part ? std::span<const base::Pose>(contents.partPoses) : std::span<const base::Pose>();
-        solids = poses.first(std::min<std::size_t>(poses.size(), 1));
-        ghosts = poses.subspan(solids.size());
-    }
-    state.place(state.solids, solids, false);
-    state.place(state.ghosts, ghosts, true);
-    const auto colourOf = [&contents](std::size_t index) {
-        const bool given = !contents.stablePoses && index < contents.partColours.size() &&
-                           contents.partColours[index].isValid();
-        return given ? contents.partColours[index] : contents.theme.part;
-    };
-    for (std::size_t i = 0; i < solids.size(); ++i)
-        setColour(*state.solids[i], colourOf(i));
-    for (std::size_t i = 0; i < ghosts.size(); ++i)
-        setColour(*state.ghosts[i], colourOf(i + 1));
+    if (contents.stablePoses && state.rowOf != contents.stablePoses) state.row = partsOf(contents);
+    state.rowOf = contents.stablePoses;
+    const std::vector<PartInScene>& parts = contents.stablePoses ? state.row : contents.parts;
     state.shades.clear();
-    for (const base::Pose& pose : solids)
-        state.addShade(pose);
+    state.solids.used = 0;
+    state.ghosts.used = 0;
+    for (const PartInScene& shown : parts)
+        state.add(shown, contents.theme.part);
+    for (const State::Actors* actors : {&state.solids, &state.ghosts}) {
+        for (std::size_t i = actors->used; i < actors->all.size(); ++i)
+            actors->all[i]->VisibilityOff();
+    }
+    if (parts.empty()) return;
+    std::erase_if(state.shapes, [&](const auto& shape) {
+        return std::ranges::none_of(parts,
+                                    [&](const PartInScene& shown) { return shown.part == shape->part; });
+    });
 }
 
 void PartLayer::setCamera(const Camera& camera) {
     for (const auto* actors : {&state_->solids, &state_->ghosts}) {
-        for (const auto& actor : *actors)
+        for (const auto& actor : actors->all)
             setLights(*actor, camera);
     }
 }

@@ -21,8 +21,7 @@ QFuture<QImage> PictureMaker::trackPicture(std::shared_ptr<const track::Track> t
 QFuture<QImage> PictureMaker::partPicture(std::shared_ptr<const part::Part> part,
                                           const base::Quaternion& rotation, QSize size, double pixelRatio) {
     auto contents = std::make_shared<SceneContents>();
-    contents->part = std::move(part);
-    contents->partPoses = {{rotation, base::Vec3::Zero()}};
+    contents->parts = {{std::move(part), {rotation, base::Vec3::Zero()}}};
     return draw(std::move(contents), size, pixelRatio);
 }
 
@@ -35,8 +34,7 @@ QFuture<QImage> PictureMaker::exitPicture(std::shared_ptr<const track::Track> tr
     contents->marks = TrackMarks::none();
     contents->marks.finishLine = true;
     contents->track = std::move(track);
-    contents->part = std::move(part);
-    contents->partPoses = {pose};
+    contents->parts = {{std::move(part), pose}};
     return renderer_.render({std::move(contents), view.camera, size * pixelRatio, pixelRatio})
         .then([view, theme = theme_](const Rendering& made) {
             QImage image = made.image;

@@ -22,8 +22,8 @@ void SceneView::State::fit() {
     if (screen().isEmpty()) return;
     geometry::Box box;
     double margin = kFitMargin;
-    if (closeUp && !contents.partPoses.empty()) {
-        const base::Vec3& centre = contents.partPoses.front().position;
+    if (closeUp && !contents.parts.empty()) {
+        const base::Vec3& centre = contents.parts.front().pose.position;
         box.include(centre - base::Vec3::Constant(*closeUp));
         box.include(centre + base::Vec3::Constant(*closeUp));
     } else {
@@ -116,32 +116,21 @@ void SceneView::showStablePoses(std::shared_ptr<const part::Part> part, std::vec
     state_->setSubject({.stablePoses = std::move(part)});
 }
 
-void SceneView::showPart(std::shared_ptr<const part::Part> part) {
+void SceneView::setParts(std::vector<PartInScene> parts) {
     SceneContents& contents = state_->contents;
-    contents.part = std::move(part);
-    contents.partPoses.clear();
-    contents.partColours.clear();
-    contents.traces.clear();
-    contents.contacts.clear();
-    state_->placed = false;
-    if (contents.part) contents.partPoses.emplace_back();
-    state_->fitUnlessMoved();
-}
-
-void SceneView::setPartPoses(std::span<const base::Pose> poses) {
-    std::vector<base::Pose>& shown = state_->contents.partPoses;
-    if (state_->follow && !poses.empty()) {
-        const base::Vec3& to = poses.front().position;
-        state_->camera.focus = state_->placed ? state_->camera.focus + to - shown.front().position : to;
+    const bool same =
+        !parts.empty() && !contents.parts.empty() && parts.front().part == contents.parts.front().part;
+    if (!same) {
+        contents.traces.clear();
+        contents.contacts.clear();
     }
-    state_->placed = !poses.empty();
-    shown.assign(poses.begin(), poses.end());
-    if (state_->closeUp) state_->fitUnlessMoved();
-    state_->change();
-}
-
-void SceneView::setPartColours(std::span<const QColor> colours) {
-    state_->contents.partColours.assign(colours.begin(), colours.end());
+    if (state_->follow && !parts.empty()) {
+        const base::Vec3& to = parts.front().pose.position;
+        Camera& camera = state_->camera;
+        camera.focus = same ? camera.focus + to - contents.parts.front().pose.position : to;
+    }
+    contents.parts = std::move(parts);
+    if (!same || state_->closeUp) state_->fitUnlessMoved();
     state_->change();
 }
 
@@ -180,9 +169,9 @@ void SceneView::setEdges(bool on) {
 void SceneView::setFollow(bool on) {
     state_->follow = on;
     state_->followPart->setChecked(on);
-    if (on && !state_->contents.partPoses.empty()) {
+    if (on && !state_->contents.parts.empty()) {
         Camera camera = state_->camera;
-        camera.focus = state_->contents.partPoses.front().position;
+        camera.focus = state_->contents.parts.front().pose.position;
         state_->moveTo(camera);
     }
 }

@@ -39,12 +39,9 @@ class SceneView : public QWidget {
     /// `shares`: of parts that land in each group of alike poses, for the labels; empty: the part's own.
     void showStablePoses(std::shared_ptr<const part::Part> part, std::vector<double> shares = {});
 
-    /// The part to be placed by setPartPoses. Null removes it, its poses, traces and contacts.
-    void showPart(std::shared_ptr<const part::Part> part);
-    /// Part frame to room. The first is drawn solid, the others as ghosts. Cheap: made for 60 calls a second.
-    void setPartPoses(std::span<const base::Pose> poses);
-    /// By index of the pose, for instance by outcome; an invalid or missing colour is the theme's.
-    void setPartColours(std::span<const QColor> colours);
+    /// The parts as they lie now. Cheap: made for 60 calls a second. While the first is the same as before it
+    /// stays in view; with another, or none, traces and contacts are gone.
+    void setParts(std::vector<PartInScene> parts);
     void setTraces(std::vector<Trace> traces);
     void setContacts(std::span<const ContactArrow> contacts);
     void setForceLegend(bool on);  // arrows of round forces with their sizes in N

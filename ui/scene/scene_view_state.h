@@ -26,7 +26,6 @@ struct SceneView::State {
     bool moved = false;  // by the user, since the view was last fitted
     bool follow = false;
     std::optional<double> closeUp;  // radius about the first part [m]
-    bool placed = false;            // the part, by setPartPoses
     SceneFrames frames;
 
     QPointF pressedAt;

@@ -7,8 +7,7 @@
 namespace trapwright::scene {
 
 bool isEmpty(const SceneContents& contents) {
-    return !contents.track && !contents.solid && !contents.stablePoses &&
-           (!contents.part || contents.partPoses.empty());
+    return !contents.track && !contents.solid && !contents.stablePoses && contents.parts.empty();
 }
 
 Camera homeCamera(const SceneContents& contents) {
@@ -31,14 +30,22 @@ geometry::Box boxOf(const SceneContents& contents) {
         box.include(row.flat.high);
         for (const base::Pose& pose : row.poses)
             box.include({pose.position.x(), pose.position.y(), 2.0 * pose.position.z()});
-    } else if (contents.part) {
-        for (const base::Pose& pose : contents.partPoses) {
-            const geometry::Box placed = boxOf(*contents.part, pose);
+    } else {
+        for (const PartInScene& shown : contents.parts) {
+            const geometry::Box placed = boxOf(*shown.part, shown.pose);
             box.include(placed.low);
             box.include(placed.high);
         }
     }
     return box;
+}
+
+std::vector<PartInScene> partsOf(const SceneContents& contents) {
+    if (!contents.stablePoses) return contents.parts;
+    std::vector<PartInScene> row;
+    for (const base::Pose& pose : makePoseRow(*contents.stablePoses).poses)
+        row.push_back({contents.stablePoses, pose});
+    return row;
 }
 
 bool isShadedByHeight(const SceneContents& contents) {

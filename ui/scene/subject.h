@@ -17,6 +17,9 @@ Camera homeCamera(const SceneContents& contents);
 /// nothing. [m]
 geometry::Box boxOf(const SceneContents& contents);
 
+/// What is drawn of parts: the row of stable poses, or else the parts that are there.
+std::vector<PartInScene> partsOf(const SceneContents& contents);
+
 /// Whether there is something that is coloured by its height, and that is wanted.
 bool isShadedByHeight(const SceneContents& contents);
 

@@ -1,5 +1,9 @@
-// The discrete contact law over one time step of one part: impulses at its contacts by projected Gauss-Seidel
+// The discrete contact law over one time step: impulses at the contacts of parts by projected Gauss-Seidel
 // with warm starting. See README.md of this folder: included inside a namespace that defines Real.
+//
+// Written for one part on the track, a Motion and its ContactConstraints. Functions that are templates work
+// on any other State and Row as well (several parts that touch each other, sim/contact/impulse_solver.cpp)
+// for which there are velocityAlong, applyImpulse, squaredSpeed, workOf, blend and select.
 //
 // Scaled quantities, in which the part has mass 1 and inertia 1: impulses are per mass [m/s], `spin` is S^-1
 // times the angular velocity, where S S^T is the inverse inertia times the mass, and `turn` is S^T times the
@@ -77,10 +81,22 @@ inline void applyImpulse(const ContactConstraint& row, Motion& motion, int k, Re
     motion.spin = mulAdd(impulse, row.turn[k], motion.spin);
 }
 
-/// `scale`: S^T in the axes of the contacts. before: motion in the step before. free: before plus what
-/// gravity and gyroscopic torque add in this step. dt [s].
-inline void prepareConstraint(ContactConstraint& row, const MovingContact& touch, const Matrix& scale,
-                              const Motion& before, const Motion& free, const Law& law, Real dt) {
+inline Real squaredSpeed(const Motion& motion) {
+    return dot(motion.velocity, motion.velocity);
+}
+
+/// The work [m^2/s^2] of impulses per mass at a contact, as others of its State are measured.
+inline Real workOf(const ContactConstraint& /*row*/, Real work) {
+    return work;
+}
+
+/// The share `early` of one motion, and the rest of the other.
+inline Motion blend(Real early, const Motion& first, const Motion& second) {
+    return {early * first.velocity + (Real(1.0) - early) * second.velocity,
+            early * first.spin + (Real(1.0) - early) * second.spin};
+}
+
+inline void setAxes(ContactConstraint& row, const MovingContact& touch) {
     row.gap = touch.gap;
     row.axis[0] = touch.normal;
     // Any tangents will do, as long as the same normal always gives the same ones.
@@ -90,21 +106,24 @@ inline void prepareConstraint(ContactConstraint& row, const MovingContact& touch
     const Triple tangent = aside - dot(touch.normal, aside) * touch.normal;
     row.axis[1] = (Real(1.0) / sqrt(dot(tangent, tangent))) * tangent;
     row.axis[2] = cross(touch.normal, row.axis[1]);
-    Real speedBefore[3];
-    for (int k = 0; k < 3; ++k) {
-        row.turn[k] = scale * cross(touch.arm, row.axis[k]);
-        row.track[k] = dot(row.axis[k], touch.trackVelocity);
-        row.speed[k] = velocityAlong(row, free, k);
-        speedBefore[k] =
-            dot(row.axis[k], before.velocity - touch.trackVelocityBefore) + dot(row.turn[k], before.spin);
-    }
-    row.normalInverse = Real(1.0) + dot(row.turn[0], row.turn[0]);
+}
+
+/// How the velocities along a contact's axes change by a unit impulse along each: what its two bodies have
+/// together.
+struct InverseMass {
+    Real along[3];  // by the impulse along the same axis
+    Real coupling;  // of the two tangents
+};
+
+/// What is to be solved for at a contact whose axes and `speed` are set. `speedBefore`: along the axes, in
+/// the step before.
+inline void applyLaw(ContactConstraint& row, const MovingContact& touch, const InverseMass& inverse,
+                     const Real (&speedBefore)[3], const Law& law, Real dt) {
+    row.normalInverse = inverse.along[0];
     row.normalMass = Real(1.0) / row.normalInverse;
-    const Real inverse1 = Real(1.0) + dot(row.turn[1], row.turn[1]);
-    const Real inverse2 = Real(1.0) + dot(row.turn[2], row.turn[2]);
-    const Real coupling = dot(row.turn[1], row.turn[2]);
-    const Real half = Real(0.5) * (inverse1 - inverse2);
-    row.tangentInverse = Real(0.5) * (inverse1 + inverse2) + sqrt(half * half + coupling * coupling);
+    const Real half = Real(0.5) * (inverse.along[1] - inverse.along[2]);
+    row.tangentInverse = Real(0.5) * (inverse.along[1] + inverse.along[2]) +
+                         sqrt(half * half + inverse.coupling * inverse.coupling);
     row.tangentMass = Real(1.0) / row.tangentInverse;
 
     // Not deeper than touching at the step's end; an impact inside the step rebounds.
@@ -135,23 +154,42 @@ inline void prepareConstraint(ContactConstraint& row, const MovingContact& touch
     row.friction = select(row.sliding, law.kineticFriction, law.staticFriction);
 }
 
+/// `scale`: S^T in the axes of the contacts. before: motion in the step before. free: before plus what
+/// gravity and gyroscopic torque add in this step. dt [s].
+inline void prepareConstraint(ContactConstraint& row, const MovingContact& touch, const Matrix& scale,
+                              const Motion& before, const Motion& free, const Law& law, Real dt) {
+    setAxes(row, touch);
+    Real speedBefore[3];
+    InverseMass inverse;
+    for (int k = 0; k < 3; ++k) {
+        row.turn[k] = scale * cross(touch.arm, row.axis[k]);
+        row.track[k] = dot(row.axis[k], touch.trackVelocity);
+        row.speed[k] = velocityAlong(row, free, k);
+        speedBefore[k] =
+            dot(row.axis[k], before.velocity - touch.trackVelocityBefore) + dot(row.turn[k], before.spin);
+        inverse.along[k] = Real(1.0) + dot(row.turn[k], row.turn[k]);
+    }
+    inverse.coupling = dot(row.turn[1], row.turn[2]);
+    applyLaw(row, touch, inverse, speedBefore, law, dt);
+}
+
 /// Changes the rows' impulses until all targets are met; returns the motion that they lead to from
 /// `freeMotion`. Lanes of `frozen` keep their impulses.
-inline Motion iterate(ContactConstraint* rows, int count, const Motion& freeMotion, Mask frozen) {
-    Motion motion = freeMotion;
+template <class Row, class State>
+State iterate(Row* rows, int count, const State& freeMotion, Mask frozen) {
+    State motion = freeMotion;
     for (int i = 0; i < count; ++i) {
         applyImpulse(rows[i], motion, 0, rows[i].normal);
         applyImpulse(rows[i], motion, 1, rows[i].tangential.x);
         applyImpulse(rows[i], motion, 2, rows[i].tangential.y);
     }
-    const Real tolerance =
-        Real(kVelocityTolerance * kVelocityTolerance) +
-        Real(kRelativeTolerance * kRelativeTolerance) * dot(motion.velocity, motion.velocity);
+    const Real tolerance = Real(kVelocityTolerance * kVelocityTolerance) +
+                           Real(kRelativeTolerance * kRelativeTolerance) * squaredSpeed(motion);
     Mask done = frozen;
     for (int iteration = 0; iteration < kMaxIterations && !all(done); ++iteration) {
         Real change = Real(0.0);  // of velocity, squared
         for (int i = 0; i < count; ++i) {
-            ContactConstraint& row = rows[iteration % 2 == 0 ? i : count - 1 - i];
+            Row& row = rows[iteration % 2 == 0 ? i : count - 1 - i];
             const Real normal =
                 max(Real(0.0), row.normal + (row.target - velocityAlong(row, motion, 0)) * row.normalMass);
             const Real step = select(done, Real(0.0), normal - row.normal);
@@ -184,23 +222,25 @@ inline Motion iterate(ContactConstraint* rows, int count, const Motion& freeMoti
 }
 
 /// Solves for the impulses of all rows.
-inline Motion solve(ContactConstraint* rows, int count, const Motion& free) {
-    Motion motion = iterate(rows, count, free, Real(0.0) > Real(1.0));
+template <class Row, class State>
+State solve(Row* rows, int count, const State& free) {
+    State motion = iterate(rows, count, free, Real(0.0) > Real(1.0));
 
     // Newton's restitution at several places at once may create energy: such an impact is taken as plastic.
     Mask impact = Real(0.0) > Real(1.0);
     Real work = Real(0.0);
     for (int i = 0; i < count; ++i) {
-        const ContactConstraint& row = rows[i];
+        const Row& row = rows[i];
         impact = impact || row.target > Real(0.0);
         const Real impulse[3] = {row.normal, row.tangential.x, row.tangential.y};
         for (int k = 0; k < 3; ++k)
-            work = work + Real(0.5) * impulse[k] * (row.speed[k] + velocityAlong(row, motion, k));
+            work =
+                work + workOf(row, Real(0.5) * impulse[k] * (row.speed[k] + velocityAlong(row, motion, k)));
     }
     const Mask again = impact && work > Real(0.0);
     if (any(again)) {
         for (int i = 0; i < count; ++i) {
-            ContactConstraint& row = rows[i];
+            Row& row = rows[i];
             row.target = select(again, min(row.target, Real(0.0)), row.target);
             row.normal = select(again, Real(0.0), row.normal);
             row.tangential = select(again, Pair{Real(0.0), Real(0.0)}, row.tangential);
@@ -213,18 +253,17 @@ inline Motion solve(ContactConstraint* rows, int count, const Motion& free) {
 /// What moves the pose over the step: the free motion up to the earliest impact, the solved one from there
 /// on, and whatever keeps the pose that this leads to from overlapping more than before, without giving the
 /// part speed.
-inline Motion advancePose(const ContactConstraint* rows, int count, const Motion& free, const Motion& after,
-                          Real dt) {
+template <class Row, class State>
+State advancePose(const Row* rows, int count, const State& free, const State& after, Real dt) {
     Real impactTime = Real(kNoImpact);
     for (int i = 0; i < count; ++i)
         impactTime = select(rows[i].target > Real(0.0), min(impactTime, rows[i].impactTime), impactTime);
     const Real early = select(impactTime <= Real(1.0), impactTime, Real(0.0));
-    Motion advance = {early * free.velocity + (Real(1.0) - early) * after.velocity,
-                      early * free.spin + (Real(1.0) - early) * after.spin};
+    State advance = blend(early, free, after);
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
         Mask overlapping = Real(0.0) > Real(1.0);
         for (int i = 0; i < count; ++i) {
-            const ContactConstraint& row = rows[i];
+            const Row& row = rows[i];
             const Real allowed = min(row.gap, Real(0.0)) * Real(1.0 - kRecovery);
             const Real overlap = allowed - (row.gap + dt * velocityAlong(row, advance, 0));
             const Mask deep = overlap > Real(kOverlapTolerance);

@@ -46,13 +46,13 @@ class BenchScenesTest : public QObject {
                     for (const int index : scene.track->solid.triangles[t]) {
                         const base::Vec3& corner = scene.track->solid.vertices[index];
                         // A triangle near the part: its corners may be a segment away.
-                        if ((corner - trial.start.pose.position).head<2>().norm() < 9e-3)
+                        if ((corner - trial.parts[0].pose.position).head<2>().norm() < 9e-3)
                             highest = std::max(highest, corner.z());
                     }
                 }
                 double lowest = 1.0;
                 for (const base::Vec3& vertex : scene.part->hull.vertices)
-                    lowest = std::min(lowest, trial.start.pose.apply(vertex).z());
+                    lowest = std::min(lowest, trial.parts[0].pose.apply(vertex).z());
                 QVERIFY2(lowest > highest, scene.name.c_str());
             }
         }
@@ -63,8 +63,8 @@ class BenchScenesTest : public QObject {
             const trial::TrialBatch five = bench::makeBatch(scene, 5);
             const trial::TrialBatch two = bench::makeBatch(scene, 2);
             for (std::size_t i = 0; i < two.trials.size(); ++i)
-                QVERIFY(two.trials[i].start.pose == five.trials[i].start.pose &&
-                        two.trials[i].start.phase == five.trials[i].start.phase);
+                QVERIFY(two.trials[i].parts[0].pose == five.trials[i].parts[0].pose &&
+                        two.trials[i].phase == five.trials[i].phase);
         }
     }
 

@@ -24,7 +24,7 @@ class HalfEngine : public trial::Engine {
         if (name_ == "picky") return base::Error{"It only does spheres."};
         std::vector<std::vector<trial::Outcome>> outcomes(1);
         for (std::size_t i = 0; i < batches[0].trials.size(); ++i) {
-            trial::Outcome& outcome = outcomes[0].emplace_back();
+            trial::PartOutcome& outcome = outcomes[0].emplace_back().parts.emplace_back();
             outcome.ending = i % 2 == 0 ? trial::Ending::finished : trial::Ending::stuck;
             outcome.time = i % 2 == 0 ? 1.0 : 0.5;
             control.advance(1);

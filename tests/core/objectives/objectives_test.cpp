@@ -46,12 +46,12 @@ struct Judge {
 };
 
 Outcome finishedAfter(double way, double seconds, const base::Quaternion& rotation) {
-    Outcome outcome;
-    outcome.ending = trial::Ending::finished;
-    outcome.initial.position.x() = 60e-3;
-    outcome.farthest.position.x() = 60e-3 + way;
-    outcome.farthest.rotation = rotation;
-    outcome.time = seconds;
+    Outcome outcome{{trial::PartOutcome()}};
+    outcome.parts[0].ending = trial::Ending::finished;
+    outcome.parts[0].initial.position.x() = 60e-3;
+    outcome.parts[0].farthest.position.x() = 60e-3 + way;
+    outcome.parts[0].farthest.rotation = rotation;
+    outcome.parts[0].time = seconds;
     return outcome;
 }
 
@@ -59,11 +59,11 @@ Outcome finishedAfter(double way, double seconds, const base::Quaternion& rotati
 Outcome drawOutcome(base::Random& random) {
     Outcome outcome = finishedAfter(104e-3, 1.0 + 0.2 * random.normal(),
                                     turn(random.uniform() < 0.7 ? 0.0 : 90.0, base::Vec3::UnitX()));
-    outcome.initial.rotation = random.rotation();
+    outcome.parts[0].initial.rotation = random.rotation();
     if (random.uniform() < 0.2) {
-        outcome.ending = trial::Ending::stuck;
-        outcome.farthest.position.x() = random.uniform(80e-3, 160e-3);
-        outcome.farthest.rotation = random.rotation();
+        outcome.parts[0].ending = trial::Ending::stuck;
+        outcome.parts[0].farthest.position.x() = random.uniform(80e-3, 160e-3);
+        outcome.parts[0].farthest.rotation = random.rotation();
     }
     return outcome;
 }
@@ -128,11 +128,11 @@ class ObjectivesTest : public QObject {
     // Paper, section 4.1: -1.3 is the last segment plus 30 percent of the one before.
     void distanceIsEquation3() {
         const Judge judge;
-        Outcome outcome;
-        outcome.ending = trial::Ending::stuck;
+        Outcome outcome{{trial::PartOutcome()}};
+        outcome.parts[0].ending = trial::Ending::stuck;
         // Sections at 0, 80, 110, 146, 182 mm, finish at 164 mm: half of the last segment and 0.8 of the one
         // before.
-        outcome.farthest.position.x() = 110e-3 + 0.2 * 36e-3;
+        outcome.parts[0].farthest.position.x() = 110e-3 + 0.2 * 36e-3;
         std::vector<Outcome> outcomes(3, outcome);
         const Fitness alike = judge.judge(outcomes);
         QVERIFY(std::abs(scoreOf(alike, "F_D") + 1.3) < 1e-12);
@@ -150,11 +150,11 @@ class ObjectivesTest : public QObject {
         judge.symmetry = testing::makeD2();
         const auto initial = drawRotations(8, 30);
         const auto final = drawRotations(9, 1);
-        std::vector<Outcome> outcomes(30);
+        std::vector<Outcome> outcomes(30, Outcome{{trial::PartOutcome()}});
         for (std::size_t i = 0; i < 30; ++i) {
-            outcomes[i].ending = trial::Ending::finished;
-            outcomes[i].initial.rotation = initial[i];
-            outcomes[i].farthest.rotation = final[0];
+            outcomes[i].parts[0].ending = trial::Ending::finished;
+            outcomes[i].parts[0].initial.rotation = initial[i];
+            outcomes[i].parts[0].farthest.rotation = final[0];
         }
         const Fitness fitness = judge.judge(outcomes, 4);
         const double orientation = scoreOf(fitness, "F_O");
@@ -167,7 +167,7 @@ class ObjectivesTest : public QObject {
         QCOMPARE(fitness.total, -4.0 + orientation);
         // Nothing gained where nothing was turned.
         for (auto& outcome : outcomes)
-            outcome.farthest = outcome.initial;
+            outcome.parts[0].farthest = outcome.parts[0].initial;
         judge.distance = OrientationDistance::plain;
         QCOMPARE(scoreOf(judge.judge(outcomes), "F_O"), 0.0);
     }
@@ -179,11 +179,11 @@ class ObjectivesTest : public QObject {
         QCOMPARE(scoreOf(worst, "F_C"), -3.0);
         QVERIFY(std::abs(scoreOf(worst, "F_D") + 2.75) < 1e-12);
         // Even from equal starts to random ends.
-        std::vector<Outcome> outcomes(20);
+        std::vector<Outcome> outcomes(20, Outcome{{trial::PartOutcome()}});
         const auto ends = drawRotations(10, 20);
         for (std::size_t i = 0; i < 20; ++i) {
-            outcomes[i].farthest.position.x() = judge.track.start;
-            outcomes[i].farthest.rotation = ends[i];
+            outcomes[i].parts[0].farthest.position.x() = judge.track.start;
+            outcomes[i].parts[0].farthest.rotation = ends[i];
         }
         const Fitness bad = judge.judge(outcomes, 3);
         for (const objectives::Objective& objective : objectives::allObjectives()) {
@@ -199,7 +199,7 @@ class ObjectivesTest : public QObject {
         outcomes.reserve(10);
         for (int i = 0; i < 10; ++i)  // six within the tolerance of each other, two elsewhere, two stuck
             outcomes.push_back(finishedAfter(104e-3, 2.0, turn(i < 6 ? 3.0 * i : 90.0, base::Vec3::UnitX())));
-        outcomes[8].ending = outcomes[9].ending = trial::Ending::stuck;
+        outcomes[8].parts[0].ending = outcomes[9].parts[0].ending = trial::Ending::stuck;
         const objectives::Score& success = *objectives::findScore(judge.judge(outcomes), "success");
         QCOMPARE(success.value, 0.6);
         QVERIFY(std::abs(success.error - std::sqrt(0.6 * 0.4 / 9.0)) < 1e-12);
@@ -215,7 +215,7 @@ class ObjectivesTest : public QObject {
                                       finishedAfter(104e-3, 2.0, base::Quaternion::Identity())};
         QVERIFY(std::abs(scoreOf(judge.judge(outcomes), "conveying_speed") - 78e-3) < 1e-12);
         outcomes.push_back(finishedAfter(20e-3, 5.0, base::Quaternion::Identity()));
-        outcomes.back().ending = trial::Ending::stuck;
+        outcomes.back().parts[0].ending = trial::Ending::stuck;
         QVERIFY(std::abs(scoreOf(judge.judge(outcomes), "conveying_speed") - 78e-3) < 1e-12);
         QCOMPARE(scoreOf(judge.judge(std::span(outcomes).last(1)), "conveying_speed"), 0.0);
     }

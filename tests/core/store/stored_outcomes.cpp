@@ -7,7 +7,7 @@
 namespace trapwright::sample {
 
 void changeOutcomes(const std::filesystem::path& path, int generation,
-                    const std::function<void(std::size_t trial, trial::Outcome& outcome)>& change) {
+                    const std::function<void(std::size_t trial, trial::PartOutcome& outcome)>& change) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
     SQLite::Statement query(
         database, "SELECT first, count, trials FROM outcomes WHERE run = 'generation' AND number = ?");
@@ -18,7 +18,7 @@ void changeOutcomes(const std::filesystem::path& path, int generation,
                                               static_cast<std::size_t>(query.getColumn(1).getInt()))
                             .value();
         for (std::size_t i = 0; i < outcomes.size(); ++i)
-            change(static_cast<std::size_t>(first) + i, outcomes[i]);
+            change(static_cast<std::size_t>(first) + i, outcomes[i].parts.at(0));
         const std::string bytes = trial::packOutcomes(outcomes);
         SQLite::Statement update(
             database, "UPDATE outcomes SET trials = ? WHERE run = 'generation' AND number = ? AND first = ?");

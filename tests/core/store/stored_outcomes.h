@@ -12,7 +12,7 @@ namespace trapwright::sample {
 
 /// Changes the stored trials of a generation; `trial` counts through all its individuals.
 void changeOutcomes(const std::filesystem::path& path, int generation,
-                    const std::function<void(std::size_t trial, trial::Outcome& outcome)>& change);
+                    const std::function<void(std::size_t trial, trial::PartOutcome& outcome)>& change);
 /// As if another program had made all of them.
 void changeMaker(const std::filesystem::path& path, const trial::OutcomeMaker& maker);
 /// As if they had never been stored.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
-study::PhysicalTrial trialOf(int number, int pose, study::PhysicalOutcome outcome) {
+study::PhysicalTrial trialOf(int number, int pose, trial::Verdict outcome) {
     return {number,
             pose,
             outcome,
@@ -81,16 +81,16 @@ class StudyFeederTest : public QObject {
 
     void keepsValidationsWithTheirTrials() {
         std::vector<study::PhysicalValidation> expected = {validation(0), validation(1)};
-        expected[1].trials = {trialOf(0, 5, study::PhysicalOutcome::success),
-                              trialOf(1, 3, study::PhysicalOutcome::wrongOrientation)};
+        expected[1].trials = {trialOf(0, 5, trial::Verdict::success),
+                              trialOf(1, 3, trial::Verdict::wrongOrientation)};
         {
             auto study = StudyFile::open(path_, sample::kProgram);
             VERIFY_OK(study);
             QVERIFY(study->loadPhysicalValidations().value().empty());
             for (const auto& one : expected)
                 VERIFY_OK(study->addPhysicalValidation(one));
-            expected[0].trials = {trialOf(0, 3, study::PhysicalOutcome::stuck),
-                                  trialOf(1, 3, study::PhysicalOutcome::fellOff)};
+            expected[0].trials = {trialOf(0, 3, trial::Verdict::stuck),
+                                  trialOf(1, 3, trial::Verdict::fellOff)};
             for (const auto& one : expected[0].trials)
                 VERIFY_OK(study->addPhysicalTrial(0, one));
         }
@@ -99,8 +99,8 @@ class StudyFeederTest : public QObject {
         QVERIFY(study->loadPhysicalValidations().value() == expected);
         // Days later: one is taken back, and it goes on.
         VERIFY_OK(study->removeLastPhysicalTrial(0));
-        VERIFY_OK(study->addPhysicalTrial(0, trialOf(1, 0, study::PhysicalOutcome::success)));
-        expected[0].trials[1] = trialOf(1, 0, study::PhysicalOutcome::success);
+        VERIFY_OK(study->addPhysicalTrial(0, trialOf(1, 0, trial::Verdict::success)));
+        expected[0].trials[1] = trialOf(1, 0, trial::Verdict::success);
         const auto reader = StudyFile::openReadOnly(path_);
         VERIFY_OK(reader);
         QVERIFY(reader->loadPhysicalValidations().value() == expected);
@@ -109,13 +109,13 @@ class StudyFeederTest : public QObject {
     void trialsHaveNoGapsAndNoTwins() {
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
-        const auto first = trialOf(0, 3, study::PhysicalOutcome::success);
+        const auto first = trialOf(0, 3, trial::Verdict::success);
         QVERIFY(sample::messageOf(study->addPhysicalTrial(0, first)).contains("no validation 1"));
         VERIFY_OK(study->addPhysicalValidation(validation(0)));
         QVERIFY(sample::messageOf(study->removeLastPhysicalTrial(0)).contains("none"));
         VERIFY_OK(study->addPhysicalTrial(0, first));
         QVERIFY(sample::messageOf(study->addPhysicalTrial(0, first)).contains("the next one"));
-        const auto third = trialOf(2, 3, study::PhysicalOutcome::success);
+        const auto third = trialOf(2, 3, trial::Verdict::success);
         QVERIFY(sample::messageOf(study->addPhysicalTrial(0, third)).contains("is 2"));
         QCOMPARE(study->loadPhysicalValidations().value()[0].trials.size(), std::size_t{1});
         auto reader = StudyFile::openReadOnly(path_);
@@ -182,7 +182,7 @@ class StudyFeederTest : public QObject {
             VERIFY_OK(beside);
             VERIFY_OK(beside->addPhysicalValidation(validation(0)));
             VERIFY_OK(study->saveGeneration(sample::generation(1)));
-            VERIFY_OK(beside->addPhysicalTrial(0, trialOf(0, 3, study::PhysicalOutcome::success)));
+            VERIFY_OK(beside->addPhysicalTrial(0, trialOf(0, 3, trial::Verdict::success)));
             QCOMPARE(beside->generationCount().value(), 2);
             // The lock is held by both.
             study = std::move(beside);
@@ -209,7 +209,7 @@ class StudyFeederTest : public QObject {
         QVERIFY(study->loadDriveLog(-kForEver, kForEver).value().empty());
         QVERIFY(study->loadCalibrations().value().empty() && !study->loadChosenWinner().value());
         VERIFY_OK(study->addPhysicalValidation(validation(0)));
-        VERIFY_OK(study->addPhysicalTrial(0, trialOf(0, 3, study::PhysicalOutcome::success)));
+        VERIFY_OK(study->addPhysicalTrial(0, trialOf(0, 3, trial::Verdict::success)));
         VERIFY_OK(study->appendDriveLog(std::vector{reading(1, 1.0)}));
         VERIFY_OK(study->addCalibration(measured(0)));
         VERIFY_OK(study->chooseWinner(store::IndividualPlace{0, 1}));
@@ -219,7 +219,7 @@ class StudyFeederTest : public QObject {
 
     // Version 5 did not note what moved the parts: that is not known, and nothing else is lost.
     void trialsOfVersion5HaveAnUnknownFeeder() {
-        auto trial = trialOf(0, 3, study::PhysicalOutcome::stuck);
+        auto trial = trialOf(0, 3, trial::Verdict::stuck);
         {
             auto study = StudyFile::open(path_, sample::kProgram);
             VERIFY_OK(study);
@@ -240,7 +240,7 @@ class StudyFeederTest : public QObject {
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
         VERIFY_OK(study->addPhysicalValidation(validation(0)));
-        VERIFY_OK(study->addPhysicalTrial(0, trialOf(0, 3, study::PhysicalOutcome::success)));
+        VERIFY_OK(study->addPhysicalTrial(0, trialOf(0, 3, trial::Verdict::success)));
         VERIFY_OK(study->addCalibration(measured(0)));
         VERIFY_OK(study->appendDriveLog(std::vector{reading(1, 1.0)}));
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);

@@ -18,7 +18,8 @@ const trial::OutcomeMaker kMaker{"", "native", "AVX3"};
 std::vector<trial::Outcome> outcomes(std::size_t count, std::uint32_t seed) {
     base::Random random({.seed = 3, .generation = seed});
     std::vector<trial::Outcome> all(count);
-    for (trial::Outcome& outcome : all) {
+    for (trial::Outcome& one : all) {
+        trial::PartOutcome& outcome = one.parts.emplace_back();
         outcome.ending = static_cast<trial::Ending>(random.below(4));
         outcome.time = 2e-4 * random.below(50000);
         outcome.farthest = {random.rotation(), {random.uniform(), random.uniform(), random.uniform()}};
@@ -49,7 +50,7 @@ bool hold(const base::Result<std::optional<store::PackedOutcomes>>& packed, cons
     const auto read = store::unpack(**packed);
     if (!read || read->size() != count) return false;
     for (std::size_t i = 0; i < count; ++i)
-        if (!trial::endAlike((*read)[i], made.outcomes[first + i])) return false;
+        if (!trial::endAlike((*read)[i].parts.at(0), made.outcomes[first + i].parts.at(0))) return false;
     return true;
 }
 
@@ -221,7 +222,7 @@ class StudyOutcomesTest : public QObject {
             VERIFY_OK(study);
             VERIFY_OK(study->saveGeneration(generation(0)));
         }
-        sample::changeOutcomes(path_, 0, [](std::size_t trial, trial::Outcome& outcome) {
+        sample::changeOutcomes(path_, 0, [](std::size_t trial, trial::PartOutcome& outcome) {
             if (trial == 2) outcome.farthest.position.y() = std::nan("");
         });
         const auto study = StudyFile::openReadOnly(path_);

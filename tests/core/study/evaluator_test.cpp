@@ -131,7 +131,7 @@ class EvaluatorTest : public QObject {
         inputs.settings.evolution.generations = 1;
         inputs.engine = std::make_shared<fake::FakeEngine>(
             [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-                trial::Outcome outcome = fake::waveLaw(batch, spec);
+                trial::PartOutcome outcome = fake::waveLaw(batch, spec);
                 // Of 8 trials 3 end alike (one of them turned to where the block looks the same), 2 within
                 // the tolerance of each other elsewhere, 1 aside; 2 do not finish, as they lie in the
                 // majority.
@@ -174,7 +174,7 @@ class EvaluatorTest : public QObject {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::set<double>> phases;
         inputs.engine = std::make_shared<fake::FakeEngine>(
             [&](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-                phases[{spec.stream.generation, spec.stream.trial}].insert(spec.start.phase);
+                phases[{spec.stream.generation, spec.stream.trial}].insert(spec.phase);
                 return fake::waveLaw(batch, spec);
             });
         std::vector<GenerationRecord> saved;

@@ -24,7 +24,7 @@ QString messageOf(const base::Result<T>& result) {
     return QString::fromStdString(result.ok() ? std::string("(no error)") : result.error().message);
 }
 
-using Law = std::function<trial::Outcome(const trial::TrialBatch&, const trial::TrialSpec&)>;
+using Law = std::function<trial::PartOutcome(const trial::TrialBatch&, const trial::TrialSpec&)>;
 
 /// Judges trials by a law instead of mechanics, and keeps the rules of an engine.
 class FakeEngine : public trial::Engine {
@@ -50,7 +50,7 @@ class FakeEngine : public trial::Engine {
         base::parallelFor(jobs.size(), threads_, [&](std::size_t job, unsigned) {
             if (!control.mayGoOn()) return;
             const auto [b, i] = jobs[job];
-            outcomes[b][i] = law_(batches[b], batches[b].trials[i]);
+            outcomes[b][i].parts = {law_(batches[b], batches[b].trials[i])};
             control.advance(1);
             if (afterTrial) afterTrial();
         });
@@ -60,7 +60,7 @@ class FakeEngine : public trial::Engine {
 
     [[nodiscard]] base::Result<trial::Trajectory> replay(const trial::TrialBatch& batch, std::size_t index,
                                                          double, base::RunControl) const override {
-        return trial::Trajectory{{}, law_(batch, batch.trials[index])};
+        return trial::Trajectory{{}, {{law_(batch, batch.trials[index])}}};
     }
 
  private:
@@ -84,12 +84,12 @@ inline double distanceFromWave(const track::Track& track) {
 }
 
 /// The nearer the trap is to the wave, the farther parts come and the more alike they end.
-inline trial::Outcome waveLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+inline trial::PartOutcome waveLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
     const track::Track& track = *batch.track;
     const double distance = distanceFromWave(track);
     base::Random random(spec.stream);
-    trial::Outcome outcome;
-    outcome.initial = {spec.start.pose.rotation, {track.start, 0.0, 0.0}};
+    trial::PartOutcome outcome;
+    outcome.initial = {spec.parts[0].pose.rotation, {track.start, 0.0, 0.0}};
     const double reach = std::clamp(1.3 - 2.0 * distance + 0.05 * random.normal(), 0.0, 1.0);
     outcome.farthest.position = {track.start + reach * (track.finish - track.start), 0.0, 0.0};
     outcome.farthest.rotation = Eigen::AngleAxisd(4.0 * distance * random.normal(), base::Vec3::UnitZ());

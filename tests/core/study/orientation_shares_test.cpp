@@ -29,11 +29,12 @@ part::Part cone() {
 }
 
 trial::Outcome ended(trial::Ending ending, const base::Quaternion& start, const base::Quaternion& finish) {
-    trial::Outcome outcome;
+    trial::Outcome trial;
+    trial::PartOutcome& outcome = trial.parts.emplace_back();
     outcome.ending = ending;
     outcome.initial.rotation = start;
     outcome.farthest.rotation = finish;
-    return outcome;
+    return trial;
 }
 
 }  // namespace

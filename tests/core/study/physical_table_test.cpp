@@ -6,9 +6,9 @@
 #include <map>
 
 using namespace trapwright;
-using study::PhysicalOutcome;
 using study::PhysicalValidation;
 using study::ValidationRecord;
+using trial::Verdict;
 
 namespace {
 
@@ -22,7 +22,7 @@ PhysicalValidation physical(const std::vector<int>& failures, int trials) {
             study::PhysicalTrial trial;
             trial.number = static_cast<int>(validation.trials.size());
             trial.pose = static_cast<int>(pose);
-            if (i < failures[pose]) trial.outcome = PhysicalOutcome::wrongOrientation;
+            if (i < failures[pose]) trial.outcome = trial::Verdict::wrongOrientation;
             validation.trials.push_back(trial);
         }
     }
@@ -82,10 +82,10 @@ class PhysicalTableTest : public QObject {
     }
 
     void outcomesHaveNames() {
-        for (const PhysicalOutcome outcome : {PhysicalOutcome::success, PhysicalOutcome::wrongOrientation,
-                                              PhysicalOutcome::stuck, PhysicalOutcome::fellOff})
-            QVERIFY(study::physicalOutcomeOf(study::nameOf(outcome)) == outcome);
-        QVERIFY(!study::physicalOutcomeOf("lost"));
+        for (const trial::Verdict outcome : {trial::Verdict::success, trial::Verdict::wrongOrientation,
+                                             trial::Verdict::stuck, trial::Verdict::fellOff})
+            QVERIFY(trial::findVerdict(trial::verdictName(outcome)) == outcome);
+        QVERIFY(!trial::findVerdict("lost"));
     }
 
     // The paper's Table 2.
@@ -153,7 +153,7 @@ class PhysicalTableTest : public QObject {
         PhysicalValidation half = physical({0, 50}, 100);
         half.trials.resize(110);  // 100 of pose 1; 10 failures of pose 2
         for (std::size_t i = 105; i < 110; ++i)
-            half.trials[i].outcome = PhysicalOutcome::success;
+            half.trials[i].outcome = trial::Verdict::success;
         const study::PhysicalTable table = study::comparePhysical(&record, half, {});
         QVERIFY(table.total.p.value() > 0.9);
         QCOMPARE(table.total.planned, 200);
@@ -271,7 +271,7 @@ class PhysicalTableTest : public QObject {
             study::PhysicalTrial& trial = feeder.trials.emplace_back();
             trial.number = static_cast<int>(feeder.trials.size()) - 1;
             trial.pose = pose;
-            if (pose == 7) trial.outcome = PhysicalOutcome::stuck;
+            if (pose == 7) trial.outcome = trial::Verdict::stuck;
         }
         const study::PhysicalTable table = study::comparePhysical(&record, feeder, groups);
         QCOMPARE(table.rows.size(), std::size_t{3});

@@ -19,8 +19,8 @@ using study::Individual;
 namespace {
 
 /// Every fourth part that finishes by the law turns upside down, and every fifth falls off.
-trial::Outcome otherLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-    trial::Outcome outcome = fake::waveLaw(batch, spec);
+trial::PartOutcome otherLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    trial::PartOutcome outcome = fake::waveLaw(batch, spec);
     if (outcome.ending != trial::Ending::finished) return outcome;
     if (spec.stream.trial % 4 == 0)
         outcome.farthest.rotation =
@@ -36,8 +36,8 @@ std::shared_ptr<fake::FakeEngine> engineOf(fake::Law law, const std::string& tit
 }
 
 /// A perfect feeder, whatever its track.
-trial::Outcome perfectLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-    trial::Outcome outcome = fake::waveLaw(batch, spec);
+trial::PartOutcome perfectLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    trial::PartOutcome outcome = fake::waveLaw(batch, spec);
     outcome.ending = trial::Ending::finished;
     outcome.farthest = {base::Quaternion::Identity(), {batch.track->finish, 0.0, 0.0}};
     return outcome;
@@ -100,8 +100,8 @@ class ReferenceCheckTest : public QObject {
                      (base::StreamKey{2024, 0, static_cast<std::uint32_t>(winner.individual),
                                       static_cast<std::uint32_t>(i), base::Purpose::trialStart}));
             QCOMPARE(given[i + 100].stream, given[i].stream);
-            QVERIFY(given[i + 100].start.pose == given[i].start.pose);
-            QCOMPARE(given[i + 100].start.phase, given[i].start.phase);
+            QVERIFY(given[i + 100].parts[0].pose == given[i].parts[0].pose);
+            QCOMPARE(given[i + 100].phase, given[i].phase);
         }
     }
 
@@ -112,7 +112,7 @@ class ReferenceCheckTest : public QObject {
         inputs.engine = engineOf(perfectLaw, "quick");
         const Individual winner = winnerOf(learn(inputs, nullptr).front());
         const auto worse = [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-            trial::Outcome outcome = perfectLaw(batch, spec);
+            trial::PartOutcome outcome = perfectLaw(batch, spec);
             if (spec.stream.trial % 4 == 0)
                 outcome.farthest.rotation = Eigen::AngleAxisd(base::kPi / 2, base::Vec3::UnitX());
             if (spec.stream.trial % 10 == 1) outcome.ending = trial::Ending::fellOff;
@@ -192,7 +192,7 @@ class ReferenceCheckTest : public QObject {
         std::promise<void> hanging;
         std::promise<void> released;
         auto law = [&](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-            trial::Outcome outcome = fake::waveLaw(batch, spec);
+            trial::PartOutcome outcome = fake::waveLaw(batch, spec);
             if (spec.stream.generation == 2) outcome.initial.position.x() = std::nan("");
             if (spec.stream.generation == 0 && spec.stream.trial == 0) {
                 hanging.set_value();

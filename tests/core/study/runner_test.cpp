@@ -291,7 +291,7 @@ class RunnerTest : public QObject {
         std::vector<GenerationRecord> saved;
         study::StudyInputs inputs = fake::waveInputs();
         inputs.engine = engineOf([](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-            trial::Outcome outcome = fake::waveLaw(batch, spec);
+            trial::PartOutcome outcome = fake::waveLaw(batch, spec);
             if (spec.stream.trial == 3)
                 outcome.farthest.position.x() = std::numeric_limits<double>::quiet_NaN();
             return outcome;

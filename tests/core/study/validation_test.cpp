@@ -20,8 +20,9 @@ base::Quaternion about(const base::Vec3& axis, double degrees) {
     return base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, axis));
 }
 
-trial::Outcome ended(trial::Ending ending, const base::Quaternion& rotation = base::Quaternion::Identity()) {
-    trial::Outcome outcome;
+trial::PartOutcome ended(trial::Ending ending,
+                         const base::Quaternion& rotation = base::Quaternion::Identity()) {
+    trial::PartOutcome outcome;
     outcome.ending = ending;
     outcome.farthest.rotation = rotation;
     return outcome;
@@ -99,9 +100,10 @@ class ValidationTest : public QObject {
                 fresh = fresh && spec.stream.purpose == base::Purpose::finalSelection;
                 const bool lost = spec.stream.trial < (spec.stream.generation == 1 ? 2U : 5U);
                 // Every second part ends turned about a symmetry axis: the same to the eye.
-                trial::Outcome outcome = ended(lost ? trial::Ending::fellOff : trial::Ending::finished,
-                                               spec.stream.trial % 2 == 0 ? about(base::Vec3::UnitX(), 180)
-                                                                          : about(base::Vec3::UnitZ(), 0));
+                trial::PartOutcome outcome =
+                    ended(lost ? trial::Ending::fellOff : trial::Ending::finished,
+                          spec.stream.trial % 2 == 0 ? about(base::Vec3::UnitX(), 180)
+                                                     : about(base::Vec3::UnitZ(), 0));
                 outcome.farthest.position.x() =
                     lost ? (spec.stream.generation == 2 ? batch.track->finish - 0.01 : 0.0)
                          : batch.track->finish;
@@ -200,11 +202,11 @@ class ValidationTest : public QObject {
                          (base::StreamKey{7, 3, 4, static_cast<std::uint32_t>(pose * kTrials + i),
                                           base::Purpose::validation}));
                 // The part's up direction is within a few standard deviations of 2 degrees of the pose's.
-                const base::Vec3 up = spec.start.pose.rotation.inverse() * base::Vec3::UnitZ();
+                const base::Vec3 up = spec.parts[0].pose.rotation.inverse() * base::Vec3::UnitZ();
                 const double tilt = std::acos(std::min(1.0, up.dot(stable.inverse() * base::Vec3::UnitZ())));
                 QVERIFY(tilt < 12 * base::kDegree);
                 sum += tilt * tilt;
-                heading += spec.start.pose.rotation * (stable.inverse() * base::Vec3::UnitX());
+                heading += spec.parts[0].pose.rotation * (stable.inverse() * base::Vec3::UnitX());
             }
         }
         const double variance = sum / (3 * kTrials) / 2;  // two axes
@@ -223,9 +225,9 @@ class ValidationTest : public QObject {
         for (std::size_t i = 0; i < 5; ++i) {
             QCOMPARE(few.trials[i].stream,
                      (base::StreamKey{7, 3, 4, static_cast<std::uint32_t>(i), base::Purpose::trialStart}));
-            QVERIFY(few.trials[i].start.pose == many.trials[i].start.pose);
-            QCOMPARE(few.trials[i].start.phase, many.trials[i].start.phase);
-            QVERIFY(!(few.trials[i].start.pose == fresh.trials[i].start.pose));
+            QVERIFY(few.trials[i].parts[0].pose == many.trials[i].parts[0].pose);
+            QCOMPARE(few.trials[i].phase, many.trials[i].phase);
+            QVERIFY(!(few.trials[i].parts[0].pose == fresh.trials[i].parts[0].pose));
         }
     }
 

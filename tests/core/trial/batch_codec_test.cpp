@@ -114,12 +114,15 @@ trial::TrialBatch makeBatch() {
     trial::TrialBatch batch;
     batch.drive = {next(), next(), next()};
     batch.contact = {next(), next(), next()};
+    batch.partsContact = {next(), next(), next()};
     batch.termination = {next(), next(), next()};
     batch.gravity = next();
     for (std::uint32_t i = 0; i < 3; ++i) {
         trial::TrialSpec spec;
         spec.stream = {0x8000000000000001U + i, 7 + i, 0xfffffffeU, 9 + i, base::Purpose::validation};
-        spec.start = {next.pose(), next(), next.vector(), next.vector()};
+        spec.phase = next();
+        for (std::uint32_t k = 0; k < i; ++k)
+            spec.parts.push_back({4 + k, next.pose(), next.vector(), next.vector(), next()});
         spec.frictionScale = next();
         spec.restitutionScale = next();
         batch.trials.push_back(spec);
@@ -132,7 +135,9 @@ std::vector<trial::Outcome> makeOutcomes() {
     std::vector<trial::Outcome> outcomes;
     for (const trial::Ending ending :
          {trial::Ending::finished, trial::Ending::fellOff, trial::Ending::stuck, trial::Ending::timedOut})
-        outcomes.push_back({ending, next.pose(), next.pose(), next()});
+        outcomes.push_back({{{ending, next.pose(), next.pose(), next()}}});
+    outcomes.back().parts.push_back(outcomes.front().parts.front());
+    outcomes.emplace_back();
     return outcomes;
 }
 
@@ -161,6 +166,7 @@ bool allSame(const std::vector<T>& a, const std::vector<T>& b, Same sameOnes) {
 }
 
 bool same(const geometry::ConvexPolytope& a, const geometry::ConvexPolytope& b);
+bool same(const trial::PartStart& a, const trial::PartStart& b);
 bool same(const trial::TrialSpec& a, const trial::TrialSpec& b);
 
 constexpr auto kSame = [](const auto& a, const auto& b) { return same(a, b); };
@@ -212,11 +218,14 @@ bool same(const track::Track& a, const track::Track& b) {
            same(a.baseThickness, b.baseThickness);
 }
 
+bool same(const trial::PartStart& a, const trial::PartStart& b) {
+    return a.part == b.part && same(a.pose, b.pose) && same(a.velocity, b.velocity) &&
+           same(a.angularVelocity, b.angularVelocity) && same(a.time, b.time);
+}
+
 bool same(const trial::TrialSpec& a, const trial::TrialSpec& b) {
-    return a.stream == b.stream && same(a.start.pose, b.start.pose) && same(a.start.phase, b.start.phase) &&
-           same(a.start.velocity, b.start.velocity) &&
-           same(a.start.angularVelocity, b.start.angularVelocity) && same(a.frictionScale, b.frictionScale) &&
-           same(a.restitutionScale, b.restitutionScale);
+    return a.stream == b.stream && same(a.phase, b.phase) && allSame(a.parts, b.parts, kSame) &&
+           same(a.frictionScale, b.frictionScale) && same(a.restitutionScale, b.restitutionScale);
 }
 
 bool same(const trial::TrialBatch& a, const trial::TrialBatch& b) {
@@ -224,6 +233,9 @@ bool same(const trial::TrialBatch& a, const trial::TrialBatch& b) {
            same(a.drive.angle, b.drive.angle) && same(a.contact.staticFriction, b.contact.staticFriction) &&
            same(a.contact.kineticFriction, b.contact.kineticFriction) &&
            same(a.contact.restitution, b.contact.restitution) &&
+           same(a.partsContact.staticFriction, b.partsContact.staticFriction) &&
+           same(a.partsContact.kineticFriction, b.partsContact.kineticFriction) &&
+           same(a.partsContact.restitution, b.partsContact.restitution) &&
            same(a.termination.timeLimit, b.termination.timeLimit) &&
            same(a.termination.stuckTime, b.termination.stuckTime) &&
            same(a.termination.stuckProgress, b.termination.stuckProgress) && same(a.gravity, b.gravity) &&
@@ -231,9 +243,12 @@ bool same(const trial::TrialBatch& a, const trial::TrialBatch& b) {
 }
 
 bool same(const std::vector<trial::Outcome>& a, const std::vector<trial::Outcome>& b) {
-    return allSame(a, b, [](const trial::Outcome& x, const trial::Outcome& y) {
+    const auto samePart = [](const trial::PartOutcome& x, const trial::PartOutcome& y) {
         return x.ending == y.ending && same(x.initial, y.initial) && same(x.farthest, y.farthest) &&
                same(x.time, y.time);
+    };
+    return allSame(a, b, [&](const trial::Outcome& x, const trial::Outcome& y) {
+        return allSame(x.parts, y.parts, samePart);
     });
 }
 
@@ -278,7 +293,7 @@ class BatchCodecTest : public QObject {
         QVERIFY(same(trial::decodeTrack(trial::encode(makeTrack())).value(), makeTrack()));
         const trial::TrialBatch batch = trial::decodeBatch(trial::encode(makeBatch())).value();
         QVERIFY(same(batch, makeBatch()));
-        QVERIFY(!batch.track && !batch.part);
+        QVERIFY(!batch.track && batch.parts.empty());
         QVERIFY(same(trial::decodeOutcomes(trial::encode(makeOutcomes())).value(), makeOutcomes()));
     }
 
@@ -366,8 +381,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 513, and this program "
-                         "knows version 1; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 514, and this program "
+                         "knows version 2; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

@@ -13,10 +13,11 @@
 
 using namespace trapwright;
 using trial::Outcome;
+using trial::PartOutcome;
 
 namespace {
 
-std::array<std::uint64_t, 9> bitsOf(const Outcome& outcome) {
+std::array<std::uint64_t, 9> bitsOf(const PartOutcome& outcome) {
     const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
     const base::Pose& pose = outcome.farthest;
     return {static_cast<std::uint64_t>(outcome.ending),
@@ -31,8 +32,8 @@ std::array<std::uint64_t, 9> bitsOf(const Outcome& outcome) {
 }
 
 /// As an engine of fixed steps has them.
-Outcome likely(base::Random& random, double step) {
-    Outcome outcome;
+PartOutcome likely(base::Random& random, double step) {
+    PartOutcome outcome;
     outcome.ending = static_cast<trial::Ending>(random.below(4));
     outcome.time = static_cast<double>(10 * random.below(5000)) * step;
     outcome.farthest.position = {random.uniform(0.1, 0.6), random.uniform(-0.02, 0.02),
@@ -45,11 +46,22 @@ std::vector<Outcome> manyLikely(std::size_t count, double step = 2e-4) {
     base::Random random({.seed = 11, .trial = static_cast<std::uint32_t>(count)});
     std::vector<Outcome> outcomes;
     for (std::size_t i = 0; i < count; ++i)
-        outcomes.push_back(likely(random, step));
+        outcomes.push_back({{likely(random, step)}});
     return outcomes;
 }
 
-using Change = std::function<void(Outcome&)>;
+/// Every bit of all parts, trial by trial.
+std::vector<std::vector<std::array<std::uint64_t, 9>>> bitsOf(const std::vector<Outcome>& outcomes) {
+    std::vector<std::vector<std::array<std::uint64_t, 9>>> bits;
+    for (const Outcome& outcome : outcomes) {
+        bits.emplace_back();
+        for (const PartOutcome& part : outcome.parts)
+            bits.back().push_back(bitsOf(part));
+    }
+    return bits;
+}
+
+using Change = std::function<void(PartOutcome&)>;
 
 }  // namespace
 
@@ -77,11 +89,9 @@ class OutcomeCodecTest : public QObject {
         const std::string bytes = trial::packOutcomes(outcomes);
         const auto back = trial::unpackOutcomes(bytes, outcomes.size());
         QVERIFY2(back.ok(), back.ok() ? "" : back.error().message.c_str());
-        QCOMPARE(back->size(), outcomes.size());
-        for (std::size_t i = 0; i < outcomes.size(); ++i) {
-            QVERIFY(bitsOf((*back)[i]) == bitsOf(outcomes[i]));
-            QVERIFY((*back)[i].initial == base::Pose());
-        }
+        QVERIFY(bitsOf(*back) == bitsOf(outcomes));
+        for (const Outcome& outcome : *back)
+            QVERIFY(outcome.parts[0].initial == base::Pose());
         QCOMPARE(trial::packOutcomes(*back), bytes);
     }
 
@@ -93,15 +103,15 @@ class OutcomeCodecTest : public QObject {
         constexpr double kLeast = std::numeric_limits<double>::denorm_min();
         const auto row = [](const char* name, const Change& change) { QTest::newRow(name) << change; };
         const auto rotation = [&](const char* name, double w, double x, double y, double z) {
-            row(name, [=](Outcome& o) { o.farthest.rotation = base::Quaternion(w, x, y, z); });
+            row(name, [=](PartOutcome& o) { o.farthest.rotation = base::Quaternion(w, x, y, z); });
         };
         for (const double time :
              {0.0, -0.0, -1.0, kNaN, -kNaN, kInfinity, kLeast, 1e-7, 4294.967295, 4294.967296, 1e300,
               std::nextafter(0.2, 1.0), std::nextafter(0.2, 0.0), 0.1 + 0.2})
-            row(qPrintable(QString("time %1").arg(time, 0, 'g', 17)), [=](Outcome& o) { o.time = time; });
+            row(qPrintable(QString("time %1").arg(time, 0, 'g', 17)), [=](PartOutcome& o) { o.time = time; });
         for (const double place : {-0.0, kNaN, -kInfinity, kLeast, std::numeric_limits<double>::max()})
             row(qPrintable(QString("place %1").arg(place)),
-                [=](Outcome& o) { o.farthest.position.y() = place; });
+                [=](PartOutcome& o) { o.farthest.position.y() = place; });
         rotation("identity", 1, 0, 0, 0);
         rotation("minus identity", -1, -0.0, 0, -0.0);
         rotation("half a turn", 0, 0, -1, 0);
@@ -116,18 +126,52 @@ class OutcomeCodecTest : public QObject {
         rotation("infinite", 0, kInfinity, -kInfinity, 1);
         rotation("a little long", std::nextafter(1.0, 2.0), 0, 0, 0);
         rotation("hardly turned", 1.0, 1e-170, kLeast, -1e-9);
-        row("signalling", [](Outcome& o) {
+        row("signalling", [](PartOutcome& o) {
             o.farthest.position.z() = std::bit_cast<double>(std::uint64_t{0x7ff4000000000123U});
         });
     }
     void oddNumbersComeBackToo() {
         QFETCH(Change, change);
         std::vector<Outcome> outcomes = manyLikely(20);
-        change(outcomes[7]);
+        change(outcomes[7].parts[0]);
         const auto back = trial::unpackOutcomes(trial::packOutcomes(outcomes), outcomes.size());
         QVERIFY(back.ok());
-        for (std::size_t i = 0; i < outcomes.size(); ++i)
-            QVERIFY(bitsOf((*back)[i]) == bitsOf(outcomes[i]));
+        QVERIFY(bitsOf(*back) == bitsOf(outcomes));
+    }
+
+    void trialsOfSeveralParts_data() {
+        QTest::addColumn<std::vector<int>>("counts");
+        QTest::newRow("two") << std::vector<int>{2};
+        QTest::newRow("one and many") << std::vector<int>{1, 1, 40, 1};
+        QTest::newRow("some have none") << std::vector<int>{0, 3, 0, 0, 1};
+        QTest::newRow("all have none") << std::vector<int>{0, 0};
+        QTest::newRow("as many as there can be") << std::vector<int>{16000, 384};
+    }
+    void trialsOfSeveralParts() {
+        QFETCH(std::vector<int>, counts);
+        base::Random random({.seed = 12});
+        std::vector<Outcome> outcomes(counts.size());
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            for (int part = 0; part < counts[i]; ++part)
+                outcomes[i].parts.push_back(likely(random, 2e-4));
+        QCOMPARE(trial::countPackable(outcomes), outcomes.size());
+        const std::string bytes = trial::packOutcomes(outcomes);
+        const auto back = trial::unpackOutcomes(bytes, outcomes.size());
+        QVERIFY2(back.ok(), back.ok() ? "" : back.error().message.c_str());
+        QVERIFY(bitsOf(*back) == bitsOf(outcomes));
+        QVERIFY(!trial::unpackOutcomes(bytes, outcomes.size() + 1).ok());
+        QVERIFY(!trial::unpackOutcomes(bytes, outcomes.size() - 1).ok());
+    }
+
+    void asManyAsCanBePackedAreCounted() {
+        std::vector<Outcome> outcomes = manyLikely(3);
+        outcomes[1].parts.resize(trial::kMostPacked - 1, outcomes[0].parts[0]);
+        QCOMPARE(trial::countPackable(outcomes), std::size_t{2});
+        outcomes[1].parts.push_back(outcomes[0].parts[0]);
+        QCOMPARE(trial::countPackable(outcomes), std::size_t{1});
+        outcomes[0].parts.resize(trial::kMostPacked + 1, outcomes[0].parts[0]);
+        QCOMPARE(trial::countPackable(outcomes), std::size_t{0});
+        QCOMPARE(trial::countPackable(manyLikely(trial::kMostPacked + 1)), trial::kMostPacked);
     }
 
     void packedTheyAreSmall() {
@@ -153,21 +197,31 @@ class OutcomeCodecTest : public QObject {
         const std::string bytes = seed.readAll().toStdString();
         const auto read = trial::unpackOutcomes(std::string_view(bytes).substr(2), outcomes.size());
         QVERIFY(read.ok());
-        for (std::size_t i = 0; i < outcomes.size(); ++i)
-            QVERIFY(bitsOf((*read)[i]) == bitsOf(outcomes[i]));
+        QVERIFY(bitsOf(*read) == bitsOf(outcomes));
     }
     void bytesOfThisVersionAreStillRead_data() {
         QTest::addColumn<QString>("sample");
         QTest::addColumn<std::vector<Outcome>>("outcomes");
         QTest::newRow("likely") << "likely" << manyLikely(20);
         std::vector<Outcome> odd = manyLikely(3);
-        odd[1].time = 1.0 / 3.0;
-        odd[2].farthest.rotation.coeffs() *= 2.0;
+        odd[1].parts[0].time = 1.0 / 3.0;
+        odd[2].parts[0].farthest.rotation.coeffs() *= 2.0;
         QTest::newRow("odd") << "odd" << odd;
+        std::vector<Outcome> several = manyLikely(4);
+        several[1].parts.push_back(several[0].parts[0]);
+        several[2].parts.clear();
+        QTest::newRow("several") << "several" << several;
     }
 
+    void damageIsFound_data() {
+        QTest::addColumn<int>("second");
+        QTest::newRow("one part") << 1;
+        QTest::newRow("several parts") << 3;
+    }
     void damageIsFound() {
-        const std::vector<Outcome> outcomes = manyLikely(30);
+        QFETCH(int, second);
+        std::vector<Outcome> outcomes = manyLikely(30);
+        outcomes[1].parts.resize(static_cast<std::size_t>(second), outcomes[0].parts[0]);
         const std::string bytes = trial::packOutcomes(outcomes);
         QVERIFY(!trial::unpackOutcomes(bytes, 29).ok());
         QVERIFY(!trial::unpackOutcomes(bytes, 31).ok());
@@ -183,8 +237,7 @@ class OutcomeCodecTest : public QObject {
                 const auto back = trial::unpackOutcomes(damaged, 30);
                 if (!back) continue;
                 // Bits of the compression that mean nothing.
-                for (std::size_t i = 0; i < outcomes.size(); ++i)
-                    QVERIFY(bitsOf((*back)[i]) == bitsOf(outcomes[i]));
+                QVERIFY(bitsOf(*back) == bitsOf(outcomes));
             }
         }
     }

@@ -24,10 +24,15 @@ Trajectory makeRide(const track::FeederShape& shape, const base::Pose& onTrack) 
             turn = Eigen::AngleAxisd(sense * sample.drive.x() / shape.bowlRadius, Vec3::UnitZ());
             shift = Vec3(0.0, 0.0, sample.drive.z());
         }
-        sample.room = {turn * onTrack.rotation, turn * onTrack.position + shift};
+        // A second one rides with it, turned half about.
+        for (const double angle : {0.0, base::kPi}) {
+            const base::Quaternion half(Eigen::AngleAxisd(angle, Vec3::UnitX()));
+            sample.parts.push_back({{turn * onTrack.rotation * half, turn * onTrack.position + shift}, {}});
+        }
         sample.forces.resize(static_cast<std::size_t>(i));
         ride.samples.push_back(sample);
     }
+    ride.outcome.parts.resize(2);
     return ride;
 }
 
@@ -55,35 +60,40 @@ class RecordedMotionTest : public QObject {
         const RecordedMotion motion(makeRide(shape, rest), shape);
         QCOMPARE(motion.duration(), 0.04);
         for (const double time : {-1.0, 0.0, 0.0053, 0.02, 0.0399, 9.0}) {
-            const base::Pose pose = motion.poseAt(time);
-            QVERIFY((pose.position - rest.position).norm() < 1e-12);
-            QVERIFY(pose.rotation.angularDistance(rest.rotation) < 1e-7);
+            for (const std::size_t part : {0U, 1U}) {
+                const base::Pose pose = motion.poseAt(part, time);
+                const double turned = pose.rotation.angularDistance(rest.rotation);
+                QVERIFY((pose.position - rest.position).norm() < 1e-12);
+                QVERIFY(std::abs(turned - (part == 0 ? 0.0 : base::kPi)) < 1e-7);
+            }
         }
-        QCOMPARE(motion.path(1e-6).size(), std::size_t{1});
+        QCOMPARE(motion.parts(), std::size_t{2});
+        QCOMPARE(motion.path(0, 1e-6).size(), std::size_t{1});
     }
 
     void posesBetweenSamplesAreInterpolated() {
         Trajectory trajectory;
-        trajectory.samples.resize(2);
+        trajectory.samples.resize(2, {0.0, Vec3::Zero(), {PartState()}, {}});
+        trajectory.outcome.parts.resize(1);
         trajectory.samples[1].time = 0.5;
-        trajectory.samples[1].room = {base::Quaternion(Eigen::AngleAxisd(1.0, Vec3::UnitX())),
-                                      {0.0, 4.0, 0.0}};
+        trajectory.samples[1].parts[0].room = {base::Quaternion(Eigen::AngleAxisd(1.0, Vec3::UnitX())),
+                                               {0.0, 4.0, 0.0}};
         trajectory.samples[1].forces.resize(1);
         const RecordedMotion motion(trajectory, {});
-        const base::Pose pose = motion.poseAt(0.125);
+        const base::Pose pose = motion.poseAt(0, 0.125);
         QVERIFY((pose.position - Vec3(0.0, 1.0, 0.0)).norm() < 1e-12);
         QVERIFY(std::abs(pose.rotation.angularDistance(base::Quaternion::Identity()) - 0.25) < 1e-7);
         QVERIFY(motion.forcesAt(0.49).empty());
         QCOMPARE(motion.forcesAt(0.5).size(), std::size_t{1});
-        QCOMPARE(motion.path(0.1).size(), std::size_t{2});
+        QCOMPARE(motion.path(0, 0.1).size(), std::size_t{2});
     }
 
     void nothingIsNoMotion() {
         const RecordedMotion motion({}, {});
         QCOMPARE(motion.duration(), 0.0);
-        QVERIFY(motion.poseAt(1.0) == base::Pose());
+        QCOMPARE(motion.parts(), std::size_t{0});
+        QVERIFY(motion.poseAt(0, 1.0) == base::Pose());
         QVERIFY(motion.forcesAt(1.0).empty());
-        QVERIFY(motion.path(1e-3).empty());
     }
 };
 

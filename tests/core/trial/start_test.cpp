@@ -28,12 +28,12 @@ track::Track makeTrack(const track::FeederShape& shape) {
     return *track::buildTrack(parameters, std::vector{section});
 }
 
-base::Random makeRandom(std::uint32_t trial) {
-    return base::Random({1, 0, 0, trial, base::Purpose::trialStart});
+base::StreamKey keyOf(std::uint32_t trial) {
+    return {1, 0, 0, trial, base::Purpose::trialStart};
 }
 
 // The part's rotation in the tangent frame.
-base::Quaternion inTrack(const track::Track& track, const trial::TrialStart& start) {
+base::Quaternion inTrack(const track::Track& track, const trial::PartStart& start) {
     return base::Quaternion(track.shape.tangentFrame(track.start)).conjugate() * start.pose.rotation;
 }
 
@@ -61,8 +61,12 @@ class StartTest : public QObject {
         const track::Track track = makeTrack(shapeOf(shape));
         const part::Part part = makeCuboid();
         for (std::uint32_t i = 0; i < 200; ++i) {
-            base::Random random = makeRandom(i);
-            const auto start = trial::drawStart(track, part, {}, random);
+            const auto trial = trial::drawTrial(track, part, {}, keyOf(i));
+            QVERIFY(trial.stream == keyOf(i));
+            QCOMPARE(trial.parts.size(), std::size_t{1});
+            const trial::PartStart& start = trial.parts[0];
+            QCOMPARE(start.part, std::size_t{0});
+            QCOMPARE(start.time, 0.0);
             const base::Vec3 place = track.shape.toTrack(start.pose.position, track.start);
             QVERIFY(std::abs(place.x() - 60e-3) < 1e-12);
             QVERIFY(std::abs(place.y()) <= 2e-3 + 1e-12);
@@ -71,7 +75,7 @@ class StartTest : public QObject {
                 lowest = std::min(lowest, start.pose.apply(vertex).z());
             QVERIFY(std::abs(lowest - 15e-3 - 1e-5) < 1e-12);
             QVERIFY(std::abs(start.pose.rotation.norm() - 1.0) < 1e-14);
-            QVERIFY(start.phase >= 0.0 && start.phase < 2.0 * base::kPi);
+            QVERIFY(trial.phase >= 0.0 && trial.phase < 2.0 * base::kPi);
             QCOMPARE(start.velocity, base::Vec3(base::Vec3::Zero()));
         }
     }
@@ -79,14 +83,11 @@ class StartTest : public QObject {
     void dependsOnTheStreamAlone() {
         const track::Track track = makeTrack({});
         const part::Part part = makeCuboid();
-        base::Random first = makeRandom(7);
-        base::Random again = makeRandom(7);
-        base::Random other = makeRandom(8);
-        const auto a = trial::drawStart(track, part, {}, first);
-        const auto b = trial::drawStart(track, part, {}, again);
-        const auto c = trial::drawStart(track, part, {}, other);
-        QVERIFY(a.pose == b.pose && a.phase == b.phase);
-        QVERIFY(!(a.pose == c.pose) && a.phase != c.phase);
+        const auto a = trial::drawTrial(track, part, {}, keyOf(7));
+        const auto b = trial::drawTrial(track, part, {}, keyOf(7));
+        const auto c = trial::drawTrial(track, part, {}, keyOf(8));
+        QVERIFY(a.parts[0].pose == b.parts[0].pose && a.phase == b.phase);
+        QVERIFY(!(a.parts[0].pose == c.parts[0].pose) && a.phase != c.phase);
     }
 
     // Of uniform rotations, the cosine of any axis with the vertical is uniform: mean 0, variance 1/3.
@@ -97,8 +98,7 @@ class StartTest : public QObject {
         double sum = 0.0;
         double squares = 0.0;
         for (std::uint32_t i = 0; i < kDraws; ++i) {
-            base::Random random = makeRandom(i);
-            const auto start = trial::drawStart(track, part, {}, random);
+            const auto start = trial::drawTrial(track, part, {}, keyOf(i)).parts[0];
             const double cosine = (start.pose.rotation * base::Vec3::UnitX()).z();
             sum += cosine;
             squares += cosine * cosine;
@@ -120,8 +120,8 @@ class StartTest : public QObject {
         double squares = 0.0;
         base::Vec2 heading = base::Vec2::Zero();
         for (std::uint32_t i = 0; i < kDraws; ++i) {
-            base::Random random = makeRandom(i);
-            const base::Quaternion q = inTrack(track, trial::drawStart(track, part, policy, random));
+            const base::Quaternion q =
+                inTrack(track, trial::drawTrial(track, part, policy, keyOf(i)).parts[0]);
             const double tilt = std::acos(std::min(1.0, (q * up).z()));
             squares += tilt * tilt;
             heading += (q * base::Vec3::UnitZ()).head<2>();
@@ -138,8 +138,7 @@ class StartTest : public QObject {
         policy.nearPose = base::Quaternion::Identity();
         policy.tilt = 0.0;
         policy.lateral = 0.0;
-        base::Random random = makeRandom(3);
-        const auto start = trial::drawStart(track, makeCuboid(), policy, random);
+        const auto start = trial::drawTrial(track, makeCuboid(), policy, keyOf(3)).parts[0];
         QVERIFY(std::abs((start.pose.rotation * base::Vec3::UnitZ()).z() - 1.0) < 1e-15);
         QVERIFY((start.pose.position - base::Vec3(60e-3, 0.0, 15e-3 + 1e-5 + 6e-3)).norm() < 1e-15);
     }

@@ -16,11 +16,11 @@ class AgreementTest : public QObject {
     std::vector<verify::AgreementScene> scenes_;
 
     /// Finishes after a time that differs from trial to trial, turned as it started.
-    static trial::Outcome finish(const trial::TrialSpec& spec) {
-        trial::Outcome outcome;
+    static trial::PartOutcome finish(const trial::TrialSpec& spec) {
+        trial::PartOutcome outcome;
         outcome.ending = trial::Ending::finished;
-        outcome.initial = spec.start.pose;
-        outcome.farthest = spec.start.pose;
+        outcome.initial = spec.parts[0].pose;
+        outcome.farthest = spec.parts[0].pose;
         outcome.time = 2.0 + 0.01 * spec.stream.trial;
         return outcome;
     }
@@ -47,12 +47,12 @@ class AgreementTest : public QObject {
         QCOMPARE(scenes_.size(), 9U);
         for (const verify::AgreementScene& scene : scenes_) {
             QVERIFY2(!findProblem(scene.batch), scene.part.c_str());
-            QCOMPARE(scene.batch.part->name, scene.part);
+            QCOMPARE(scene.batch.parts[0]->name, scene.part);
             QCOMPARE(scene.batch.trials.size(), static_cast<std::size_t>(kTrials));
         }
         // The bracket is the one that is not convex.
         QCOMPARE(scenes_[6].part, "bracket");
-        QVERIFY(scenes_[6].batch.part->pieces.size() > 1);
+        QVERIFY(scenes_[6].batch.parts[0]->pieces.size() > 1);
     }
 
     void anEngineAgreesWithItself() {
@@ -83,11 +83,11 @@ class AgreementTest : public QObject {
         QFETCH(int, falling);
         QFETCH(double, p);
         QFETCH(bool, passed);
-        const part::Part* part = scenes_[4].batch.part.get();
+        const part::Part* part = scenes_[4].batch.parts[0].get();
         const track::Track* track = scenes_[4].batch.track.get();
         const auto table = holdAgainst([=](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-            trial::Outcome outcome = finish(spec);
-            if (batch.part.get() == part && batch.track.get() == track &&
+            trial::PartOutcome outcome = finish(spec);
+            if (batch.parts[0].get() == part && batch.track.get() == track &&
                 static_cast<int>(spec.stream.trial) % (kTrials / falling) == 0)
                 outcome.ending = trial::Ending::fellOff;
             return outcome;
@@ -104,7 +104,7 @@ class AgreementTest : public QObject {
 
     void timesThatDiffer() {
         const auto table = holdAgainst([](const trial::TrialBatch&, const trial::TrialSpec& spec) {
-            trial::Outcome outcome = finish(spec);
+            trial::PartOutcome outcome = finish(spec);
             outcome.time += 0.4;
             return outcome;
         });
@@ -118,8 +118,8 @@ class AgreementTest : public QObject {
     }
 
     void nobodyFinishes() {
-        const auto table =
-            holdAgainst([](const trial::TrialBatch&, const trial::TrialSpec&) { return trial::Outcome(); });
+        const auto table = holdAgainst(
+            [](const trial::TrialBatch&, const trial::TrialSpec&) { return trial::PartOutcome(); });
         QCOMPARE(table.size(), 9U);
         QCOMPARE(table[0].engine.finished, 0);
         QCOMPARE(table[0].engine.medianTime, 0.0);

@@ -102,11 +102,12 @@ class ScenesTest : public QObject {
             verify::makeStillScene(verify::makeFlat(), verify::makePaperCuboid(), {}, 1.0);
         const double mass = 0.39936e-3;
         trial::TrajectorySample sample;
-        sample.room.position.z() = 0.5;
-        sample.velocity = Vec3(0.3, -0.4, 0.0);
+        sample.parts.resize(1);
+        sample.parts[0].room.position.z() = 0.5;
+        sample.parts[0].velocity = Vec3(0.3, -0.4, 0.0);
         // About the long axis, which the rotation lays along the room's x axis.
-        sample.room.rotation = base::Quaternion::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
-        sample.angularVelocity = Vec3(50.0, 0.0, 0.0);
+        sample.parts[0].room.rotation = base::Quaternion::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
+        sample.parts[0].angularVelocity = Vec3(50.0, 0.0, 0.0);
         const double inertia = mass / 12.0 * (16e-6 + 64e-6);
         const double expected =
             0.5 * mass * 0.25 + 0.5 * inertia * 2500.0 + mass * base::kStandardGravity * 0.5;
@@ -118,7 +119,7 @@ class ScenesTest : public QObject {
         const trial::TrialBatch scene =
             verify::makeStillScene(verify::makeFlat(), verify::makePaperCuboid(), pose, 3.0);
         QCOMPARE(scene.trials.size(), 1U);
-        QVERIFY(scene.trials[0].start.pose == pose);
+        QVERIFY(scene.trials[0].parts[0].pose == pose);
         QCOMPARE(scene.drive.halfStroke, 0.0);
         QCOMPARE(scene.termination.timeLimit, 3.0);
         QVERIFY(scene.termination.stuckTime > 3.0);

@@ -112,7 +112,7 @@ class LearningTest : public QObject {
         study::StudyInputs broken = study.inputs;
         broken.engine = std::make_shared<fake::FakeEngine>(
             [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-                trial::Outcome outcome = fake::waveLaw(batch, spec);
+                trial::PartOutcome outcome = fake::waveLaw(batch, spec);
                 outcome.farthest.position.x() = std::nan("");
                 return outcome;
             });

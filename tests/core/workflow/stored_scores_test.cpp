@@ -148,12 +148,13 @@ class StoredScoresTest : public QObject {
         starts.termination.timeLimit = 0.0;
         const auto begun = inputs.engine->run({&starts, 1}, {}).value().front();
         for (std::size_t i = 0; i < begun.size(); ++i) {
-            base::Pose& initial = trials.outcomes[i].initial;
+            base::Pose& initial = trials.outcomes[i].parts[0].initial;
+            const base::Pose& own = begun[i].parts[0].initial;
             // But for the last bits they are what is known without an engine.
-            if ((begun[i].initial.position - initial.position).norm() > 1e-9 ||
-                begun[i].initial.rotation.angularDistance(initial.rotation) > 1e-6)
+            if ((own.position - initial.position).norm() > 1e-9 ||
+                own.rotation.angularDistance(initial.rotation) > 1e-6)
                 return {trials.batch, {}};
-            initial = begun[i].initial;
+            initial = own;
         }
         return trials;
     }

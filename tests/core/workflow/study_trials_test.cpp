@@ -7,8 +7,8 @@
 #include "tests/core/workflow/workflow_fixture.h"
 
 using namespace trapwright;
+using trial::Verdict;
 using workflow::TrialKind;
-using workflow::TrialVerdict;
 
 /// The trials behind a score or a table, made again.
 class StudyTrialsTest : public QObject {
@@ -52,7 +52,7 @@ class StudyTrialsTest : public QObject {
         QCOMPARE(few.trials.size(), std::size_t{3});
         for (std::size_t i = 0; i < 3; ++i) {
             QCOMPARE(few.trials[i].stream.trial, static_cast<std::uint32_t>(10 + i));
-            QVERIFY(few.trials[i].start.pose == all.trials[i].start.pose);
+            QVERIFY(few.trials[i].parts[0].pose == all.trials[i].parts[0].pose);
         }
         QCOMPARE(make({TrialKind::validation, winner_, {2}, 50}).trials.size(), std::size_t{5});
         QCOMPARE(make({TrialKind::learning, winner_, {0}, 50}).trials.size(), std::size_t{50});
@@ -75,8 +75,9 @@ class StudyTrialsTest : public QObject {
             const auto again = study::runTrials(*study_->inputs.engine, {&batch, 1}, {}).value().front();
             QCOMPARE(stored->outcomes.size(), again.size());
             for (std::size_t i = 0; i < again.size(); ++i) {
-                QVERIFY(trial::endAlike(stored->outcomes[i], again[i]));
-                QVERIFY(std::abs(stored->outcomes[i].initial.position.x() - batch.track->start) < 1e-12);
+                QVERIFY(trial::endAlike(stored->outcomes[i].parts.at(0), again[i].parts.at(0)));
+                QVERIFY(std::abs(stored->outcomes[i].parts[0].initial.position.x() - batch.track->start) <
+                        1e-12);
             }
         }
     }
@@ -94,18 +95,18 @@ class StudyTrialsTest : public QObject {
     void differencesAreToldInWords() {
         const trial::OutcomeMaker before{"trapwright 1.0.0", "native", "AVX3"};
         const trial::OutcomeMaker now{"trapwright 1.1.0", "native", "AVX2"};
-        trial::Outcome stored;
+        trial::PartOutcome stored;
         stored.ending = trial::Ending::finished;
         stored.time = 3.2;
         stored.farthest.position.x() = 0.56;
-        trial::Outcome replayed = stored;
-        QVERIFY(!workflow::findDifference(stored, before, replayed, now));
+        trial::PartOutcome replayed = stored;
+        QVERIFY(!workflow::findDifference({{stored}}, before, {{replayed}}, now));
         // Starts are no ends.
         replayed.initial.position.x() = 1e-3;
-        QVERIFY(!workflow::findDifference(stored, before, replayed, now));
+        QVERIFY(!workflow::findDifference({{stored}}, before, {{replayed}}, now));
 
         const auto text = [&](const trial::OutcomeMaker& maker) {
-            const auto difference = workflow::findDifference(stored, before, replayed, maker);
+            const auto difference = workflow::findDifference({{stored}}, before, {{replayed}}, maker);
             return difference ? QString::fromStdString(workflow::describe(*difference)) : QString();
         };
         replayed.farthest.position.x() = std::nextafter(0.56, 1.0);
@@ -141,8 +142,9 @@ class StudyTrialsTest : public QObject {
     void trialsAreCountedByTheirEnd() {
         const auto outcome = [](trial::Ending ending, double degrees) {
             trial::Outcome one;
-            one.ending = ending;
-            one.farthest.rotation = Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitZ());
+            trial::PartOutcome& part = one.parts.emplace_back();
+            part.ending = ending;
+            part.farthest.rotation = Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitZ());
             return one;
         };
         const std::vector<trial::Outcome> outcomes = {
@@ -154,15 +156,17 @@ class StudyTrialsTest : public QObject {
         const auto judged =
             workflow::judgeTrials(outcomes, fake::block()->symmetry, std::nullopt, 25.0 * base::kDegree);
         // Half a turn about z maps the block onto itself.
-        const std::vector<TrialVerdict> expected = {
-            TrialVerdict::success, TrialVerdict::wrongOrientation, TrialVerdict::fellOff, TrialVerdict::stuck,
-            TrialVerdict::stuck,   TrialVerdict::success,          TrialVerdict::success};
+        const std::vector<trial::Verdict> expected = {
+            trial::Verdict::success, trial::Verdict::wrongOrientation,
+            trial::Verdict::fellOff, trial::Verdict::stuck,
+            trial::Verdict::stuck,   trial::Verdict::success,
+            trial::Verdict::success};
         QVERIFY(judged.verdicts == expected);
         const base::Quaternion turned(Eigen::AngleAxisd(base::kPi / 2, base::Vec3::UnitZ()));
         const auto others =
             workflow::judgeTrials(outcomes, fake::block()->symmetry, turned, 25.0 * base::kDegree);
-        QCOMPARE(others.verdicts[0], TrialVerdict::wrongOrientation);
-        QCOMPARE(others.verdicts[1], TrialVerdict::success);
+        QCOMPARE(others.verdicts[0], trial::Verdict::wrongOrientation);
+        QCOMPARE(others.verdicts[1], trial::Verdict::success);
     }
 
  private:

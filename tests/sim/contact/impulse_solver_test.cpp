@@ -1,6 +1,7 @@
 #include "sim/contact/impulse_solver.h"
 
 #include <QtTest>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -35,12 +36,25 @@ struct Body {
     }
 };
 
+/// One step of one part.
+contact::StepResult solve(contact::ImpulseSolver& solver, const BodyInertia& inertia,
+                          const BodyMotion& before, const BodyMotion& free,
+                          const std::vector<MovingContact>& contacts, const trial::ContactParameters& law) {
+    const contact::MovingBody body{inertia, before, free};
+    return solver.solve({&body, 1}, contacts, {law, {}}, kStep).front();
+}
+
 MovingContact makeContact(const Vec3& arm, const Vec3& normal, double gap, std::uint64_t feature) {
     return {arm, normal, gap, Vec3::Zero(), Vec3::Zero(), feature};
 }
 
 Vec3 drawVector(base::Random& random, double size) {
     return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+/// A contact of part 0 with part 1 that touches already.
+MovingContact betweenParts(const Vec3& armA, const Vec3& armB, const Vec3& normal) {
+    return {armB, normal, 0.0, Vec3::Zero(), Vec3::Zero(), 1, 0, 1, armA};
 }
 
 /// One to six contacts around the part's lower half, leaning up to some 50 degrees.
@@ -93,11 +107,9 @@ class ImpulseSolverTest : public QObject {
             const Vec3 arm = i == 0 ? Vec3(-3e-3 * normal) : drawVector(random, 4e-3);
             const BodyMotion before{-speed * normal, Vec3::Zero()};
             contact::ImpulseSolver solver;
-            const BodyMotion after =
-                solver
-                    .solve(body.inverse(), before, before, {makeContact(arm, normal, 0.0, 1)},
-                           {0.4, 0.3, restitution}, kStep)
-                    .motion;
+            const BodyMotion after = solve(solver, body.inverse(), before, before,
+                                           {makeContact(arm, normal, 0.0, 1)}, {0.4, 0.3, restitution})
+                                         .motion;
             const double tolerance =
                 std::hypot(contact::scalar::kVelocityTolerance, contact::scalar::kRelativeTolerance * speed);
             QVERIFY(std::abs(normal.dot(after.at(arm)) - expected * speed) < tolerance);
@@ -122,8 +134,7 @@ class ImpulseSolverTest : public QObject {
             touch.trackVelocity = touch.trackVelocityBefore = drawVector(random, 0.1);
             contact::ImpulseSolver solver;
             const BodyMotion after =
-                solver.solve(body.inverse(), before, before, {touch}, {friction, friction, 0.3}, kStep)
-                    .motion;
+                solve(solver, body.inverse(), before, before, {touch}, {friction, friction, 0.3}).motion;
             const Vec3 impulse = body.mass * (after.velocity - before.velocity);
             const double normalImpulse = normal.dot(impulse);
             const double across = (impulse - normalImpulse * normal).norm();
@@ -150,9 +161,8 @@ class ImpulseSolverTest : public QObject {
         for (int i = 0; i < 500; ++i) {
             const BodyMotion before{drawVector(random, 0.2) - Vec3(0.0, 0.0, 0.2), drawVector(random, 10.0)};
             contact::ImpulseSolver solver;
-            const BodyMotion after = solver
-                                         .solve(body.inverse(), before, before,
-                                                makeFace(Vec3::Zero(), Vec3::Zero()), {0.5, 0.3, 0.2}, kStep)
+            const BodyMotion after = solve(solver, body.inverse(), before, before,
+                                           makeFace(Vec3::Zero(), Vec3::Zero()), {0.5, 0.3, 0.2})
                                          .motion;
             const Vec3 impulse = body.mass * (after.velocity - before.velocity);
             QVERIFY(impulse.head<2>().norm() <= 0.5 * impulse.z() + 1e-12);
@@ -187,8 +197,7 @@ class ImpulseSolverTest : public QObject {
             const double energy = body.calcEnergy(relative(before));
             const trial::ContactParameters law{friction, friction, restitution};
             for (contact::ImpulseSolver* solver : {&fresh, &old}) {
-                const BodyMotion after =
-                    solver->solve(body.inverse(), before, before, contacts, law, kStep).motion;
+                const BodyMotion after = solve(*solver, body.inverse(), before, before, contacts, law).motion;
                 const double gain = body.calcEnergy(relative(after)) / energy - 1.0;
                 QVERIFY2(gain < 1e-3, qPrintable(QString("step %1: energy grows by %2").arg(i).arg(gain)));
             }
@@ -213,8 +222,8 @@ class ImpulseSolverTest : public QObject {
             BodyMotion free = motion;
             free.velocity.z() -= base::kStandardGravity * kStep;
             const contact::StepResult result =
-                solver.solve(body.inverse(), motion, free, makeFace(velocity(step), velocity(step - 1)),
-                             {0.5, 0.5, 0.3}, kStep);
+                solve(solver, body.inverse(), motion, free, makeFace(velocity(step), velocity(step - 1)),
+                      {0.5, 0.5, 0.3});
             motion = result.motion;
             position += kStep * result.advance.velocity;
             QVERIFY((motion.velocity - velocity(step)).norm() < 3e-6);
@@ -234,7 +243,7 @@ class ImpulseSolverTest : public QObject {
             for (MovingContact& contact : contacts)
                 contact.gap = -overlap;
             const contact::StepResult result =
-                solver.solve(body.inverse(), {}, {}, contacts, {0.5, 0.5, 0.3}, kStep);
+                solve(solver, body.inverse(), {}, {}, contacts, {0.5, 0.5, 0.3});
             QVERIFY(result.motion.velocity.norm() < 1e-12 && result.motion.angularVelocity.norm() < 1e-9);
             QVERIFY(kStep * result.advance.angularVelocity.norm() < 1e-5);  // 60 nm at the corners
             overlap -= kStep * result.advance.velocity.z();
@@ -249,14 +258,12 @@ class ImpulseSolverTest : public QObject {
         const BodyMotion before{{0.1, 0.0, -0.05}, Vec3::Zero()};
         contact::ImpulseSolver solver;
         // In a step it falls by 10 micrometres.
-        const auto far =
-            solver.solve(body.inverse(), before, before,
-                         {makeContact({0.0, 0.0, -2e-3}, Vec3::UnitZ(), 11e-6, 1)}, {0.5, 0.5, 0.3}, kStep);
+        const auto far = solve(solver, body.inverse(), before, before,
+                               {makeContact({0.0, 0.0, -2e-3}, Vec3::UnitZ(), 11e-6, 1)}, {0.5, 0.5, 0.3});
         QCOMPARE(far.motion.velocity, before.velocity);
         QCOMPARE(far.carrying, 0);
-        const auto near =
-            solver.solve(body.inverse(), before, before,
-                         {makeContact({0.0, 0.0, -2e-3}, Vec3::UnitZ(), 9e-6, 1)}, {0.5, 0.5, 0.3}, kStep);
+        const auto near = solve(solver, body.inverse(), before, before,
+                                {makeContact({0.0, 0.0, -2e-3}, Vec3::UnitZ(), 9e-6, 1)}, {0.5, 0.5, 0.3});
         QCOMPARE(near.carrying, 1);
         // At the step's end it has touched and rebounded.
         QVERIFY(near.motion.velocity.z() > 0.0);
@@ -272,14 +279,170 @@ class ImpulseSolverTest : public QObject {
         const trial::ContactParameters law{0.5, 0.4, 0.3};
         contact::ImpulseSolver solver;
         QVERIFY(solver.released());
-        const auto first = solver.solve(body.inverse(), before, free, contacts, law, kStep);
+        const auto first = solve(solver, body.inverse(), before, free, contacts, law);
         QVERIFY(!solver.released());
         solver.release();
         QVERIFY(solver.released());
-        const auto again = solver.solve(body.inverse(), before, free, contacts, law, kStep);
+        const auto again = solve(solver, body.inverse(), before, free, contacts, law);
         QCOMPARE(again.motion.velocity, first.motion.velocity);
         QCOMPARE(again.motion.angularVelocity, first.motion.angularVelocity);
         QCOMPARE(again.advance.velocity, first.advance.velocity);
+    }
+
+    void headOnCollision_data() {
+        QTest::addColumn<double>("ratio");
+        QTest::addColumn<double>("restitution");
+        for (const double ratio : {1.0, 0.1, 20.0})
+            for (const double e : {0.0, 0.4, 0.95})
+                QTest::addRow("A / B = %g, e = %g", ratio, e) << ratio << e;
+    }
+    // Two parts meet in the line of their centres, as in the closed form: momentum stays, and they part as
+    // fast as restitution wants.
+    void headOnCollision() {
+        QFETCH(double, ratio);
+        QFETCH(double, restitution);
+        const Body body;
+        const contact::MovingBody b{body.inverse(), {{-0.1, 0.02, 0.0}, Vec3::Zero()}, {}};
+        contact::MovingBody a = b;
+        a.inertia = {b.inertia.inverseMass / ratio, b.inertia.inverseInertia / ratio};
+        a.before.velocity = {0.3, 0.02, 0.0};
+        std::array bodies{a, b};
+        for (contact::MovingBody& one : bodies)
+            one.free = one.before;
+        contact::ImpulseSolver solver;
+        const std::vector contacts{betweenParts({2e-3, 0.0, 0.0}, {-2e-3, 0.0, 0.0}, Vec3::UnitX())};
+        const auto after = solver.solve(bodies, contacts, {{}, {0.4, 0.4, restitution}}, kStep);
+        const double common = (ratio * 0.3 - 0.1) / (ratio + 1.0);
+        const double tolerance = 1e-5;
+        QVERIFY(std::abs(after[0].motion.velocity.x() - (common - 0.4 * restitution / (ratio + 1.0))) <
+                tolerance);
+        QVERIFY(std::abs(after[1].motion.velocity.x() -
+                         (common + 0.4 * restitution * ratio / (ratio + 1.0))) < tolerance);
+        QVERIFY(std::abs(after[0].motion.velocity.y() - 0.02) < tolerance);
+        QCOMPARE(after[0].carrying, 1);
+        QCOMPARE(after[1].carrying, 1);
+        // What A loses B gets.
+        const Vec3 impulse = solver.impulses().at(0).impulse;
+        QVERIFY((body.mass * (after[1].motion.velocity - b.before.velocity) - impulse).norm() < 1e-9);
+    }
+
+    // Two parts and the track, in any places: momentum and angular momentum of the two change by what the
+    // track gives, and energy never grows.
+    void partsShareMomentumAndLoseEnergy() {
+        base::Random random({5, 0, 0, 0, base::Purpose::test});
+        for (int i = 0; i < 2000; ++i) {
+            const std::array shapes{Body(random.rotation()), Body(random.rotation())};
+            const Vec3 between = 8e-3 * (random.rotation() * Vec3::UnitZ());  // A's centre -> B's
+            std::array<contact::MovingBody, 2> bodies;
+            for (std::size_t k = 0; k < 2; ++k) {
+                bodies[k].inertia = shapes[k].inverse();
+                bodies[k].before = {drawVector(random, 0.3), drawVector(random, 30.0)};
+                bodies[k].free = bodies[k].before;
+            }
+            std::vector<MovingContact> contacts;
+            const std::uint32_t count = 1 + random.below(4);
+            for (std::uint32_t k = 0; k < count; ++k) {
+                const Vec3 arm = 0.5 * between + drawVector(random, 3e-3);
+                contacts.push_back(betweenParts(arm, arm - between, between.normalized()));
+                contacts.back().feature = k;
+            }
+            if (i % 3 != 0) contacts.push_back(makeContact(drawVector(random, 4e-3), Vec3::UnitZ(), 0.0, 1));
+            const double friction = random.uniform(0.0, 1.0);
+            const trial::ContactParameters law{friction, friction, random.uniform(0.0, 0.9)};
+            contact::ImpulseSolver solver;
+            const auto after = solver.solve(bodies, contacts, {law, law}, kStep);
+            Vec3 momentum = Vec3::Zero();
+            Vec3 angular = Vec3::Zero();  // about A's centre
+            double energy = 0.0;
+            double energyBefore = 0.0;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const BodyMotion& to = after[k].motion;
+                const BodyMotion& from = bodies[k].before;
+                const Vec3 gained = shapes[k].mass * (to.velocity - from.velocity);
+                momentum += gained;
+                angular += shapes[k].inertia * (to.angularVelocity - from.angularVelocity);
+                if (k == 1) angular += between.cross(gained);
+                energy += shapes[k].calcEnergy(to);
+                energyBefore += shapes[k].calcEnergy(from);
+            }
+            for (const contact::ContactImpulse& given : solver.impulses()) {
+                const MovingContact& contact = contacts[static_cast<std::size_t>(given.contact)];
+                if (contact.bodyA != trial::kTrack) continue;
+                momentum -= given.impulse;
+                angular -= contact.arm.cross(given.impulse);
+            }
+            QVERIFY(momentum.norm() < 1e-12);
+            QVERIFY(angular.norm() < 1e-14);
+            QVERIFY2(energy < energyBefore * (1.0 + 1e-3),
+                     qPrintable(QString("pair %1: from %2 to %3").arg(i).arg(energyBefore).arg(energy)));
+        }
+    }
+
+    // Beside others that it does not touch a part moves as if it were alone, to the last bit.
+    void whoTouchesNobodyIsAlone() {
+        base::Random random({6, 0, 0, 0, base::Purpose::test});
+        for (int i = 0; i < 200; ++i) {
+            const Body body(random.rotation());
+            const trial::ContactParameters law{0.5, 0.4, 0.3};
+            contact::MovingBody own{body.inverse(), {drawVector(random, 0.2), drawVector(random, 10.0)}, {}};
+            own.free = own.before;
+            const std::vector<MovingContact> contacts = drawContacts(random, 5e-6);
+            contact::ImpulseSolver alone;
+            const contact::StepResult expected = alone.solve({&own, 1}, contacts, {law, {}}, kStep).front();
+
+            std::array bodies{own, own, own};
+            bodies[0].before.velocity = bodies[0].free.velocity = {0.1, 0.0, 0.0};
+            std::vector<MovingContact> all{betweenParts({3e-3, 0.0, 0.0}, {-3e-3, 0.0, 0.0}, Vec3::UnitX())};
+            for (MovingContact contact : contacts) {
+                contact.bodyB = 2;
+                all.push_back(contact);
+            }
+            contact::ImpulseSolver solver;
+            const auto after = solver.solve(bodies, all, {law, law}, kStep);
+            QCOMPARE(after[2].motion.velocity, expected.motion.velocity);
+            QCOMPARE(after[2].motion.angularVelocity, expected.motion.angularVelocity);
+            QCOMPARE(after[2].advance.velocity, expected.advance.velocity);
+            QCOMPARE(after[2].carrying, expected.carrying);
+        }
+    }
+
+    // A block on a block on the track, which shakes within what friction holds: both follow it, and the lower
+    // one carries the weight of both.
+    void aStackFollowsTheTrack() {
+        const Body body;
+        contact::ImpulseSolver solver;
+        const auto velocity = [](long step) {
+            const double time = kStep * static_cast<double>(step);
+            return Vec3(0.02 * std::cos(60.0 * time), 0.0, 0.01 * std::cos(95.0 * time));
+        };
+        std::array<contact::MovingBody, 2> bodies;
+        for (contact::MovingBody& one : bodies)
+            one = {body.inverse(), {velocity(0), Vec3::Zero()}, {}};
+        double weight = 0.0;
+        for (long step = 1; step < 2000; ++step) {
+            std::vector<MovingContact> contacts = makeFace(velocity(step), velocity(step - 1));
+            for (const MovingContact& below : makeFace(Vec3::Zero(), Vec3::Zero())) {
+                const Vec3 armA(below.arm.x(), below.arm.y(), -below.arm.z());
+                contacts.push_back(betweenParts(armA, below.arm, Vec3::UnitZ()));
+                contacts.back().feature = below.feature;
+            }
+            for (contact::MovingBody& one : bodies) {
+                one.free = one.before;
+                one.free.velocity.z() -= base::kStandardGravity * kStep;
+            }
+            const trial::ContactParameters law{0.5, 0.5, 0.3};
+            const auto after = solver.solve(bodies, contacts, {law, law}, kStep);
+            for (std::size_t k = 0; k < 2; ++k) {
+                QVERIFY((after[k].motion.velocity - velocity(step)).norm() < 3e-5);
+                QVERIFY(after[k].motion.angularVelocity.norm() < 1e-2);
+                bodies[k].before = after[k].motion;
+            }
+            for (const contact::ContactImpulse& given : solver.impulses())
+                if (contacts[static_cast<std::size_t>(given.contact)].bodyA == trial::kTrack)
+                    weight += given.impulse.z() / 1999.0 / kStep;
+        }
+        // The track's mean acceleration is next to nothing.
+        QVERIFY(std::abs(weight / (2.0 * body.mass * base::kStandardGravity) - 1.0) < 0.01);
     }
 };
 

@@ -31,8 +31,8 @@ Difference compare(const trial::Trajectory& a, const trial::Trajectory& b, std::
                    std::size_t last) {
     Difference difference;
     for (std::size_t i = first; i < last; ++i) {
-        const base::Pose& p = a.samples[i].room;
-        const base::Pose& q = b.samples[i].room;
+        const base::Pose& p = a.samples[i].parts[0].room;
+        const base::Pose& q = b.samples[i].parts[0].room;
         difference.way = std::max(difference.way, (p.position - q.position).norm());
         difference.turn = std::max(difference.turn, p.rotation.angularDistance(q.rotation));
     }
@@ -55,7 +55,7 @@ struct Both {
     /// The first sample after an impulse; size() if there is none.
     [[nodiscard]] std::size_t findTouch() const {
         std::size_t i = 0;
-        while (i < size() && simbody.samples[i].contacts == 0)
+        while (i < size() && simbody.samples[i].parts[0].contacts == 0)
             ++i;
         return i;
     }
@@ -129,7 +129,7 @@ class AgreementTest : public QObject {
         for (const trial::TrialSpec& spec : drops.trials) {
             trial::TrialBatch one = drops;
             one.trials = {spec};
-            Vec3& position = one.trials[0].start.pose.position;
+            Vec3& position = one.trials[0].parts[0].pose.position;
             // No part is that long.
             if (shape.type == FeederType::bowl)
                 position = shape.toRoom({position.x(), position.y(), 26.0 * kMillimetre});

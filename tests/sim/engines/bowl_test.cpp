@@ -22,7 +22,8 @@ double measureSpeed(const trial::TrialBatch& batch) {
     const double period = batch.drive.period();
     const trial::Trajectory trajectory = replay(batch, period);
     const std::size_t last = trajectory.samples.size() - 2;
-    return (trajectory.samples[last].track.position.x() - trajectory.samples[5].track.position.x()) /
+    return (trajectory.samples[last].parts[0].track.position.x() -
+            trajectory.samples[5].parts[0].track.position.x()) /
            (static_cast<double>(last - 5) * period);
 }
 
@@ -72,8 +73,8 @@ class BowlTest : public QObject {
         trial::TrialBatch batch = testing::makeLyingOn(bowl, 0.0, 1.0);
         batch.drive.halfStroke = 0.45e-3;
         const trial::Trajectory trajectory = replay(batch, 0.02);
-        const auto& first = trajectory.samples.front();
-        const auto& last = trajectory.samples.back();
+        const auto& first = trajectory.samples.front().parts[0];
+        const auto& last = trajectory.samples.back().parts[0];
         QVERIFY(last.track.position.x() > first.track.position.x() + 0.02);
         QVERIFY(std::abs(last.track.position.y() - first.track.position.y()) < 1e-3);
         // Seen from above: the polar angle falls when conveying clockwise.
@@ -91,19 +92,21 @@ class BowlTest : public QObject {
         };
         const trial::TrialBatch clockwise = sceneOn(Conveying::clockwise);
         trial::TrialBatch mirrored = sceneOn(Conveying::anticlockwise);
-        const base::Pose& pose = clockwise.trials[0].start.pose;
+        const base::Pose& pose = clockwise.trials[0].parts[0].pose;
         const Quaternion& r = pose.rotation;
-        mirrored.trials[0].start.pose = {Quaternion(r.w(), -r.x(), r.y(), -r.z()),
-                                         {pose.position.x(), -pose.position.y(), pose.position.z()}};
+        mirrored.trials[0].parts[0].pose = {Quaternion(r.w(), -r.x(), r.y(), -r.z()),
+                                            {pose.position.x(), -pose.position.y(), pose.position.z()}};
         const trial::Trajectory a = replay(clockwise, 0.01);
         const trial::Trajectory b = replay(mirrored, 0.01);
         QCOMPARE(a.samples.size(), b.samples.size());
-        QVERIFY(a.samples.back().track.position.x() > a.samples.front().track.position.x() + 3e-3);
+        QVERIFY(a.samples.back().parts[0].track.position.x() >
+                a.samples.front().parts[0].track.position.x() + 3e-3);
         for (std::size_t i = 0; i < a.samples.size(); ++i) {
-            const Vec3& p = a.samples[i].room.position;
-            QVERIFY((Vec3(p.x(), -p.y(), p.z()) - b.samples[i].room.position).norm() < 2e-6);
-            QVERIFY((a.samples[i].track.position.head<1>() - b.samples[i].track.position.head<1>()).norm() <
-                    2e-6);
+            const Vec3& p = a.samples[i].parts[0].room.position;
+            QVERIFY((Vec3(p.x(), -p.y(), p.z()) - b.samples[i].parts[0].room.position).norm() < 2e-6);
+            QVERIFY((a.samples[i].parts[0].track.position.head<1>() -
+                     b.samples[i].parts[0].track.position.head<1>())
+                        .norm() < 2e-6);
         }
     }
 };

@@ -23,7 +23,7 @@ class CostsTest : public QObject {
             const trial::TrialBatch batch = bench::makeBatch(scene, 1);
             const auto outcomes = testing::makeEngine({1, 0.0})->run(std::vector{batch}, {});
             QVERIFY2(outcomes.ok(), scene.name.c_str());
-            const trial::Outcome& outcome = outcomes->front().front();
+            const trial::PartOutcome& outcome = outcomes->front().front().parts.front();
             QVERIFY2(outcome.time > 0.1 && outcome.ending != trial::Ending::fellOff, scene.name.c_str());
         }
     }

@@ -10,9 +10,9 @@ using trial::Ending;
 
 namespace {
 
-trial::Outcome simulate(const trial::TrialBatch& batch) {
+trial::PartOutcome simulate(const trial::TrialBatch& batch) {
     const auto outcomes = testing::makeEngine({1, 0.0})->run(std::vector{batch}, {});
-    return outcomes.ok() ? (*outcomes)[0][0] : trial::Outcome{};
+    return outcomes.ok() ? (*outcomes)[0][0].parts.at(0) : trial::PartOutcome{};
 }
 
 /// The lying cuboid on a level track that does not vibrate.
@@ -35,8 +35,8 @@ class EndingsTest : public QObject {
     void finishes() {
         trial::TrialBatch batch = makeStill(2.0);
         batch.contact = {0.0, 0.0, 0.0};
-        batch.trials[0].start.velocity = Vec3(1.0, 0.0, 0.0);
-        const trial::Outcome outcome = simulate(batch);
+        batch.trials[0].parts[0].velocity = Vec3(1.0, 0.0, 0.0);
+        const trial::PartOutcome outcome = simulate(batch);
         QCOMPARE(outcome.ending, Ending::finished);
         QVERIFY(std::abs(outcome.time - 0.4) < 2.1e-3);
         QVERIFY(std::abs(outcome.initial.position.x() - 0.1) < 1e-12);
@@ -47,8 +47,8 @@ class EndingsTest : public QObject {
     void fallsOff() {
         trial::TrialBatch batch = makeStill(2.0);
         batch.contact = {0.0, 0.0, 0.0};
-        batch.trials[0].start.velocity = Vec3(0.0, 0.5, 0.0);
-        const trial::Outcome outcome = simulate(batch);
+        batch.trials[0].parts[0].velocity = Vec3(0.0, 0.5, 0.0);
+        const trial::PartOutcome outcome = simulate(batch);
         QCOMPARE(outcome.ending, Ending::fellOff);
         // 28 mm to the edge, then free fall from 17 mm or a moment more for tipping over it.
         const double fall = std::sqrt(2.0 * 0.017 / base::kStandardGravity);
@@ -58,14 +58,14 @@ class EndingsTest : public QObject {
     void getsStuck() {
         trial::TrialBatch batch = makeStill(2.0);
         batch.termination.stuckTime = 0.2;
-        const trial::Outcome outcome = simulate(batch);
+        const trial::PartOutcome outcome = simulate(batch);
         QCOMPARE(outcome.ending, Ending::stuck);
         QVERIFY(std::abs(outcome.time - 0.2) < 2.1e-3);
         QVERIFY((outcome.farthest.position - outcome.initial.position).norm() < 1e-5);
     }
 
     void runsOutOfTime() {
-        const trial::Outcome outcome = simulate(makeStill(0.3));
+        const trial::PartOutcome outcome = simulate(makeStill(0.3));
         QCOMPARE(outcome.ending, Ending::timedOut);
         QVERIFY(std::abs(outcome.time - 0.3) < 2.1e-3);
     }
@@ -73,13 +73,13 @@ class EndingsTest : public QObject {
     // Over before the first step, in a run as in a replay.
     void beginsPastTheFinish() {
         trial::TrialBatch batch = makeStill(2.0);
-        batch.trials[0].start.pose.position.x() = 0.51;
-        const trial::Outcome outcome = simulate(batch);
+        batch.trials[0].parts[0].pose.position.x() = 0.51;
+        const trial::PartOutcome outcome = simulate(batch);
         QCOMPARE(outcome.ending, Ending::finished);
         QCOMPARE(outcome.time, 0.0);
         const auto trajectory = testing::makeEngine({1, 0.0})->replay(batch, 0, 1e-3, {});
         QVERIFY(trajectory.ok());
-        QVERIFY(trajectory->outcome == outcome);
+        QVERIFY(trajectory->outcome.parts == std::vector{outcome});
     }
 
     // Far enough in every stuck time by 1 mm: not stuck until it has stopped.
@@ -87,9 +87,9 @@ class EndingsTest : public QObject {
         trial::TrialBatch batch = makeStill(0.3);
         batch.contact = {0.0, 0.0, 0.0};
         batch.termination.stuckTime = 0.1;
-        batch.trials[0].start.velocity = Vec3(0.012, 0.0, 0.0);
+        batch.trials[0].parts[0].velocity = Vec3(0.012, 0.0, 0.0);
         QCOMPARE(simulate(batch).ending, Ending::timedOut);
-        batch.trials[0].start.velocity = Vec3(0.008, 0.0, 0.0);
+        batch.trials[0].parts[0].velocity = Vec3(0.008, 0.0, 0.0);
         QCOMPARE(simulate(batch).ending, Ending::stuck);
     }
 };

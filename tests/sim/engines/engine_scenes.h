@@ -21,8 +21,10 @@ inline trial::TrialBatch makeRoughBatch(std::shared_ptr<const part::Part> part, 
         base::Random random(spec.stream);
         const double x = random.uniform(0.05, 0.3);
         const double y = random.uniform(-0.015, 0.015);
-        spec.start.pose = {random.rotation(), {x, y, verify::findSurfaceHeight(*batch.track, x, y) + 9e-3}};
-        spec.start.phase = random.uniform(0.0, 2.0 * base::kPi);
+        spec.parts.resize(1);
+        spec.parts[0].pose = {random.rotation(),
+                              {x, y, verify::findSurfaceHeight(*batch.track, x, y) + 9e-3}};
+        spec.phase = random.uniform(0.0, 2.0 * base::kPi);
         // The scales make every trial's material its own.
         spec.frictionScale = random.uniform(0.8, 1.2);
         spec.restitutionScale = random.uniform(0.5, 1.5);

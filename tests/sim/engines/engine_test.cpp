@@ -122,7 +122,7 @@ class EngineTest : public QObject {
         QVERIFY(outcomes[1] == outcomes_);
     }
 
-    // As it is sent to another process or machine, which puts track and part in again.
+    // As it is sent to another process or machine, which puts track and parts in again.
     void aBatchThatTravelledAsBytesGivesTheSameBits() {
         const trial::TrialBatch bowl =
             testing::makeLyingOn({track::FeederType::bowl, 0.175, track::Conveying::anticlockwise}, 0.3, 0.2);
@@ -134,8 +134,8 @@ class EngineTest : public QObject {
             QVERIFY2(decoded.ok(), decoded.ok() ? "" : decoded.error().message.c_str());
             decoded->track =
                 std::make_shared<const track::Track>(trial::decodeTrack(trial::encode(*batch.track)).value());
-            decoded->part =
-                std::make_shared<const part::Part>(trial::decodePart(trial::encode(*batch.part)).value());
+            decoded->parts = {std::make_shared<const part::Part>(
+                trial::decodePart(trial::encode(*batch.parts.front())).value())};
             there.push_back(std::move(*decoded));
         }
         const Outcomes outcomes = simulate(there, 2);
@@ -154,8 +154,8 @@ class EngineTest : public QObject {
             // A sample every 10 ms, the first at the start and the last at the end.
             const auto& samples = replay->samples;
             QCOMPARE(samples.front().time, 0.0);
-            QVERIFY(samples.front().track == outcomes_[index].initial);
-            QVERIFY(std::abs(samples.back().time - outcomes_[index].time) < 1e-12);
+            QVERIFY(samples.front().parts[0].track == outcomes_[index].parts[0].initial);
+            QVERIFY(std::abs(samples.back().time - outcomes_[index].parts[0].time) < 1e-12);
             for (std::size_t i = 0; i + 1 < samples.size(); ++i)
                 QVERIFY(std::abs(samples[i].time - 0.01 * static_cast<double>(i)) < 1.001e-4);
         }
@@ -220,25 +220,55 @@ class EngineTest : public QObject {
             return result.ok() ? std::string() : result.error().message;
         };
         trial::TrialBatch noPieces = batch_;
-        auto hollow = std::make_shared<part::Part>(*batch_.part);
+        auto hollow = std::make_shared<part::Part>(*batch_.parts[0]);
         hollow->name = "ghost";
         hollow->pieces.clear();
-        noPieces.part = hollow;
+        noPieces.parts = {hollow};
         QVERIFY(message(noPieces).find("'ghost' has no convex pieces") != std::string::npos);
 
         trial::TrialBatch noMass = batch_;
-        auto light = std::make_shared<part::Part>(*batch_.part);
+        auto light = std::make_shared<part::Part>(*batch_.parts[0]);
         light->massProperties.mass = 0.0;
-        noMass.part = light;
+        noMass.parts = {light};
         QVERIFY(message(noMass).find("has no mass") != std::string::npos);
 
         trial::TrialBatch noTrack = batch_;
         noTrack.track = nullptr;
         QVERIFY(message(noTrack).find("no track") != std::string::npos);
 
+        trial::TrialBatch noPart = batch_;
+        noPart.trials[3].parts.clear();
+        QVERIFY(message(noPart).find("Trial 3 of the batch has no part") != std::string::npos);
+
+        trial::TrialBatch unknown = batch_;
+        unknown.trials[3].parts[0].part = 1;
+        QVERIFY(message(unknown).find("Trial 3 places a part that is not among the 1") != std::string::npos);
+
         const auto beyond = engine->replay(batch_, 40, 0.01, {});
         QVERIFY(!beyond.ok());
         QVERIFY(beyond.error().message.find("There is no trial 40: the batch has 40") != std::string::npos);
+    }
+
+    // No engine lets parts touch each other yet: it says so instead of leaving all but one out.
+    void severalPartsAreRefused() {
+        const auto engine = testing::makeEngine();
+        const auto refused = [&](const trial::TrialBatch& batch, std::string why) {
+            why = "The engine '" + engine->name() + "' simulates " + why;
+            const auto result = engine->run(std::vector{batch_, batch}, {});
+            const auto replay = engine->replay(batch, 3, 0.01, {});
+            return !result.ok() && result.error().message.starts_with(why) && !replay.ok() &&
+                   replay.error().message.starts_with(why);
+        };
+        trial::TrialBatch two = batch_;
+        two.trials[3].parts.push_back(two.trials[3].parts[0]);
+        QVERIFY(refused(two, "one part at a time, and trial 3 has 2."));
+        trial::TrialBatch later = batch_;
+        later.trials[3].parts[0].time = 0.5;
+        QVERIFY(
+            refused(later, "parts that are there from the begin on, and that of trial 3 comes after 0.5"));
+        trial::TrialBatch kinds = batch_;
+        kinds.parts.push_back(kinds.parts[0]);
+        QVERIFY(refused(kinds, "one kind of part at a time, and this batch of trials has 2."));
     }
 };
 

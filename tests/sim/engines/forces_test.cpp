@@ -45,14 +45,16 @@ class ForcesTest : public QObject {
         batch.drive.halfStroke = 0.0;
         const auto trajectory = verify::replayScene(*testing::makeEngine(), batch, kStep, {});
         const trial::TrajectorySample& last = trajectory.samples.back();
-        const double weight = batch.part->massProperties.mass * batch.gravity;
-        QVERIFY(last.contacts >= 3);
-        QCOMPARE(static_cast<int>(last.forces.size()), last.contacts);
+        const double weight = batch.parts.front()->massProperties.mass * batch.gravity;
+        QVERIFY(last.parts[0].contacts >= 3);
+        QCOMPARE(static_cast<int>(last.forces.size()), last.parts[0].contacts);
         QVERIFY((sumOf(last) - weight * Vec3::UnitZ()).norm() < 0.01 * weight);
         Vec3 moment = Vec3::Zero();
         for (const trial::ContactForce& contact : last.forces) {
-            moment += (contact.point - last.room.position).cross(contact.force);
+            moment += (contact.point - last.parts[0].room.position).cross(contact.force);
             QVERIFY(qAbs(contact.point.z() - 0.015) < 2e-6);
+            QCOMPARE(contact.bodyA, trial::kTrack);
+            QCOMPARE(contact.bodyB, 0);
         }
         QVERIFY(moment.norm() < 0.01 * weight * 6e-3);
     }
@@ -64,7 +66,7 @@ class ForcesTest : public QObject {
         const auto trajectory = verify::replayScene(*testing::makeEngine(), batch, kStep, {});
         const std::vector<trial::TrajectorySample>& samples = trajectory.samples;
         QVERIFY(samples.size() > 1000U);
-        const double mass = batch.part->massProperties.mass;
+        const double mass = batch.parts.front()->massProperties.mass;
         // A sample's velocity is of its moment, half a step after that of the impulses before it.
         Vec3 given = -0.5 * kStep * (sumOf(samples[1]) + sumOf(samples[samples.size() - 1]));
         double carried = 0.0;
@@ -75,7 +77,7 @@ class ForcesTest : public QObject {
         QVERIFY(carried < static_cast<double>(samples.size()));  // it hops
         const double time = samples.back().time;
         const double scale = mass * batch.gravity * time;
-        const Vec3 gained = mass * (samples.back().velocity - samples.front().velocity);
+        const Vec3 gained = mass * (samples.back().parts[0].velocity - samples.front().parts[0].velocity);
         QVERIFY2(qAbs(given.z() - gained.z() - scale) < 0.01 * scale,
                  qPrintable(QString::number(given.z() / scale)));
         // On a bowl the axes of the track turn to and fro by less than half a degree.

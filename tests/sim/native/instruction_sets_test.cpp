@@ -29,7 +29,8 @@ Ways measureWays(const Outcomes& outcomes) {
     double sum = 0.0;
     double squares = 0.0;
     for (const trial::Outcome& outcome : outcomes) {
-        const double way = outcome.farthest.position.x() - outcome.initial.position.x();
+        const trial::PartOutcome& part = outcome.parts.front();
+        const double way = part.farthest.position.x() - part.initial.position.x();
         sum += way;
         squares += way * way;
     }
@@ -103,8 +104,8 @@ class InstructionSetsTest : public QObject {
         const trial::Trajectory best = verify::replayScene(native::NativeEngine({}), lying, 1e-3, {});
         QCOMPARE(here.samples.size(), best.samples.size());
         for (std::size_t i = 0; i < here.samples.size(); ++i) {
-            const base::Pose& a = here.samples[i].room;
-            const base::Pose& b = best.samples[i].room;
+            const base::Pose& a = here.samples[i].parts[0].room;
+            const base::Pose& b = best.samples[i].parts[0].room;
             QVERIFY((a.position - b.position).norm() < 1e-6);
             QVERIFY(a.rotation.angularDistance(b.rotation) < 1e-4);
         }

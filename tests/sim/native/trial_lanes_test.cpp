@@ -15,9 +15,9 @@ namespace {
 /// What a group needs to stand on: a part, a track, and trials with a start of their own.
 struct Scene {
     trial::TrialBatch batch = testing::makeRoughBatch(verify::makePaperCuboid(), 3, 40, 1.0);
-    native::PackedBody body{contact::prepareBody(batch.part->pieces)};
+    native::PackedBody body{contact::prepareBody(batch.parts.front()->pieces)};
     native::PackedTrack track{contact::prepareTrack(batch.track->solid)};
-    native::LaneModel model{*batch.part, body, batch.gravity, 2e-4, false};
+    native::LaneModel model{*batch.parts.front(), body, batch.gravity, 2e-4, false};
 
     void add(TrialLanes& group, std::size_t trial) const { group.add(track, batch, batch.trials[trial]); }
 };
@@ -48,7 +48,7 @@ class TrialLanesTest : public QObject {
             scene_.add(group, i);
         QCOMPARE(group.count(), 5);
         for (int lane = 0; lane < 5; ++lane) {
-            const base::Pose& start = scene_.batch.trials[static_cast<std::size_t>(lane)].start.pose;
+            const base::Pose& start = scene_.batch.trials[static_cast<std::size_t>(lane)].parts[0].pose;
             const base::Pose got = group.poseInTrack(lane);
             QVERIFY((got.position - start.position).norm() < 1e-9);
             QVERIFY(got.rotation.angularDistance(start.rotation) < 1e-6);

@@ -70,10 +70,11 @@ class CertifyingTest : public QObject {
         const double phase = 0.7;
         const simbody::Scene scene(batch);
         const base::Pose start{Quaternion(0.9, 0.1, -0.3, 0.2).normalized(), Vec3(0.1, 0.05, 1.0)};
-        simbody::CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, batch.drive, phase,
-                                          batch.part->massProperties.mass, batch.part->massProperties.inertia,
-                                          batch.gravity, simbody::lawOf(batch, batch.trials[0])},
-                                         start, {Vec3(0.1, 0.2, 0.3), Vec3(3.0, -2.0, 5.0)});
+        simbody::CertifyingTrial running(
+            {&scene.track, &scene.body, batch.track->shape, batch.drive, phase,
+             batch.parts.front()->massProperties.mass, batch.parts.front()->massProperties.inertia,
+             batch.gravity, simbody::lawOf(batch, batch.trials[0])},
+            start, {Vec3(0.1, 0.2, 0.3), Vec3(3.0, -2.0, 5.0)});
         const contact::DriveMotion drive(batch.drive, batch.track->shape, phase);
         for (int i = 0; i <= 40; ++i) {
             const double time = 1.5e-3 * i;  // three periods
@@ -108,13 +109,13 @@ class CertifyingTest : public QObject {
             const auto& a = both.continuous.samples[i];
             const auto& b = both.discrete.samples[i];
             QVERIFY(std::abs(a.time - b.time) < 1e-9);
-            QVERIFY2((a.room.position - b.room.position).norm() < 30e-6,
+            QVERIFY2((a.parts[0].room.position - b.parts[0].room.position).norm() < 30e-6,
                      qPrintable(QString("%1 um apart at %2 ms")
-                                    .arg((a.room.position - b.room.position).norm() * 1e6)
+                                    .arg((a.parts[0].room.position - b.parts[0].room.position).norm() * 1e6)
                                     .arg(a.time * 1e3)));
         }
-        const Vec3& rebound = both.continuous.samples.back().velocity;
-        QVERIFY((rebound - both.discrete.samples.back().velocity).norm() < 4e-3);
+        const Vec3& rebound = both.continuous.samples.back().parts[0].velocity;
+        QVERIFY((rebound - both.discrete.samples.back().parts[0].velocity).norm() < 4e-3);
     }
 
     // Thrown once by the vibrating track: flight and landing.
@@ -122,17 +123,17 @@ class CertifyingTest : public QObject {
         trial::TrialBatch batch = testing::makeLyingOn({}, 0.0, 0.04);
         batch.drive.halfStroke = 0.8e-3;
         batch.contact = {0.5, 0.5, 0.0};
-        batch.trials[0].start.phase = -0.5 * base::kPi;  // at rest, like the part
+        batch.trials[0].phase = -0.5 * base::kPi;  // at rest, like the part
         const Pair both = replayBoth(batch);
         double highest = 0.0;
         for (std::size_t i = 0; i + 1 < both.continuous.samples.size(); ++i) {
             const auto& a = both.continuous.samples[i];
             const auto& b = both.discrete.samples[i];
-            QVERIFY2((a.track.position - b.track.position).norm() < 30e-6,
+            QVERIFY2((a.parts[0].track.position - b.parts[0].track.position).norm() < 30e-6,
                      qPrintable(QString("%1 um apart at %2 ms")
-                                    .arg((a.track.position - b.track.position).norm() * 1e6)
+                                    .arg((a.parts[0].track.position - b.parts[0].track.position).norm() * 1e6)
                                     .arg(a.time * 1e3)));
-            highest = std::max(highest, a.track.position.z() - 0.017);
+            highest = std::max(highest, a.parts[0].track.position.z() - 0.017);
         }
         QVERIFY(highest > 50e-6);  // it did fly
     }
@@ -155,12 +156,13 @@ class CertifyingTest : public QObject {
         const auto outcomes = engine.run(std::vector{batch}, control);
         QVERIFY(outcomes.ok());
         QCOMPARE((*outcomes)[0].size(), 1U);
-        QCOMPARE((*outcomes)[0][0].ending, trial::Ending::timedOut);
+        QCOMPARE((*outcomes)[0][0].parts[0].ending, trial::Ending::timedOut);
         QVERIFY(control.done() == 1);
         // The integrator's steps differ with the samples; the motion does not.
         const auto replay = engine.replay(batch, 0, 5e-3, {});
         QVERIFY(replay.ok());
-        QVERIFY((replay->outcome.farthest.position - (*outcomes)[0][0].farthest.position).norm() < 1e-6);
+        QVERIFY((replay->outcome.parts[0].farthest.position - (*outcomes)[0][0].parts[0].farthest.position)
+                    .norm() < 1e-6);
     }
 };
 

@@ -17,7 +17,7 @@ class PhysicalModelTest : public QObject {
         const QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
         study::PhysicalValidation physical = plan();
         model.setTable(study::comparePhysical(nullptr, physical, {}));
-        add(physical, 3, study::PhysicalOutcome::success);
+        add(physical, 3, trial::Verdict::success);
         model.setTable(study::comparePhysical(nullptr, physical, {}));
         model.clear();
         QCOMPARE(model.rowCount(), 0);
@@ -27,10 +27,10 @@ class PhysicalModelTest : public QObject {
     void itShowsBothSidesAndTheirBounds() {
         study::PhysicalValidation physical = plan();
         physical.plan.repetitions = 200;
-        add(physical, 397, study::PhysicalOutcome::success);
-        add(physical, 1, study::PhysicalOutcome::wrongOrientation);
-        add(physical, 2, study::PhysicalOutcome::fellOff);
-        add(physical, 0, study::PhysicalOutcome::stuck);
+        add(physical, 397, trial::Verdict::success);
+        add(physical, 1, trial::Verdict::wrongOrientation);
+        add(physical, 2, trial::Verdict::fellOff);
+        add(physical, 0, trial::Verdict::stuck);
         study::ValidationRecord simulated;
         simulated.rows = {{0, 200, 3, 3, 0, 0}, {1, 200, 3, 0, 3, 0}};
         const std::vector<part::PoseGroup> groups = {{{0}, 0.9}, {{1}, 0.1}};
@@ -79,7 +79,7 @@ class PhysicalModelTest : public QObject {
         physical.plan.repetitions = 5;
         return physical;
     }
-    static void add(study::PhysicalValidation& physical, int count, study::PhysicalOutcome outcome) {
+    static void add(study::PhysicalValidation& physical, int count, trial::Verdict outcome) {
         const std::vector<int> order = study::orderOfTrials(physical.plan);
         for (int i = 0; i < count; ++i) {
             study::PhysicalTrial trial;

@@ -102,8 +102,8 @@ class ValidatePageTest : public QObject {
         Operator user(bench, study_.copy());
         user.plan(2, false);
         const auto& scene = user.find<scene::SceneView>("scene")->contents();
-        QTRY_VERIFY_WITH_TIMEOUT(scene.track != nullptr && scene.partPoses.size() == 1, kPatience);
-        const base::Pose first = scene.partPoses.front();
+        QTRY_VERIFY_WITH_TIMEOUT(scene.track != nullptr && scene.parts.size() == 1, kPatience);
+        const base::Pose first = scene.parts.front().pose;
         // At the start, lying: the pose's own up stays up.
         QVERIFY((scene.track->shape.toTrack(first.position, 0.0).x() - scene.track->start) < 1e-9);
         const base::Quaternion lying = user.session()->part()->stablePoses.front().rotation;
@@ -111,7 +111,7 @@ class ValidatePageTest : public QObject {
         QVERIFY(up.z() > 1.0 - 1e-9);
         user.press(Qt::Key_Space);
         user.press(Qt::Key_S);
-        QTRY_VERIFY(!(scene.partPoses.front().rotation.coeffs() == first.rotation.coeffs()));
+        QTRY_VERIFY(!(scene.parts.front().pose.rotation.coeffs() == first.rotation.coeffs()));
         QCOMPARE(user.trials().size(), std::size_t(1));
         // Without a drive here nothing is known of it.
         QCOMPARE(user.trials().front().setPoint, 0.0);
@@ -274,7 +274,7 @@ class ValidatePageTest : public QObject {
         QVERIFY(view->isRowHidden(4) && totals->isRowHidden(0) && !totals->isRowHidden(3));
         int failures = 0;
         for (const study::PhysicalTrial& trial : user.trials())
-            failures += trial.outcome == study::PhysicalOutcome::success ? 0 : 1;
+            failures += trial.outcome == trial::Verdict::success ? 0 : 1;
         QCOMPARE(model.index(4, PhysicalModel::Trials).data().toInt(), 60);
         QCOMPARE(model.index(4, PhysicalModel::Planned).data().toInt(), 60);
         QCOMPARE(model.index(4, PhysicalModel::Failures).data().toInt(), failures);

@@ -264,9 +264,9 @@ class RecordModelsTest : public QObject {
             return model.index(2, column).data(models::VerdictRole).toInt();
         };
         QCOMPARE(verdictAt(ValidationModel::WrongOrientation),
-                 static_cast<int>(workflow::TrialVerdict::wrongOrientation));
-        QCOMPARE(verdictAt(ValidationModel::Stuck), static_cast<int>(workflow::TrialVerdict::stuck));
-        QCOMPARE(verdictAt(ValidationModel::FellOff), static_cast<int>(workflow::TrialVerdict::fellOff));
+                 static_cast<int>(trial::Verdict::wrongOrientation));
+        QCOMPARE(verdictAt(ValidationModel::Stuck), static_cast<int>(trial::Verdict::stuck));
+        QCOMPARE(verdictAt(ValidationModel::FellOff), static_cast<int>(trial::Verdict::fellOff));
         QCOMPARE(verdictAt(ValidationModel::Trials), -1);
         QCOMPARE(model.rows()[2].poses, std::vector<int>{2});
     }

@@ -9,27 +9,27 @@
 using namespace trapwright;
 using models::TrialFilter;
 using models::TrialModel;
-using workflow::TrialVerdict;
+using trial::Verdict;
 
 namespace {
 
 constexpr auto kFatal = QAbstractItemModelTester::FailureReportingMode::QtTest;
 
-models::TrialRow trial(int number, int pose, TrialVerdict verdict, double time) {
+models::TrialRow trial(int number, int pose, trial::Verdict verdict, double time) {
     models::TrialRow row;
     row.trial = number;
     row.pose = pose;
     row.verdict = verdict;
     row.outcome.time = time;
     row.outcome.farthest.position.x() = 0.1234;
-    if (verdict == TrialVerdict::success) row.angle = 2.5 * base::kDegree;
+    if (verdict == trial::Verdict::success) row.angle = 2.5 * base::kDegree;
     return row;
 }
 
 std::vector<models::TrialRow> someTrials() {
-    return {trial(0, 0, TrialVerdict::success, 10.0), trial(1, 0, TrialVerdict::stuck, 9.0),
-            trial(2, 1, TrialVerdict::fellOff, 2.0), trial(3, 1, TrialVerdict::success, 1.0),
-            trial(4, -1, TrialVerdict::wrongOrientation, 3.0)};
+    return {trial(0, 0, trial::Verdict::success, 10.0), trial(1, 0, trial::Verdict::stuck, 9.0),
+            trial(2, 1, trial::Verdict::fellOff, 2.0), trial(3, 1, trial::Verdict::success, 1.0),
+            trial(4, -1, trial::Verdict::wrongOrientation, 3.0)};
 }
 
 QList<int> trialsIn(const QAbstractItemModel& model) {
@@ -55,8 +55,8 @@ class TrialModelTest : public QObject {
         QCOMPARE(model.index(1, TrialModel::Angle).data().toString(), QString());
         QCOMPARE(model.index(0, TrialModel::Pose).data().toString(), QString("1"));
         QCOMPARE(model.index(4, TrialModel::Pose).data().toString(), QString("any"));
-        QCOMPARE(model.count(TrialVerdict::success), 2);
-        QCOMPARE(model.count(TrialVerdict::fellOff), 1);
+        QCOMPARE(model.count(trial::Verdict::success), 2);
+        QCOMPARE(model.count(trial::Verdict::fellOff), 1);
     }
 
     void filterLeavesSomeOutcomes() {
@@ -66,7 +66,7 @@ class TrialModelTest : public QObject {
         const QAbstractItemModelTester tester(&filter, kFatal);
         model.setTrials(someTrials());
         QCOMPARE(filter.rowCount(), 5);
-        filter.setVerdicts({TrialVerdict::stuck, TrialVerdict::fellOff});
+        filter.setVerdicts({trial::Verdict::stuck, trial::Verdict::fellOff});
         QCOMPARE(trialsIn(filter), (QList<int>{1, 2}));
         filter.setPose(1);
         QCOMPARE(trialsIn(filter), (QList<int>{2}));
@@ -88,7 +88,7 @@ class TrialModelTest : public QObject {
         std::set<QRgb> colours;
         std::set<QString> words;
         std::vector<QImage> signs;
-        for (const TrialVerdict verdict : models::kVerdicts) {
+        for (const trial::Verdict verdict : models::kVerdicts) {
             colours.insert(models::verdictColour(verdict).rgb());
             words.insert(models::verdictText(verdict));
             signs.push_back(models::verdictIcon(verdict)
@@ -118,7 +118,7 @@ class TrialModelTest : public QObject {
     }
 
     void signsAreInsideTheirSquare() {
-        for (const TrialVerdict verdict : models::kVerdicts) {
+        for (const trial::Verdict verdict : models::kVerdicts) {
             const QImage sign = models::verdictIcon(verdict).pixmap(QSize(64, 64)).toImage();
             for (int i = 0; i < 64; ++i) {
                 QCOMPARE(qAlpha(sign.pixel(i, 0)), 0);

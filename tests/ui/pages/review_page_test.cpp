@@ -19,7 +19,7 @@
 using namespace trapwright;
 using namespace trapwright::pages;
 using models::ValidationModel;
-using workflow::TrialVerdict;
+using trial::Verdict;
 
 class ReviewPageTest : public QObject {
     Q_OBJECT
@@ -43,7 +43,7 @@ class ReviewPageTest : public QObject {
         QCOMPARE(counted, 16);
         // The first one is in the scene, with its path, and stands still.
         QVERIFY(user.waitForReplay());
-        QVERIFY(user.scene().track && user.scene().part);
+        QVERIFY(user.scene().track && !user.scene().parts.empty());
         QCOMPARE(user.scene().traces.size(), std::size_t{1});
         QVERIFY(!user.player().playing());
     }
@@ -61,7 +61,7 @@ class ReviewPageTest : public QObject {
         sample::changeMaker(study_.toStdString(), {"trapwright 0.0-other", "native", "AVX9"});
         for (const int generation : {0, 1})
             sample::changeOutcomes(study_.toStdString(), generation,
-                                   [](std::size_t trial, trial::Outcome& outcome) {
+                                   [](std::size_t trial, trial::PartOutcome& outcome) {
                                        // The table shows it as stored; others are left alone.
                                        if (trial % 16 < 3) outcome = {trial::Ending::timedOut, {}, {}, 9.75};
                                    });
@@ -118,14 +118,14 @@ class ReviewPageTest : public QObject {
         ReviewUser user(study_);
         QVERIFY(user.waitForReplay());
         ReplayPlayer& player = user.player();
-        const base::Vec3 start = user.scene().partPoses.front().position;
+        const base::Vec3 start = user.scene().parts.front().pose.position;
         user.press(Qt::Key_Space);
         QVERIFY(player.playing());
         QTRY_VERIFY(player.time() > 0.1);
         user.press(Qt::Key_Space);
         QVERIFY(!player.playing());
         const double stopped = player.time();
-        QVERIFY((user.scene().partPoses.front().position - start).norm() > 1e-6);
+        QVERIFY((user.scene().parts.front().pose.position - start).norm() > 1e-6);
         user.press(Qt::Key_Right);
         QVERIFY(std::abs(player.time() - stopped - 1e-3) < 1e-9);
         user.press(Qt::Key_Left);
@@ -181,15 +181,15 @@ class ReviewPageTest : public QObject {
         ReviewUser user(study_);
         QVERIFY(user.waitForReplay());
         user.find<QSpinBox>("trials.ghosts")->setValue(5);
-        QTRY_COMPARE_WITH_TIMEOUT(user.scene().partPoses.size(), std::size_t{6}, kPatience);
-        QVERIFY(!user.scene().partColours.front().isValid());
+        QTRY_COMPARE_WITH_TIMEOUT(user.scene().parts.size(), std::size_t{6}, kPatience);
+        QVERIFY(!user.scene().parts.front().colour.isValid());
         for (std::size_t i = 1; i < 6; ++i)
-            QVERIFY(user.scene().partColours[i].isValid());
+            QVERIFY(user.scene().parts[i].colour.isValid());
         QCOMPARE(user.scene().traces.size(), std::size_t{6});
         user.trigger("replay.trace");
         QVERIFY(user.scene().traces.empty());
         user.find<QSpinBox>("trials.ghosts")->setValue(0);
-        QTRY_COMPARE(user.scene().partPoses.size(), std::size_t{1});
+        QTRY_COMPARE(user.scene().parts.size(), std::size_t{1});
     }
 
     void forcesAreDrawnOnRequest() {
@@ -335,7 +335,7 @@ class ReviewPageTest : public QObject {
         user.validation().scrollTo(user.validation().model()->index(row, 0));
         user.click(user.validation(), row, ValidationModel::WrongOrientation);
         QTRY_VERIFY_WITH_TIMEOUT(user.player().playing(), kPatience);
-        QCOMPARE(user.scene().partPoses.size(), std::size_t{1});
+        QCOMPARE(user.scene().parts.size(), std::size_t{1});
         const study::ValidationRow wanted = model.rows()[static_cast<std::size_t>(row)].row;
         QVERIFY(user.find<QComboBox>("trials.source")->currentText().contains("poses "));
         QVERIFY(user.find<QComboBox>("trials.pose")->isVisible());
@@ -345,7 +345,7 @@ class ReviewPageTest : public QObject {
         QTRY_COMPARE_WITH_TIMEOUT(shown.rowCount(), wanted.wrongOrientation, kPatience);
         for (int i = 0; i < shown.rowCount(); ++i)
             QCOMPARE(shown.index(i, 0).data(models::VerdictRole).toInt(),
-                     static_cast<int>(TrialVerdict::wrongOrientation));
+                     static_cast<int>(trial::Verdict::wrongOrientation));
         for (int i = 0; i < shown.rowCount(); ++i)
             QCOMPARE(shown.index(i, 0).data(models::PoseRole).toInt(), wanted.pose);
         // The group's row lists those of its other pose as well.
@@ -369,7 +369,7 @@ class ReviewPageTest : public QObject {
         QVERIFY(!user.player().playing());
         QVERIFY(user.scene().stablePoses && !user.scene().track);
         user.window.showPage("review");
-        QVERIFY(user.scene().track && user.scene().part);
+        QVERIFY(user.scene().track && !user.scene().parts.empty());
         user.window.desk().close(true);
         QTRY_COMPARE(user.trials().model()->rowCount(), 0);
     }

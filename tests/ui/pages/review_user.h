@@ -54,7 +54,7 @@ struct ReviewUser : tests::WindowUser {
 
     /// The first trial of the list in the scene.
     bool waitForReplay() {
-        return QTest::qWaitFor([&] { return player().duration() > 0.0 && scene().partPoses.size() == 1; },
+        return QTest::qWaitFor([&] { return player().duration() > 0.0 && scene().parts.size() == 1; },
                                kPatience);
     }
     bool validate() {

@@ -90,32 +90,55 @@ class SceneViewTest : public QObject {
         view_->showTrack(cuboidTrack_);
         const QColor warm = scene::SceneTheme::light().part;
         const double without = samples::shareOfHue(grab(), warm);  // the orbit cube's x axis
-        view_->showPart(cuboid_);
         for (const double x : {20e-3, 200e-3}) {
-            view_->setPartPoses(std::vector{poseAt(x)});
+            view_->setParts({{cuboid_, poseAt(x)}});
             const QImage shown = grab();
             const QPoint place = onScreen(poseAt(x).position) * view_->devicePixelRatioF();
             const QColor there = shown.pixelColor(place);
             QVERIFY2(std::abs(there.hsvHue() - warm.hsvHue()) < 20, qPrintable(there.name()));
         }
-        view_->showPart(nullptr);
+        view_->setParts({});
         QVERIFY(std::abs(samples::shareOfHue(grab(), warm) - without) < 1e-4);
     }
 
     void ghostsHaveTheirColours() {
         view_->showTrack(cuboidTrack_);
-        view_->showPart(cuboid_);
         const QColor green(0x009e73);
-        view_->setPartPoses(std::vector{poseAt(20e-3), poseAt(60e-3), poseAt(90e-3)});
+        std::vector<scene::PartInScene> parts{
+            {cuboid_, poseAt(20e-3)}, {cuboid_, poseAt(60e-3), {}, true}, {cuboid_, poseAt(90e-3), {}, true}};
+        view_->setParts(parts);
         const double before = samples::shareOfHue(grab(), green);
-        view_->setPartColours(std::vector{QColor(), green, green});
+        parts[1].colour = parts[2].colour = green;
+        view_->setParts(parts);
         QVERIFY(samples::shareOfHue(grab(), green) > before + 5e-4);
+    }
+
+    // Each of its own kind and colour, all solid; those that are gone are not seen any more.
+    void partsOfSeveralKinds() {
+        view_->showTrack(cuboidTrack_);
+        const QColor green(0x009e73);
+        const QColor violet(0xaa00ff);
+        const double noGreen = samples::shareOfHue(grab(), green);
+        const double noViolet = samples::shareOfHue(grab(), violet);
+        auto large = std::make_shared<part::Part>(*cuboid_);
+        for (base::Vec3& vertex : large->mesh.vertices)
+            vertex *= 2.0;
+        view_->setParts({{cuboid_, poseAt(40e-3), green}, {large, poseAt(120e-3), violet}});
+        const QImage both = grab();
+        const double greenShare = samples::shareOfHue(both, green) - noGreen;
+        const double violetShare = samples::shareOfHue(both, violet) - noViolet;
+        QVERIFY(greenShare > 5e-4);
+        QVERIFY2(violetShare > 2.5 * greenShare,
+                 qPrintable(QString("%1 and %2").arg(greenShare).arg(violetShare)));
+        view_->setParts({{large, poseAt(120e-3), violet}});
+        const QImage one = grab();
+        QVERIFY(std::abs(samples::shareOfHue(one, green) - noGreen) < 1e-4);
+        QVERIFY(samples::shareOfHue(one, violet) - noViolet > 0.9 * violetShare);
     }
 
     void tracesContactsAndHighlightsAreDrawn() {
         view_->showTrack(cuboidTrack_, scene::TrackMarks::none());
-        view_->showPart(cuboid_);
-        view_->setPartPoses(std::vector{poseAt(50e-3)});
+        view_->setParts({{cuboid_, poseAt(50e-3)}});
         const QColor magenta(0xff00ff);
         QImage before = grab();
         scene::Trace trace{{}, magenta};
@@ -274,11 +297,10 @@ class SceneViewTest : public QObject {
 
     void cameraFollowsThePart() {
         view_->showTrack(cuboidTrack_);
-        view_->showPart(cuboid_);
-        view_->setPartPoses(std::vector{poseAt(20e-3)});
+        view_->setParts({{cuboid_, poseAt(20e-3)}});
         view_->setFollow(true);
         const QPoint before = onScreen(poseAt(20e-3).position);
-        view_->setPartPoses(std::vector{poseAt(150e-3)});
+        view_->setParts({{cuboid_, poseAt(150e-3)}});
         QVERIFY((onScreen(poseAt(150e-3).position) - before).manhattanLength() <= 2);
     }
 

@@ -76,7 +76,7 @@ class StoredTrialsTest : public QObject {
         const study::ValidationRow& row = session->validations().front().rows.front();
         const auto trials = list(*session, {TrialKind::validation, winner, {row.pose}});
         const auto& verdicts = trials->judged.verdicts;
-        QCOMPARE(std::count(verdicts.begin(), verdicts.end(), workflow::TrialVerdict::success),
+        QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::success),
                  row.trials - row.failures);
     }
 
@@ -93,7 +93,7 @@ class StoredTrialsTest : public QObject {
         const auto winner = static_cast<std::size_t>(open()->winners().back().individual);
         const trial::OutcomeMaker other{"trapwright 0.0-other", "native", "AVX9"};
         sample::changeMaker(study_, other);
-        sample::changeOutcomes(study_, 1, [&](std::size_t trial, trial::Outcome& outcome) {
+        sample::changeOutcomes(study_, 1, [&](std::size_t trial, trial::PartOutcome& outcome) {
             // Of the second trial of each individual its last bit.
             if (trial % 4 == 1)
                 outcome.farthest.position.z() = std::nextafter(outcome.farthest.position.z(), 1.0);
@@ -103,14 +103,15 @@ class StoredTrialsTest : public QObject {
         const auto listed = list(*session, {TrialKind::learning, session->winners().back()});
         QVERIFY(listed && listed->stored);
         QVERIFY(listed->maker == other);
-        QCOMPARE(listed->outcomes[2].time, 9.5);
+        QCOMPARE(listed->outcomes[2].parts[0].time, 9.5);
         for (const int trial : {0, 1, 2, 3}) {
             const auto replayed = replay(*session, trial);
             QVERIFY(replayed);
             QCOMPARE(replayed->has_value(), trial == 1 || trial == 2);
             if (!*replayed) continue;
             const workflow::OutcomeDifference& difference = **replayed;
-            QVERIFY(trial::endAlike(difference.stored, listed->outcomes[static_cast<std::size_t>(trial)]));
+            QVERIFY(trial::endAlike(difference.stored,
+                                    listed->outcomes[static_cast<std::size_t>(trial)].parts[0]));
             QVERIFY(!trial::endAlike(difference.stored, difference.replayed));
             QVERIFY(difference.storedBy == other);
             QCOMPARE(difference.replayedBy.program, kProgram);
@@ -154,7 +155,7 @@ class StoredTrialsTest : public QObject {
         QVERIFY(runs_.load() > 0);
         QCOMPARE(again->maker.program, kProgram);
         for (std::size_t i = 0; i < before.outcomes.size(); ++i)
-            QVERIFY(trial::endAlike(again->outcomes[i], before.outcomes[i]));
+            QVERIFY(trial::endAlike(again->outcomes[i].parts[0], before.outcomes[i].parts[0]));
         const auto replayed = replay(*session, 0);
         QVERIFY(replayed);
         QVERIFY(!*replayed);

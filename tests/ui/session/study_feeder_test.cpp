@@ -23,7 +23,7 @@ study::PhysicalValidation plan(int repetitions = 2) {
     return validation;
 }
 
-study::PhysicalTrial outcome(study::PhysicalOutcome outcome, double setPoint = 0.6) {
+study::PhysicalTrial outcome(trial::Verdict outcome, double setPoint = 0.6) {
     study::PhysicalTrial trial;
     trial.outcome = outcome;
     trial.setPoint = setPoint;
@@ -64,10 +64,10 @@ class StudyFeederTest : public QObject {
         QSignalSpy changed(session.get(), &StudySession::physicalValidationChanged);
         QCOMPARE(session->startPhysicalValidation(plan()), 0);
         const std::vector<int> order = study::orderOfTrials(plan().plan);
-        session->addPhysicalTrial(0, outcome(study::PhysicalOutcome::success));
-        session->addPhysicalTrial(0, outcome(study::PhysicalOutcome::stuck));
+        session->addPhysicalTrial(0, outcome(trial::Verdict::success));
+        session->addPhysicalTrial(0, outcome(trial::Verdict::stuck));
         session->undoPhysicalTrial(0);
-        session->addPhysicalTrial(0, outcome(study::PhysicalOutcome::fellOff));
+        session->addPhysicalTrial(0, outcome(trial::Verdict::fellOff));
         QCOMPARE(changed.count(), 5);
         const study::PhysicalValidation before = session->physicalValidations().at(0);
         QCOMPARE(before.program, kProgram);
@@ -78,7 +78,7 @@ class StudyFeederTest : public QObject {
             QCOMPARE(before.trials[i].pose, order[i]);
             QVERIFY(!before.trials[i].time.empty());
         }
-        QVERIFY(before.trials[1].outcome == study::PhysicalOutcome::fellOff);
+        QVERIFY(before.trials[1].outcome == trial::Verdict::fellOff);
         session.reset();
         QVERIFY(!std::filesystem::exists(fixture_->path("a.trap-wal")));
 
@@ -87,7 +87,7 @@ class StudyFeederTest : public QObject {
         QCOMPARE(session->physicalValidations().size(), std::size_t{1});
         QVERIFY(session->physicalValidations()[0] == before);
         for (int i = 0; i < 5; ++i)
-            session->addPhysicalTrial(0, outcome(study::PhysicalOutcome::success));
+            session->addPhysicalTrial(0, outcome(trial::Verdict::success));
         // The plan has four.
         QCOMPARE(session->physicalValidations()[0].trials.size(), order.size());
         QCOMPARE(session->startPhysicalValidation(plan()), 1);
@@ -106,7 +106,7 @@ class StudyFeederTest : public QObject {
         QVERIFY(session);
         session->startLearning();
         session->startPhysicalValidation(plan());
-        session->addPhysicalTrial(0, outcome(study::PhysicalOutcome::success));
+        session->addPhysicalTrial(0, outcome(trial::Verdict::success));
         session->appendDriveLog({command(1), command(2)});
         session->addCalibration(measured(calibration::Method::bounceTime, 0.3));
         QVERIFY(waitUntil([&] {
@@ -185,9 +185,9 @@ class StudyFeederTest : public QObject {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
         session->startPhysicalValidation(plan());
-        session->addPhysicalTrial(0, outcome(study::PhysicalOutcome::success));
+        session->addPhysicalTrial(0, outcome(trial::Verdict::success));
         VERIFY_OK(session->saveAs(fixture_->path("b.trap")));
-        session->addPhysicalTrial(0, outcome(study::PhysicalOutcome::stuck));
+        session->addPhysicalTrial(0, outcome(trial::Verdict::stuck));
         session.reset();
         session = fixture_->open("b.trap");
         QVERIFY(session);

@@ -46,14 +46,14 @@ class StudyTrialsTest : public QObject {
         QCOMPARE(static_cast<int>(told[0].outcomes.size()), winner.record.trials);
         int finished = 0;
         for (const trial::Outcome& outcome : told[0].outcomes)
-            finished += outcome.ending == trial::Ending::finished ? 1 : 0;
+            finished += outcome.parts[0].ending == trial::Ending::finished ? 1 : 0;
         QCOMPARE(finished, winner.record.finished);
         // The first ones, and more than there were.
         for (const int count : {2, 7}) {
             const std::vector<ListedTrials> others =
                 simulate({workflow::TrialKind::learning, winner, {0}, count});
             QCOMPARE(static_cast<int>(others[0].outcomes.size()), count);
-            QVERIFY(trial::endAlike(others[0].outcomes[1], told[0].outcomes[1]));
+            QVERIFY(trial::endAlike(others[0].outcomes[1].parts[0], told[0].outcomes[1].parts[0]));
             QCOMPARE(others[0].stored, count == 2);
         }
     }
@@ -66,17 +66,16 @@ class StudyTrialsTest : public QObject {
             const std::vector<ListedTrials> told = simulate(request);
             QCOMPARE(told[0].outcomes.size(), std::size_t{10});
             const auto& verdicts = told[0].judged.verdicts;
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), workflow::TrialVerdict::stuck), row.stuck);
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), workflow::TrialVerdict::fellOff),
-                     row.fellOff);
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), workflow::TrialVerdict::wrongOrientation),
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::stuck), row.stuck);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::fellOff), row.fellOff);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::wrongOrientation),
                      row.wrongOrientation);
             // Fewer are the first of them, whichever the pose is.
             request.count = 3;
             const std::vector<ListedTrials> fewer = simulate(request);
             QCOMPARE(fewer[0].outcomes.size(), std::size_t{3});
             for (std::size_t i = 0; i < 3; ++i)
-                QVERIFY(trial::endAlike(fewer[0].outcomes[i], told[0].outcomes[i]));
+                QVERIFY(trial::endAlike(fewer[0].outcomes[i].parts[0], told[0].outcomes[i].parts[0]));
         }
     }
 
@@ -91,8 +90,8 @@ class StudyTrialsTest : public QObject {
         const std::vector<ListedTrials> both = simulate({workflow::TrialKind::validation, winner, {0, 1}});
         QCOMPARE(both.back().outcomes.size(), std::size_t{20});
         for (std::size_t i = 0; i < 10; ++i) {
-            QVERIFY(trial::endAlike(both.back().outcomes[i], first[i]));
-            QVERIFY(trial::endAlike(both.back().outcomes[10 + i], second[i]));
+            QVERIFY(trial::endAlike(both.back().outcomes[i].parts[0], first[i].parts[0]));
+            QVERIFY(trial::endAlike(both.back().outcomes[10 + i].parts[0], second[i].parts[0]));
         }
     }
 
@@ -112,8 +111,9 @@ class StudyTrialsTest : public QObject {
         QCOMPARE(session_->state(), RunState::simulating);
         QTRY_VERIFY(trajectory);
         disconnect(connection);
-        QVERIFY(trial::endAlike(trajectory->outcome, told[0].outcomes[3]));
-        QVERIFY(trajectory->samples.size() >= static_cast<std::size_t>(trajectory->outcome.time / 0.01));
+        QVERIFY(trial::endAlike(trajectory->outcome.parts[0], told[0].outcomes[3].parts[0]));
+        QVERIFY(trajectory->samples.size() >=
+                static_cast<std::size_t>(trajectory->outcome.parts[0].time / 0.01));
         QVERIFY(waitForState(*session_, RunState::idle));
     }
 

@@ -1,0 +1,77 @@
+#include "core/trial/termination_monitor.h"
+
+#include <QtTest>
+#include <vector>
+
+using namespace trapwright;
+using trial::Ending;
+
+namespace {
+
+track::Track makeTrack() {
+    track::Track track;
+    track.sections = {{0.0, {}}, {0.5, {}}};
+    track.start = 0.06;
+    track.finish = 0.4;
+    track.width = 0.06;
+    return track;
+}
+
+base::Pose at(double x, double y = 0.0, double z = 0.02) {
+    return {base::Quaternion::Identity(), {x, y, z}};
+}
+
+}  // namespace
+
+/// How single parts end is tested with the engines (endings_test).
+class TerminationMonitorTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    // Each part has its own progress and its own end; the trial is over with the last one.
+    void partsEndOneByOne() {
+        const track::Track track = makeTrack();
+        trial::TerminationMonitor monitor(track, {2.0, 0.5, 1e-3}, 4);
+        std::vector<std::optional<Ending>> endings(4);
+        std::vector<double> times(4, 0.0);
+        for (int step = 0; step <= 400 && !monitor.isOver(); ++step) {
+            const double time = 0.01 * step;
+            // One conveys, one falls at 0.3 s, one stands still, one creeps, and comes half a second later.
+            const std::vector<base::Pose> poses = {at(0.06 + 0.4 * time),
+                                                   at(0.06, 0.0, time < 0.3 ? 0.02 : -0.01), at(0.1),
+                                                   at(0.06 + 0.01 * time)};
+            for (std::size_t part = 0; part < 4; ++part) {
+                if (endings[part] || (part == 3 && time < 0.495)) continue;
+                endings[part] = monitor.update(part, time, poses[part]);
+                times[part] = time;
+            }
+        }
+        QVERIFY(monitor.isOver());
+        const std::vector<trial::PartOutcome>& parts = monitor.outcome().parts;
+        const std::vector expected{Ending::finished, Ending::fellOff, Ending::stuck, Ending::timedOut};
+        const std::vector when{0.85, 0.3, 0.5, 2.5};
+        for (std::size_t part = 0; part < 4; ++part) {
+            QVERIFY(endings[part] == expected[part]);
+            QCOMPARE(parts[part].ending, expected[part]);
+            QCOMPARE(parts[part].time, times[part]);
+            QVERIFY2(std::abs(times[part] - when[part]) < 0.011, qPrintable(QString::number(times[part])));
+        }
+        QVERIFY(parts[0].farthest.position.x() >= track.finish);
+        QCOMPARE(parts[2].farthest.position.x(), 0.1);
+        QVERIFY(std::abs(parts[3].initial.position.x() - 0.065) < 1e-12);
+    }
+
+    void itIsNotOverBeforeTheLastOne() {
+        const track::Track track = makeTrack();
+        trial::TerminationMonitor monitor(track, {}, 2);
+        QVERIFY(!monitor.isOver());
+        QVERIFY(monitor.update(0, 0.0, at(0.45)) == Ending::finished);
+        QVERIFY(!monitor.isOver());
+        QVERIFY(!monitor.update(1, 0.0, at(0.1)));
+        QVERIFY(monitor.update(1, 0.1, at(0.41)) == Ending::finished);
+        QVERIFY(monitor.isOver());
+    }
+};
+
+QTEST_APPLESS_MAIN(TerminationMonitorTest)
+#include "termination_monitor_test.moc"
