@@ -41,13 +41,14 @@ std::string benchRow(const std::string& scene, const bench::Measurement& measure
     if (!measured.problem.empty())
         return fmt::format("{:<15} {:<12} cannot: {}\n", scene, measured.engine, measured.problem);
     const study::TrialCounts& counts = measured.counts;
-    return fmt::format(
-        kColumns, scene, measured.engine, fmt::format("{:g}", 1e3 * measured.step),
-        fmt::format("{:.1f}", 1.0 / measured.secondsPerTrial()),
-        fmt::format("{:.3f}", 1e6 * measured.secondsPerStep()),
-        fmt::format("{:.0f}", measured.stepsPerTrial()), fmt::format("{:.2f} x", measured.ratio),
-        fmt::format("{:.1f} %", 100.0 * counts.finished / counts.trials),
-        fmt::format("{:.1f} %", 100.0 * counts.oriented / counts.trials), describeShares(measured.costs));
+    return fmt::format(kColumns, scene, measured.engine, fmt::format("{:g}", 1e3 * measured.step),
+                       fmt::format("{:.1f}", 1.0 / measured.secondsPerTrial()),
+                       fmt::format("{:.3f}", 1e6 * measured.secondsPerStep()),
+                       fmt::format("{:.0f}", measured.stepsPerTrial()),
+                       fmt::format("{:.2f} x", measured.ratio),
+                       fmt::format("{:.1f} %", 100.0 * counts.tally.finished() / counts.tally.trials()),
+                       fmt::format("{:.1f} %", 100.0 * counts.tally.success / counts.tally.trials()),
+                       describeShares(measured.costs));
 }
 
 nlohmann::ordered_json benchRowToJson(const std::string& scene, const bench::Measurement& measured) {
@@ -58,15 +59,15 @@ nlohmann::ordered_json benchRowToJson(const std::string& scene, const bench::Mea
     }
     const study::TrialCounts& counts = measured.counts;
     row.update({{"step_ms", 1e3 * measured.step},
-                {"trials", counts.trials},
+                {"trials", counts.tally.trials()},
                 {"trials_per_second_per_core", 1.0 / measured.secondsPerTrial()},
                 {"cpu_seconds_per_trial", measured.secondsPerTrial()},
                 {"cpu_microseconds_per_step", 1e6 * measured.secondsPerStep()},
                 {"steps_per_trial", measured.stepsPerTrial()},
                 {"ratio_to_first", measured.ratio},
                 {"cpu_seconds", measured.cpuSeconds},
-                {"finished", shareToJson(counts.finished, counts.trials)},
-                {"oriented", shareToJson(counts.oriented, counts.trials)},
+                {"finished", shareToJson(counts.tally.finished(), counts.tally.trials())},
+                {"oriented", shareToJson(counts.tally.success, counts.tally.trials())},
                 {"shares", sharesToJson(measured.costs)}});
     return row;
 }

@@ -95,9 +95,9 @@ void addBenchOptions(Command command, BenchOptions& options) {
 Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const trial::EngineKind> known,
                            const Console& console) {
     auto contenders = chooseContenders(options.engines, known);
-    if (!contenders) return contenders.failure();
+    if (!contenders) return contenders.error();
     auto scenes = chooseScenes(options.filter);
-    if (!scenes) return scenes.failure();
+    if (!scenes) return scenes.error();
 
     const bench::Plan plan{options.trials, options.repeats, options.step * 1e-3};
     console.print(benchHeader(plan));

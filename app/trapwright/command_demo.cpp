@@ -43,7 +43,7 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const std::string& path,
     if (std::filesystem::exists(path, failure)) {
         auto study = openStudy(path, Access::write);
         if (!study) return study;
-        if (auto changed = changeSettings(*study, options.settings); !changed) return changed.failure();
+        if (auto changed = changeSettings(*study, options.settings); !changed) return changed.error();
         return study;
     }
     CreationOptions creation;
@@ -52,7 +52,7 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const std::string& path,
     settings.population = settings.population.value_or(kPopulation);
     settings.trials = settings.trials.value_or(kTrials);
     auto file = createStudy(path, creation, settings, console);
-    if (!file) return file.failure();
+    if (!file) return file.error();
     return loadStudy(std::move(*file));
 }
 
@@ -67,11 +67,11 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     }
     const std::string path = (folder / "cuboid.trap").string();
     auto study = openOrCreate(options, path, console);
-    if (!study) return study.failure();
+    if (!study) return study.error();
     const auto before = study->file.generationCount();
     if (!before) return Failure{ExitCode::badInput, before.error().message};
     auto inputs = makeInputs(*study, std::nullopt, trial::EngineUse::learning, options.threads);
-    if (!inputs) return inputs.failure();
+    if (!inputs) return inputs.error();
 
     console.print(fmt::format(
         "{} a track for the 4 x 8 x 12 mm cuboid in {}: {} individuals x {} trials, engine {}, {} "
@@ -81,24 +81,24 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         inputs->engine->name(), inputs->threads, options.minutes,
         learningHeading(inputs->settings.evolution)));
     auto learned = runLearning(study->file, *inputs, console, options.minutes * 60.0);
-    if (!learned) return learned.failure();
+    if (!learned) return learned.error();
     if (learned->interrupted) {
         return Failure{ExitCode::interrupted,
                        fmt::format("Stopped. Go on with: trapwright evolve {} --resume", path)};
     }
 
     inputs = makeInputs(*study, std::nullopt, trial::EngineUse::judging, options.threads);
-    if (!inputs) return inputs.failure();
+    if (!inputs) return inputs.error();
     inputs->settings.validation.selectionWinners = kSelectionWinners;
     inputs->settings.validation.selectionTrials = options.selectionTrials;
     inputs->settings.validation.trialsPerPose = options.trialsPerPose;
     auto selection = selectAndSave(study->file, *inputs, console);
-    if (!selection) return selection.failure();
+    if (!selection) return selection.error();
     console.print("\nThe best winners, simulated more often:\n" + study::formatSelection(*selection));
     auto picked = findIndividual(study->file, {});
-    if (!picked) return picked.failure();
+    if (!picked) return picked.error();
     auto validation = validateAndSave(study->file, *inputs, *picked, std::nullopt, console);
-    if (!validation) return validation.failure();
+    if (!validation) return validation.error();
     const std::vector<part::PoseGroup> groups = study::weighPoseGroups(*inputs->part, inputs->settings);
     console.print(fmt::format("\nThe track of generation {}, by the pose in which the parts arrive:\n{}\n",
                               picked->generation,

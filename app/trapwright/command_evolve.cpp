@@ -41,7 +41,7 @@ Attempt<OpenStudy> openExisting(const Options& options) {
                                    "or choose another name for a new one.",
                                    options.study, *count)};
     }
-    if (auto changed = changeSettings(*study, options.settings); !changed) return changed.failure();
+    if (auto changed = changeSettings(*study, options.settings); !changed) return changed.error();
     return study;
 }
 
@@ -50,7 +50,7 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) 
     const bool exists = std::filesystem::exists(options.study, failure);
     if (exists || (options.resume && !options.creation.given())) return openExisting(options);
     auto file = createStudy(options.study, options.creation, options.settings, console);
-    if (!file) return file.failure();
+    if (!file) return file.error();
     return loadStudy(std::move(*file));
 }
 
@@ -100,13 +100,13 @@ std::string_view endName(study::LearningEnd end) {
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openOrCreate(options, console);
-    if (!study) return study.failure();
+    if (!study) return study.error();
     auto inputs = makeInputs(*study, std::nullopt, trial::EngineUse::learning, options.threads);
-    if (!inputs) return inputs.failure();
+    if (!inputs) return inputs.error();
     console.print(describeStart(*study, *inputs));
 
     auto ran = runLearning(study->file, *inputs, console, std::nullopt);
-    if (!ran) return ran.failure();
+    if (!ran) return ran.error();
     const workflow::LearningReport& report = ran->report;
     const auto summaries = study->file.loadSummaries();
     if (!summaries) return Failure{ExitCode::badInput, summaries.error().message};

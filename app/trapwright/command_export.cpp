@@ -37,8 +37,7 @@ std::optional<base::Quaternion> findExpectedOrientation(const store::StudyFile& 
     const auto selections = file.loadSelections();
     if (!selections || selections->empty()) return std::nullopt;
     for (const study::SelectionEntry& entry : selections->back().entries) {
-        if (entry.generation == individual.generation && entry.individual == individual.individual)
-            return entry.modalOrientation;
+        if (isSameIndividual(entry, individual)) return entry.modalOrientation;
     }
     return std::nullopt;
 }
@@ -49,15 +48,15 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto settings = file->loadSettings();
     if (!settings) return Failure{ExitCode::badInput, settings.error().message};
     auto individual = findIndividual(*file, options.choice);
-    if (!individual) return individual.failure();
+    if (!individual) return individual.error();
     const auto track = study::decodeTrack(settings->track, individual->record.design);
     if (!track) return Failure{ExitCode::badInput, track.error().message};
     auto means = findPrintMeans(options.print);
-    if (!means) return means.failure();
+    if (!means) return means.error();
     const auto solid = track::buildPrintSolid(*track, toPrintOptions(options.print));
     if (!solid) return Failure{ExitCode::usage, solid.error().message};
     auto pieces = buildPieces(*track, options.print, *means);
-    if (!pieces) return pieces.failure();
+    if (!pieces) return pieces.error();
     std::vector<geometry::TriangleMesh> solids;
     for (const track::PrintPiece& piece : *pieces)
         solids.push_back(piece.solid);

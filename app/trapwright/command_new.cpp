@@ -18,7 +18,7 @@ struct Options {
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto file = createStudy(options.study, options.creation, options.settings, console);
-    if (!file) return file.failure();
+    if (!file) return file.error();
     const auto settings = file->loadSettings();
     if (!settings) return Failure{ExitCode::badInput, settings.error().message};
     console.print(fmt::format("Made the study {} for the part {}. Learn with: trapwright evolve {}\n",

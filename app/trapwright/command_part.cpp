@@ -149,7 +149,7 @@ Attempt<study::DropSettings> dropSettings(const Options& options, const LoadedPa
     settings.seed = options.seed;
     if (options.surface) {
         auto pair = findPair(*options.surface, loaded);
-        if (!pair) return pair.failure();
+        if (!pair) return pair.error();
         settings.contact = study::contactOf(*pair);
     }
     trial::ContactParameters& contact = settings.contact;
@@ -172,7 +172,7 @@ Attempt<study::DropRecord> dropPart(const LoadedPart& loaded, const study::DropS
                                     const std::string& name, const Console& console) {
     const unsigned threads = base::availableThreads();
     auto engine = makeEngine(name, {1, 0.0});
-    if (!engine) return engine.failure();
+    if (!engine) return engine.error();
     base::RunControl control;
     WorkWatch watch;
     watch.progress = [&] { return fmt::format("Dropping, {} of {} parts", control.done(), settings.drops); };
@@ -234,14 +234,14 @@ nlohmann::ordered_json dropsToJson(const study::DropRecord& record) {
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto loaded = loadPart(options.part, console);
-    if (!loaded) return loaded.failure();
+    if (!loaded) return loaded.error();
     nlohmann::ordered_json json = partToJson(*loaded);
     console.print(describePart(*loaded, options.everyPose));
     if (options.drops > 0) {
         auto settings = dropSettings(options, *loaded);
-        if (!settings) return settings.failure();
+        if (!settings) return settings.error();
         auto dropped = dropPart(*loaded, *settings, options.engine, console);
-        if (!dropped) return dropped.failure();
+        if (!dropped) return dropped.error();
         console.print(describeDrops(*loaded->part, *dropped, options.everyPose));
         json["drops"] = dropsToJson(*dropped);
     }

@@ -23,10 +23,10 @@ struct Options {
 
 nlohmann::ordered_json toJson(const study::PhysicalRow& row) {
     const auto side = [](const study::SuccessCount& count) {
-        return nlohmann::ordered_json{{"success", shareToJson(count.successes(), count.trials)},
-                                      {"wrong_orientation", count.wrongOrientation},
-                                      {"stuck", count.stuck},
-                                      {"fell_off", count.fellOff}};
+        return nlohmann::ordered_json{{"success", shareToJson(count.tally.success, count.tally.trials())},
+                                      {"wrong_orientation", count.tally.wrongOrientation},
+                                      {"stuck", count.tally.stuck},
+                                      {"fell_off", count.tally.fellOff}};
     };
     nlohmann::ordered_json json{{"simulated", side(row.simulated)}, {"physical", side(row.physical)}};
     if (!row.poses.empty()) {
@@ -48,7 +48,7 @@ nlohmann::ordered_json weightedToJson(const study::SuccessCount& count) {
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openStudy(options.study, Access::read);
-    if (!study) return study.failure();
+    if (!study) return study.error();
     const auto physical = study->file.loadPhysicalValidations();
     if (!physical) return Failure{ExitCode::badInput, physical.error().message};
     const auto simulated = study->file.loadValidations();

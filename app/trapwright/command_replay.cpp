@@ -112,9 +112,9 @@ nlohmann::ordered_json storedToJson(const Difference& difference) {
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openStudy(options.study, Access::read);
-    if (!study) return study.failure();
+    if (!study) return study.error();
     auto individual = findIndividual(study->file, options.choice);
-    if (!individual) return individual.failure();
+    if (!individual) return individual.error();
     const workflow::TrialsRequest request = makeRequest(options, *individual);
     const auto trials =
         workflow::findStoredTrials(study->file, study->settings, engines::registry(), request);
@@ -124,7 +124,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto batch = workflow::makeTrials(study->settings, study->part, request, *trials);
     if (!batch) return Failure{ExitCode::badInput, batch.error().message};
     auto engine = makeEngine(trials->engine, {1, 0.0});
-    if (!engine) return engine.failure();
+    if (!engine) return engine.error();
 
     base::RunControl control;
     auto trajectory = [&] {

@@ -25,15 +25,15 @@ struct Options {
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto study = openStudy(options.study, Access::write);
-    if (!study) return study.failure();
+    if (!study) return study.error();
     auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
-    if (!inputs) return inputs.failure();
+    if (!inputs) return inputs.error();
     study::ValidationSettings& validation = inputs->settings.validation;
     validation.selectionWinners = options.winners.value_or(validation.selectionWinners);
     validation.selectionTrials = options.trials.value_or(validation.selectionTrials);
 
     auto record = selectAndSave(study->file, *inputs, console);
-    if (!record) return record.failure();
+    if (!record) return record.error();
     console.print(study::formatSelection(*record));
     console.emit({{"study", options.study}, {"selection", toJson(*record)}});
     return ExitCode::ok;

@@ -50,9 +50,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (rows > kMostRows)
         return Failure{ExitCode::usage, fmt::format("--step {} is too fine.", options.step)};
     auto loaded = loadPart(options.part, console);
-    if (!loaded) return loaded.failure();
+    if (!loaded) return loaded.error();
     auto engine = makeJudge(options.engine, {});
-    if (!engine) return engine.failure();
+    if (!engine) return engine.error();
 
     verify::ConveyingScene scene;
     scene.part = loaded->part;

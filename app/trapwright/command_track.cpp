@@ -62,9 +62,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto file = track::readTrackFile(options.file);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
     auto loaded = loadPart(options.part, console);
-    if (!loaded) return loaded.failure();
+    if (!loaded) return loaded.error();
     auto engine = makeJudge(options.engine, {options.threads, options.step * 1e-3});
-    if (!engine) return engine.failure();
+    if (!engine) return engine.error();
     const std::shared_ptr<const part::Part> part = loaded->part;
     const study::Settings settings = settingsFor(options, file->track);
     if (const auto checked = study::checkInputs({settings, part, *engine}); !checked)
@@ -85,10 +85,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     console.print(fmt::format("{}: part {}, half-stroke {:g} mm, throw number {:.3f}, engine {}\n",
                               options.file, part->name, options.halfStroke,
                               trial::calcThrowNumber(batch.drive), (*engine)->name()) +
-                  describeShare("Finished", counts.finished, counts.trials) +
-                  describeShare("Fell off", counts.fellOff, counts.trials) +
-                  describeShare("Stuck", counts.stuck, counts.trials) +
-                  describeShare("Success", counts.oriented, counts.trials) +
+                  describeShare("Finished", counts.tally.finished(), counts.tally.trials()) +
+                  describeShare("Fell off", counts.tally.fellOff, counts.tally.trials()) +
+                  describeShare("Stuck", counts.tally.stuck, counts.tally.trials()) +
+                  describeShare("Success", counts.tally.success, counts.tally.trials()) +
                   fmt::format("Success: finished within {:g} deg of {}.\n", options.tolerance,
                               file->expectedOrientation ? "the orientation that the file expects"
                                                         : "the most frequent final orientation"));
@@ -97,13 +97,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   {"engine", (*engine)->name()},
                   {"half_stroke_mm", options.halfStroke},
                   {"throw_number", trial::calcThrowNumber(batch.drive)},
-                  {"trials", counts.trials},
-                  {"finished", shareToJson(counts.finished, counts.trials)},
-                  {"fell_off", shareToJson(counts.fellOff, counts.trials)},
-                  {"stuck", shareToJson(counts.stuck, counts.trials)},
-                  {"oriented", shareToJson(counts.oriented, counts.trials)},
+                  {"trials", counts.tally.trials()},
+                  {"finished", shareToJson(counts.tally.finished(), counts.tally.trials())},
+                  {"fell_off", shareToJson(counts.tally.fellOff, counts.tally.trials())},
+                  {"stuck", shareToJson(counts.tally.stuck, counts.tally.trials())},
+                  {"oriented", shareToJson(counts.tally.success, counts.tally.trials())},
                   {"expected_orientation", toJson(counts.expected)},
-                  {"mean_simulated_s", counts.simulatedTime / counts.trials}});
+                  {"mean_simulated_s", counts.simulatedTime / counts.tally.trials()}});
     return ExitCode::ok;
 }
 

@@ -36,19 +36,19 @@ Attempt<std::optional<base::Quaternion>> readExpected(const std::vector<double>&
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto expected = readExpected(options.expected);
-    if (!expected) return expected.failure();
+    if (!expected) return expected.error();
     auto study = openStudy(options.study, Access::write);
-    if (!study) return study.failure();
+    if (!study) return study.error();
     auto individual = findIndividual(study->file, options.choice);
-    if (!individual) return individual.failure();
+    if (!individual) return individual.error();
     auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
-    if (!inputs) return inputs.failure();
+    if (!inputs) return inputs.error();
     study::ValidationSettings& validation = inputs->settings.validation;
     validation.trialsPerPose = options.trials.value_or(validation.trialsPerPose);
     if (options.tolerance) validation.tolerance = *options.tolerance * base::kDegree;
 
     auto record = validateAndSave(study->file, *inputs, *individual, *expected, console);
-    if (!record) return record.failure();
+    if (!record) return record.error();
     const base::Quaternion& goal = record->expectedOrientation;
     const std::vector<part::PoseGroup> groups = study::weighPoseGroups(*study->part, study->settings);
     console.print(fmt::format(

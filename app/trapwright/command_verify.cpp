@@ -55,7 +55,7 @@ Attempt<nlohmann::ordered_json> runCases(const trial::EngineKind& kind, const st
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     // What learns is what has to agree.
     auto kind = findEngine(engines::registry().nameFor(options.engine, trial::EngineUse::learning));
-    if (!kind) return kind.failure();
+    if (!kind) return kind.error();
     std::string names;
     bool anyCase = false;
     for (const verify::Case& one : verify::allCases()) {
@@ -73,7 +73,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     if (anyCase) {
         auto done = runCases(*kind, options.filter, console);
-        if (!done) return done.failure();
+        if (!done) return done.error();
         rows = *done;
     }
     const auto failed =
@@ -86,7 +86,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json answer = {{"engine", kind->name}, {"passed", passed}, {"rows", rows}};
     if (agreement) {
         auto table = runAgreement(*kind, options.agreement, console);
-        if (!table) return table.failure();
+        if (!table) return table.error();
         passed = passed && (*table)["passed"].get<bool>();
         answer["passed"] = passed;
         answer["agreement"] = *table;

@@ -13,7 +13,7 @@ Attempt<trial::EngineKind> findEngine(const std::string& name) {
 Attempt<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name,
                                                          const trial::EngineOptions& options) {
     auto kind = findEngine(name);
-    if (!kind) return kind.failure();
+    if (!kind) return kind.error();
     return std::shared_ptr<const trial::Engine>(kind->make(options));
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <variant>
+
+#include "core/base/result.h"
 
 namespace trapwright::app {
 
@@ -40,20 +40,6 @@ struct Failure {
 
 /// A value, or why there is none and with which status the program ends.
 template <class T>
-class [[nodiscard]] Attempt {
- public:
-    Attempt(T value) : state_(std::in_place_index<0>, std::move(value)) {}
-    Attempt(Failure failure) : state_(std::in_place_index<1>, std::move(failure)) {}
-
-    explicit operator bool() const { return state_.index() == 0; }
-    /// The value; only where true.
-    T& operator*() { return *std::get_if<0>(&state_); }
-    T* operator->() { return std::get_if<0>(&state_); }
-    /// The failure; only where false.
-    [[nodiscard]] const Failure& failure() const { return *std::get_if<1>(&state_); }
-
- private:
-    std::variant<T, Failure> state_;
-};
+using Attempt = base::Result<T, Failure>;
 
 }  // namespace trapwright::app

@@ -12,12 +12,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json rowToJson(const study::ValidationRow& row) {
-    return {{"trials", row.trials},
-            {"failures", row.failures},
-            {"success", shareToJson(row.trials - row.failures, row.trials)},
-            {"wrong_orientation", row.wrongOrientation},
-            {"stuck", row.stuck},
-            {"fell_off", row.fellOff}};
+    return {{"trials", row.tally.trials()},
+            {"failures", row.tally.failures()},
+            {"success", shareToJson(row.tally.success, row.tally.trials())},
+            {"wrong_orientation", row.tally.wrongOrientation},
+            {"stuck", row.tally.stuck},
+            {"fell_off", row.tally.fellOff}};
 }
 
 Json scoreToJson(const study::EngineScore& score, int trials) {

@@ -228,7 +228,7 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
     // Who asked to stop, or has a time limit, did not ask for this to begin.
     if (end == study::LearningEnd::completed && !control.stopRequested()) {
         auto finished = finishChecks(file, inputs, ran.report.unchecked, console);
-        if (!finished) return finished.failure();
+        if (!finished) return finished.error();
         ran.interrupted = !*finished;
     }
     if (const auto there = file.checkInPlace(); !there)

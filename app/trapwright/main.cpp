@@ -41,7 +41,7 @@ ExitCode runProgram(int count, char** arguments) {
 
     const Console console(invocation.json);
     Attempt<ExitCode> result = perform(invocation.action, console);
-    const ExitCode code = result ? *result : console.fail(result.failure());
+    const ExitCode code = result ? *result : console.fail(result.error());
     if (console.flush()) return code;
     console.note("Not everything could be printed: standard output cannot be written (is the disk full?).");
     return ExitCode::cannotWrite;

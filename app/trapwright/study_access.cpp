@@ -88,23 +88,23 @@ Attempt<study::Individual> findIndividual(const store::StudyFile& file, const In
                            fmt::format("--individual {}: generation {} has the individuals 0 to {}.",
                                        individual, generation, size - 1)};
         }
-        return study::Individual{generation, individual,
+        return study::Individual{{generation, individual},
                                  record->individuals[static_cast<std::size_t>(individual)]};
     }
     const auto chosen = file.loadChosenWinner();
     if (!chosen) return Failure{ExitCode::badInput, chosen.error().message};
     if (const auto& place = *chosen) {
-        auto record = file.loadIndividual(place->generation, place->individual);
+        auto record = file.loadIndividual(*place);
         if (!record) return Failure{ExitCode::badInput, record.error().message};
-        return study::Individual{place->generation, place->individual, std::move(*record)};
+        return study::Individual{*place, std::move(*record)};
     }
     const auto selections = file.loadSelections();
     if (!selections) return Failure{ExitCode::badInput, selections.error().message};
     if (!selections->empty() && !selections->back().entries.empty()) {
         const study::SelectionEntry& first = selections->back().entries.front();
-        auto record = file.loadIndividual(first.generation, first.individual);
+        auto record = file.loadIndividual(first);
         if (!record) return Failure{ExitCode::badInput, record.error().message};
-        return study::Individual{first.generation, first.individual, std::move(*record)};
+        return study::Individual{first, std::move(*record)};
     }
     auto winners = file.loadWinners();
     if (!winners) return Failure{ExitCode::badInput, winners.error().message};
@@ -115,7 +115,7 @@ Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::option
                                        trial::EngineUse use, unsigned threads) {
     auto made = makeEngine(
         engines::registry().nameFor(engine.value_or(study.settings.simulation.engine), use), {threads, 0.0});
-    if (!made) return made.failure();
+    if (!made) return made.error();
     return study::StudyInputs{study.settings, study.part, *made,
                               threads == 0 ? base::availableThreads() : threads};
 }

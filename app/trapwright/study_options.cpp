@@ -124,7 +124,7 @@ void addSettingOptions(Command command, SettingOptions& options) {
 Attempt<study::Settings> applySettings(study::Settings settings, const SettingOptions& options) {
     for (const std::string& assignment : options.assignments) {
         auto json = toJson(assignment);
-        if (!json) return json.failure();
+        if (!json) return json.error();
         auto changed = study::settingsFromJson(*json, settings);
         if (!changed) return Failure{ExitCode::usage, "--set " + assignment + ": " + changed.error().message};
         settings = std::move(*changed);
@@ -138,14 +138,14 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
     if (auto engine =
             findEngine(engines::registry().nameFor(settings.simulation.engine, trial::EngineUse::learning));
         !engine)
-        return Failure{engine.failure().code,
-                       engine.failure().message + fmt::format(" A study also takes {}.", trial::kHybrid)};
+        return Failure{engine.error().code,
+                       engine.error().message + fmt::format(" A study also takes {}.", trial::kHybrid)};
     return settings;
 }
 
 Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options) {
     auto settings = applySettings(study.settings, options);
-    if (!settings) return settings.failure();
+    if (!settings) return settings.error();
     if (*settings == study.settings) return false;
     if (const auto checked = study::checkInputs({*settings, study.part, nullptr}); !checked)
         return Failure{ExitCode::usage, checked.error().message};
@@ -158,24 +158,24 @@ Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options) {
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& options, const Console& console) {
     auto settings = startingSettings(creation);
-    if (!settings) return settings.failure();
+    if (!settings) return settings.error();
     PartRequest request = completeRequest(creation.part, *settings, creation);
     if (request.part.empty()) {
         return Failure{ExitCode::usage, "A new study needs a part: give --preset cuboid or --part FILE."};
     }
     // What is set one by one goes before the surface, which the part's material must be known for.
     auto applied = applySettings(*settings, options);
-    if (!applied) return applied.failure();
+    if (!applied) return applied.error();
     request.defaultDensity = applied->part.density;
     auto loaded = loadPart(request, console);
-    if (!loaded) return loaded.failure();
+    if (!loaded) return loaded.error();
     if (creation.surface) {
         auto pair = findPair(*creation.surface, *loaded);
-        if (!pair) return pair.failure();
+        if (!pair) return pair.error();
         settings->simulation.contact = study::contactOf(*pair);
         settings->simulation.surface = pair->surface;
         applied = applySettings(*settings, options);
-        if (!applied) return applied.failure();
+        if (!applied) return applied.error();
     }
     applied->part = loaded->settings;
 

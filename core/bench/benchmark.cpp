@@ -77,7 +77,7 @@ class SceneRun {
             return;
         }
         measured.cpuSeconds.push_back(seconds);
-        if (measured.counts.trials > 0) return;
+        if (measured.counts.tally.trials() > 0) return;
         measured.counts = study::countTrials(outcomes->front(), scene_.part->symmetry, scene_.expected,
                                              study::ValidationSettings{}.tolerance);
     }
@@ -97,11 +97,11 @@ int countAllTrials(const Plan& plan, std::size_t contenders) {
 }
 
 double Measurement::secondsPerTrial() const {
-    return stats::medianOf(cpuSeconds) / counts.trials;
+    return stats::medianOf(cpuSeconds) / counts.tally.trials();
 }
 
 double Measurement::stepsPerTrial() const {
-    return counts.simulatedTime / step / counts.trials;
+    return counts.simulatedTime / step / counts.tally.trials();
 }
 
 base::Result<std::vector<Measurement>> runScene(const Scene& scene,

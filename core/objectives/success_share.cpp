@@ -11,7 +11,7 @@ int countOriented(const Evaluation& evaluation) {
         evaluation.expected ? *evaluation.expected
                             : trial::findModalOrientation(trial::finalOrientations(evaluation.outcomes),
                                                           *evaluation.symmetry, evaluation.tolerance);
-    return trial::countOriented(evaluation.outcomes, expected, *evaluation.symmetry, evaluation.tolerance);
+    return trial::tally(evaluation.outcomes, expected, *evaluation.symmetry, evaluation.tolerance).success;
 }
 
 Measured measureSuccess(const Evaluation& evaluation) {

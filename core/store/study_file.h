@@ -28,14 +28,6 @@ struct StoredPart {
     part::PartOptions options;    // name, original file, density, symmetry tolerance
 };
 
-/// An individual by its place in the study.
-struct IndividualPlace {
-    int generation = 0;
-    int individual = 0;
-
-    friend bool operator==(const IndividualPlace&, const IndividualPlace&) = default;
-};
-
 /// Outcomes as they lie in the file; unpacking them takes a while, and any thread can do it.
 struct PackedOutcomes {
     struct Piece {
@@ -107,7 +99,7 @@ class StudyFile {
     /// Where learning goes on; none if there is no generation.
     [[nodiscard]] base::Result<std::optional<study::LearningState>> loadLearningState() const;
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
-    [[nodiscard]] base::Result<study::IndividualRecord> loadIndividual(int generation, int individual) const;
+    [[nodiscard]] base::Result<study::IndividualRecord> loadIndividual(const study::IndividualId& id) const;
     /// Winner, curves and time of every generation from `first` on: all that a chart needs.
     [[nodiscard]] base::Result<std::vector<study::GenerationSummary>> loadSummaries(int first = 0) const;
     /// The winner of every generation, in their order.
@@ -130,8 +122,8 @@ class StudyFile {
 
     /// The trials that an individual was learned by; none if they were not stored, as by programs up to
     /// schema version 9.
-    [[nodiscard]] base::Result<std::optional<PackedOutcomes>> loadLearningOutcomes(int generation,
-                                                                                   int individual) const;
+    [[nodiscard]] base::Result<std::optional<PackedOutcomes>> loadLearningOutcomes(
+        const study::IndividualId& id) const;
     /// The same of an entry of a selection, both by their places in loadSelections().
     [[nodiscard]] base::Result<std::optional<PackedOutcomes>> loadSelectionOutcomes(int selection,
                                                                                     int entry) const;
@@ -140,8 +132,8 @@ class StudyFile {
                                                                                      int pose) const;
 
     /// Remembers which individual is the final track; none: nobody has chosen.
-    base::Status chooseWinner(const std::optional<IndividualPlace>& winner);
-    [[nodiscard]] base::Result<std::optional<IndividualPlace>> loadChosenWinner() const;
+    base::Status chooseWinner(const std::optional<study::IndividualId>& winner);
+    [[nodiscard]] base::Result<std::optional<study::IndividualId>> loadChosenWinner() const;
 
     /// Adds the next validation on the real feeder (number = how many there are), with its trials.
     base::Status addPhysicalValidation(const study::PhysicalValidation& validation);

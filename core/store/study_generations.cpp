@@ -183,7 +183,7 @@ base::Result<std::vector<study::Individual>> readWinners(SQLite::Database& datab
         const int number = query.getColumn(1).getInt();
         auto record = reader.read(query, 2, generation, number);
         if (!record) return damagedValue(path, nameOf(generation, number));
-        winners.push_back({generation, number, std::move(*record)});
+        winners.push_back({{generation, number}, std::move(*record)});
     }
     return winners;
 }
@@ -279,20 +279,20 @@ base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const
     });
 }
 
-base::Result<study::IndividualRecord> StudyFile::loadIndividual(int generation, int individual) const {
-    const std::string name = nameOf(generation, individual);
+base::Result<study::IndividualRecord> StudyFile::loadIndividual(const study::IndividualId& id) const {
+    const std::string name = nameOf(id.generation, id.individual);
     return guarded(
         path(), "The " + name + " could not be read", [&]() -> base::Result<study::IndividualRecord> {
             SQLite::Statement query(*state_->database,
                                     std::string("SELECT ") + kIndividualColumns +
                                         " FROM individual WHERE generation = ? AND number = ?");
-            SQLite::bind(query, generation, individual);
+            SQLite::bind(query, id.generation, id.individual);
             if (!query.executeStep()) {
                 return base::Error{"The study " + path().string() + " has no " + name + "; it has " +
                                    std::to_string(state_->countRows("generation")) +
                                    " generations. Generations and individuals count from 0."};
             }
-            auto record = IndividualReader(*state_->database).read(query, 0, generation, individual);
+            auto record = IndividualReader(*state_->database).read(query, 0, id.generation, id.individual);
             if (!record) return damagedValue(path(), name);
             return std::move(*record);
         });

@@ -152,10 +152,10 @@ base::Result<std::vector<trial::Outcome>> unpack(const PackedOutcomes& packed) {
     return outcomes;
 }
 
-base::Result<std::optional<PackedOutcomes>> StudyFile::loadLearningOutcomes(int generation,
-                                                                            int individual) const {
+base::Result<std::optional<PackedOutcomes>> StudyFile::loadLearningOutcomes(
+    const study::IndividualId& id) const {
     return guarded(path(), "The outcomes of trials could not be read", [&] {
-        return readOutcomes(*state_->database, path(), OutcomeRun::generation, generation, individual);
+        return readOutcomes(*state_->database, path(), OutcomeRun::generation, id.generation, id.individual);
     });
 }
 

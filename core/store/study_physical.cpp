@@ -85,7 +85,7 @@ base::Result<study::PhysicalTrial> readTrial(const std::filesystem::path& path,
 
 }  // namespace
 
-base::Status StudyFile::chooseWinner(const std::optional<IndividualPlace>& winner) {
+base::Status StudyFile::chooseWinner(const std::optional<study::IndividualId>& winner) {
     return state_->save("The choice of the final track could not be saved", [&]() -> base::Status {
         if (!winner) {
             state_->database->exec("DELETE FROM chosen_winner");
@@ -98,14 +98,15 @@ base::Status StudyFile::chooseWinner(const std::optional<IndividualPlace>& winne
     });
 }
 
-base::Result<std::optional<IndividualPlace>> StudyFile::loadChosenWinner() const {
-    return guarded(
-        path(), "The choice of the final track could not be read",
-        [&]() -> base::Result<std::optional<IndividualPlace>> {
-            SQLite::Statement query(*state_->database, "SELECT generation, individual FROM chosen_winner");
-            if (!query.executeStep()) return std::optional<IndividualPlace>();
-            return std::optional(IndividualPlace{query.getColumn(0).getInt(), query.getColumn(1).getInt()});
-        });
+base::Result<std::optional<study::IndividualId>> StudyFile::loadChosenWinner() const {
+    return guarded(path(), "The choice of the final track could not be read",
+                   [&]() -> base::Result<std::optional<study::IndividualId>> {
+                       SQLite::Statement query(*state_->database,
+                                               "SELECT generation, individual FROM chosen_winner");
+                       if (!query.executeStep()) return std::optional<study::IndividualId>();
+                       return std::optional(
+                           study::IndividualId{query.getColumn(0).getInt(), query.getColumn(1).getInt()});
+                   });
 }
 
 base::Status StudyFile::addPhysicalValidation(const study::PhysicalValidation& validation) {

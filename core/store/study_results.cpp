@@ -25,14 +25,21 @@ study::SelectionEntry readEntry(const SQLite::Statement& query) {
     return entry;
 }
 
-study::ValidationRow readRow(const SQLite::Statement& query) {
+/// None if its counts cannot be.
+std::optional<study::ValidationRow> readRow(const SQLite::Statement& query) {
     study::ValidationRow row;
     row.pose = query.getColumn(0).getInt();
-    row.trials = query.getColumn(1).getInt();
-    row.failures = query.getColumn(2).getInt();
-    row.wrongOrientation = query.getColumn(3).getInt();
-    row.stuck = query.getColumn(4).getInt();
-    row.fellOff = query.getColumn(5).getInt();
+    const int trials = query.getColumn(1).getInt();
+    const int failures = query.getColumn(2).getInt();
+    trial::Tally& tally = row.tally;
+    tally.wrongOrientation = query.getColumn(3).getInt();
+    tally.stuck = query.getColumn(4).getInt();
+    tally.fellOff = query.getColumn(5).getInt();
+    const bool counted = areCounts(trials, {failures, tally.wrongOrientation, tally.stuck, tally.fellOff}) &&
+                         areCounts(std::numeric_limits<int>::max(), {row.pose}) &&
+                         failures == std::int64_t{tally.wrongOrientation} + tally.stuck + tally.fellOff;
+    if (!counted) return std::nullopt;
+    tally.success = trials - failures;
     return row;
 }
 
@@ -111,7 +118,9 @@ base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
         SQLite::Statement row(database, "INSERT INTO validation_row VALUES (?, ?, ?, ?, ?, ?, ?)");
         for (const study::ValidationRow& r : record.rows) {
             row.reset();
-            SQLite::bind(row, number, r.pose, r.trials, r.failures, r.wrongOrientation, r.stuck, r.fellOff);
+            const trial::Tally& tally = r.tally;
+            SQLite::bind(row, number, r.pose, tally.trials(), tally.failures(), tally.wrongOrientation,
+                         tally.stuck, tally.fellOff);
             row.exec();
         }
         saveOutcomes(database, state_->program, OutcomeRun::validation, number, record.made);
@@ -141,13 +150,9 @@ base::Result<std::vector<study::ValidationRecord>> StudyFile::loadValidations() 
                 rows.reset();
                 rows.bind(1, heads.getColumn(0).getInt());
                 while (rows.executeStep()) {
-                    const study::ValidationRow row = readRow(rows);
-                    const int most = std::numeric_limits<int>::max();
-                    if (!areCounts(row.trials,
-                                   {row.failures, row.wrongOrientation, row.stuck, row.fellOff}) ||
-                        !areCounts(most, {row.pose}))
-                        return damagedValue(path(), "the counts of a validation");
-                    record.rows.push_back(row);
+                    const auto row = readRow(rows);
+                    if (!row) return damagedValue(path(), "the counts of a validation");
+                    record.rows.push_back(*row);
                 }
                 records.push_back(std::move(record));
             }

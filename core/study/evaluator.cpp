@@ -106,9 +106,9 @@ class Race {
         base::parallelFor(round.size(), inputs_->threads, [&](std::size_t i, unsigned /*worker*/) {
             const Candidate& candidate = (*candidates_)[round[i].individual];
             const int first = candidate.record.trials;
-            batches[i] =
-                makeLearningBatch(makeScene(inputs_->settings, inputs_->part, candidate.track), generation_,
-                                  static_cast<int>(round[i].individual), round[i].trials - first, first);
+            batches[i] = makeLearningBatch(makeScene(inputs_->settings, inputs_->part, candidate.track),
+                                           {generation_, static_cast<int>(round[i].individual)},
+                                           round[i].trials - first, first);
         });
         auto outcomes = runTrials(*inputs_->engine, batches, control);
         if (!outcomes) return outcomes.error();
@@ -239,7 +239,7 @@ base::Result<JudgedGeneration> evaluateGeneration(const StudyInputs& inputs, int
         const double tolerance = inputs.settings.validation.tolerance;
         const base::Quaternion expected =
             trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
-        candidate.record.oriented = trial::countOriented(outcomes, expected, symmetry, tolerance);
+        candidate.record.oriented = trial::tally(outcomes, expected, symmetry, tolerance).success;
         objectives::Evaluation evaluation =
             makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, outcomes);
         evaluation.oriented = candidate.record.oriented;

@@ -18,34 +18,10 @@ constexpr double kPercent = 100.0;
 constexpr double kMillimetre = 1e3;
 constexpr double kLevel = 0.05;
 
-void fail(SuccessCount& count, int number, trial::Verdict outcome) {
-    switch (outcome) {
-        case trial::Verdict::success:
-            return;
-        case trial::Verdict::wrongOrientation:
-            count.wrongOrientation += number;
-            break;
-        case trial::Verdict::stuck:
-            count.stuck += number;
-            break;
-        case trial::Verdict::fellOff:
-            count.fellOff += number;
-            break;
-    }
-    count.failures += number;
-}
-
-void add(SuccessCount& sum, const SuccessCount& count) {
-    sum.trials += count.trials;
-    sum.failures += count.failures;
-    sum.wrongOrientation += count.wrongOrientation;
-    sum.stuck += count.stuck;
-    sum.fellOff += count.fellOff;
-}
-
 void setBounds(SuccessCount& count) {
-    count.bounds = stats::calcClopperPearson(count.successes(), count.trials);
-    if (count.trials > 0) count.rate = static_cast<double>(count.successes()) / count.trials;
+    count.bounds = stats::calcClopperPearson(count.tally.success, count.tally.trials());
+    if (count.tally.trials() > 0)
+        count.rate = static_cast<double>(count.tally.success) / count.tally.trials();
 }
 
 bool has(const std::vector<int>& poses, int pose) {
@@ -53,12 +29,12 @@ bool has(const std::vector<int>& poses, int pose) {
 }
 
 stats::RatePair pairOf(const PhysicalRow& row) {
-    return {{row.simulated.successes(), row.simulated.trials},
-            {row.physical.successes(), row.physical.trials}};
+    return {{row.simulated.tally.success, row.simulated.tally.trials()},
+            {row.physical.tally.success, row.physical.tally.trials()}};
 }
 
 bool isCompared(const PhysicalRow& row) {
-    return row.simulated.trials > 0 && row.physical.trials > 0;
+    return row.simulated.tally.trials() > 0 && row.physical.tally.trials() > 0;
 }
 
 /// The poses of the plan, alike ones together; without those that the plan leaves out altogether.
@@ -89,19 +65,11 @@ std::vector<PhysicalRow> makeRows(const PhysicalPlan& plan, std::span<const part
 
 void countTrials(PhysicalRow& row, const ValidationRecord* simulated, const PhysicalValidation& physical) {
     if (simulated != nullptr) {
-        for (const ValidationRow& other : simulated->rows) {
-            if (!has(row.poses, other.pose)) continue;
-            row.simulated.trials += other.trials;
-            fail(row.simulated, other.wrongOrientation, trial::Verdict::wrongOrientation);
-            fail(row.simulated, other.stuck, trial::Verdict::stuck);
-            fail(row.simulated, other.fellOff, trial::Verdict::fellOff);
-        }
+        for (const ValidationRow& other : simulated->rows)
+            if (has(row.poses, other.pose)) row.simulated.tally += other.tally;
     }
-    for (const PhysicalTrial& trial : physical.trials) {
-        if (!has(row.poses, trial.pose)) continue;
-        ++row.physical.trials;
-        fail(row.physical, 1, trial.outcome);
-    }
+    for (const PhysicalTrial& trial : physical.trials)
+        if (has(row.poses, trial.pose)) row.physical.tally.add(trial.outcome);
 }
 
 /// The total's counts with weighted rates.
@@ -111,7 +79,7 @@ void weigh(PhysicalTable& table) {
     for (SuccessCount PhysicalRow::*side : {&PhysicalRow::simulated, &PhysicalRow::physical}) {
         std::vector<stats::Stratum> strata;
         for (const PhysicalRow& row : table.rows)
-            strata.push_back({row.weight, {(row.*side).successes(), (row.*side).trials}});
+            strata.push_back({row.weight, {(row.*side).tally.success, (row.*side).tally.trials()}});
         const stats::WeightedRate weighted = stats::estimateWeighted(strata);
         SuccessCount& count = table.weighted.*side;
         count.rate = weighted.rate;
@@ -154,9 +122,10 @@ double calcDirection(const PhysicalTable& table) {
     double sum = 0.0;
     for (const PhysicalRow& row : table.rows) {
         if (!isCompared(row)) continue;
-        const double simulated = static_cast<double>(row.simulated.successes()) / row.simulated.trials;
-        const double physical = static_cast<double>(row.physical.successes()) / row.physical.trials;
-        sum += (physical - simulated) * row.physical.trials;
+        const double simulated =
+            static_cast<double>(row.simulated.tally.success) / row.simulated.tally.trials();
+        const double physical = static_cast<double>(row.physical.tally.success) / row.physical.tally.trials();
+        sum += (physical - simulated) * row.physical.tally.trials();
     }
     return sum;
 }
@@ -177,13 +146,13 @@ std::string feederWord(const FeederCount& feeders) {
 
 std::string describe(const PhysicalTable& table) {
     const PhysicalRow& total = table.total;
-    if (total.physical.trials == 0) return "No part has been placed on the feeder yet.";
+    if (total.physical.tally.trials() == 0) return "No part has been placed on the feeder yet.";
     const bool trained = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
     std::string feeder =
         fmt::format("{} of {} parts succeeded on the {} ({}; 95 % Clopper-Pearson {:.1f} to {:.1f} %).",
-                    total.physical.successes(), total.physical.trials, trained ? "virtual feeder" : "feeder",
-                    shareText(total.physical), kPercent * total.physical.bounds.low,
-                    kPercent * total.physical.bounds.high);
+                    total.physical.tally.success, total.physical.tally.trials(),
+                    trained ? "virtual feeder" : "feeder", shareText(total.physical),
+                    kPercent * total.physical.bounds.low, kPercent * total.physical.bounds.high);
     if (const SuccessCount& weighted = table.weighted.physical; weighted.rate && table.rows.size() > 1) {
         feeder +=
             fmt::format(" Weighted by how often parts land so that is {} ({:.1f} to {:.1f} %).",
@@ -214,7 +183,7 @@ std::string describe(const PhysicalTable& table) {
 
 std::string summarize(const PhysicalTable& table) {
     const PhysicalRow& total = table.total;
-    if (total.physical.trials == 0) return "No part has been placed on the feeder yet.";
+    if (total.physical.tally.trials() == 0) return "No part has been placed on the feeder yet.";
     const bool trained = table.feeders.virtualFeeder > 0 && !table.feeders.mixed();
     // Both sides alike: without a pose's trials one of them has no weighted rate.
     const bool weighted =
@@ -235,21 +204,21 @@ std::string summarize(const PhysicalTable& table) {
 
 /// "99.0 %    98.2 ...  99.5 %"
 std::string rateText(const SuccessCount& count) {
-    if (count.trials == 0) return fmt::format("{:>8}   {:>20}", "-", "-");
+    if (count.tally.trials() == 0) return fmt::format("{:>8}   {:>20}", "-", "-");
     return fmt::format("{:>8}   {:>8.1f} ... {:>5.1f} %", shareText(count), kPercent * count.bounds.low,
                        kPercent * count.bounds.high);
 }
 
 /// "1000      10   99.0 %    98.2 ...  99.5 %"
 std::string sideText(const SuccessCount& count) {
-    return fmt::format("{:>6} {:>5} {}", count.trials, count.failures, rateText(count));
+    return fmt::format("{:>6} {:>5} {}", count.tally.trials(), count.tally.failures(), rateText(count));
 }
 
 void appendText(std::string& text, const std::string& name, const PhysicalRow& row) {
     fmt::format_to(std::back_inserter(text), "{:<15} {:>8} {}   {}   {:>6} {:>6} {:>9}   {:>6}\n", name,
                    row.poses.empty() ? "" : fmt::format("{:.1f} %", kPercent * row.weight),
-                   sideText(row.simulated), sideText(row.physical), row.physical.wrongOrientation,
-                   row.physical.stuck, row.physical.fellOff,
+                   sideText(row.simulated), sideText(row.physical), row.physical.tally.wrongOrientation,
+                   row.physical.tally.stuck, row.physical.tally.fellOff,
                    row.p ? (*row.p < 0.001 ? "<0.001" : fmt::format("{:.3f}", *row.p)) : "-");
 }
 
@@ -262,9 +231,10 @@ std::string posesCsv(const std::vector<int>& poses) {
 }
 
 std::string sideCsv(const SuccessCount& count) {
-    return fmt::format("{},{},{},{},{},{},{},{}", count.trials, count.failures,
-                       count.rate ? fmt::format("{}", kPercent * *count.rate) : "", count.wrongOrientation,
-                       count.stuck, count.fellOff, kPercent * count.bounds.low, kPercent * count.bounds.high);
+    return fmt::format("{},{},{},{},{},{},{},{}", count.tally.trials(), count.tally.failures(),
+                       count.rate ? fmt::format("{}", kPercent * *count.rate) : "",
+                       count.tally.wrongOrientation, count.tally.stuck, count.tally.fellOff,
+                       kPercent * count.bounds.low, kPercent * count.bounds.high);
 }
 
 std::string sideHeadings(const char* side) {
@@ -284,8 +254,8 @@ PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalV
     table.rows = makeRows(physical.plan, groups);
     for (PhysicalRow& row : table.rows) {
         countTrials(row, simulated, physical);
-        add(table.total.simulated, row.simulated);
-        add(table.total.physical, row.physical);
+        table.total.simulated.tally += row.simulated.tally;
+        table.total.physical.tally += row.physical.tally;
         table.total.planned += row.planned;
         setBounds(row.simulated);
         setBounds(row.physical);
@@ -303,27 +273,22 @@ PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalV
 }
 
 const ValidationRecord* findSimulated(std::span<const ValidationRecord> validations,
-                                      const PhysicalValidation& physical) {
+                                      const IndividualId& printed) {
     const ValidationRecord* newest = nullptr;
     for (const ValidationRecord& record : validations)
-        if (record.generation == physical.generation && record.individual == physical.individual)
-            newest = &record;
+        if (isSameIndividual(record, printed)) newest = &record;
     return newest;
 }
 
 std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> validations,
-                                             std::span<const SelectionRecord> selections, int generation,
-                                             int individual) {
-    PhysicalValidation printed;
-    printed.generation = generation;
-    printed.individual = individual;
-    if (const ValidationRecord* found = findSimulated(validations, printed))
+                                             std::span<const SelectionRecord> selections,
+                                             const IndividualId& individual) {
+    if (const ValidationRecord* found = findSimulated(validations, individual))
         return found->expectedOrientation;
     std::optional<base::Quaternion> newest;
     for (const SelectionRecord& selection : selections)
         for (const SelectionEntry& entry : selection.entries)
-            if (entry.generation == generation && entry.individual == individual && entry.finished > 0)
-                newest = entry.modalOrientation;
+            if (isSameIndividual(entry, individual) && entry.finished > 0) newest = entry.modalOrientation;
     return newest;
 }
 

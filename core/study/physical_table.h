@@ -14,15 +14,9 @@ namespace trapwright::study {
 
 /// One side of a row: T, F and how the failed ones failed, and the bounds of the success rate.
 struct SuccessCount {
-    int trials = 0;
-    int failures = 0;
-    int wrongOrientation = 0;
-    int stuck = 0;
-    int fellOff = 0;
+    trial::Tally tally;
     std::optional<double> rate;  // successes over trials; weighted in the weighted total; none: not known
     stats::Interval bounds;      // 95 %, Clopper and Pearson's; of the weighted total profile limits
-
-    [[nodiscard]] int successes() const { return trials - failures; }
 };
 
 struct PhysicalRow {
@@ -56,14 +50,14 @@ PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalV
 
 /// The newest simulated validation of the individual that was printed; null if there is none.
 const ValidationRecord* findSimulated(std::span<const ValidationRecord> validations,
-                                      const PhysicalValidation& physical);
+                                      const IndividualId& printed);
 
 /// The orientation in which this track's parts are to end (part frame to the tangent frame at the finish):
 /// what its newest simulated validation counted as success, else the most frequent one of the newest
 /// selection that it was in; none if it was in neither.
 std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> validations,
-                                             std::span<const SelectionRecord> selections, int generation,
-                                             int individual);
+                                             std::span<const SelectionRecord> selections,
+                                             const IndividualId& individual);
 
 /// As text, poses counted from 1; bounds by Clopper and Pearson. The verdict is the last line, the notice, if
 /// there is one, the first.

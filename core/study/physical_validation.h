@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/study/individual_id.h"
 #include "core/trial/orientations.h"
 
 namespace trapwright::study {
@@ -53,11 +54,10 @@ struct PhysicalTrial {
 };
 
 /// One printed track on the real feeder. It may be broken off and gone on with, days later.
-struct PhysicalValidation {
+/// IndividualId: whose track was printed.
+struct PhysicalValidation : IndividualId {
     int number = 0;  // from 0, in the study
     PhysicalPlan plan;
-    int generation = 0;  // the printed track
-    int individual = 0;
     std::string operatorName;
     std::string track;    // in the operator's words: printer, material, finish
     std::string drive;    // title of its profile

@@ -160,14 +160,15 @@ base::Result<DropResult> simulateDrops(const trial::Engine& engine, std::shared_
     if (!plane) return plane.error();
     trial::TrialBatch batch;
     batch.track = std::make_shared<const track::Track>(*std::move(plane));
-    batch.parts = {part};
+    batch.parts.push_back(std::move(part));
+    const part::Part& dropped = *batch.parts.front();
     batch.contact = settings.contact;
     batch.gravity = settings.gravity;
     batch.drive.halfStroke = 0.0;
     const int end = count < 0 ? settings.drops : std::min(settings.drops, first + count);
     for (int i = first; i < end; ++i) {
         trial::TrialSpec& drop = batch.trials.emplace_back(trial::drawTrial(
-            *batch.track, *part, {},
+            *batch.track, dropped, {},
             {settings.seed, 0, 0, static_cast<std::uint32_t>(i), base::Purpose::stablePoseDrop}));
         drop.parts.front().pose.position.z() += settings.height;
     }
@@ -191,7 +192,7 @@ base::Result<DropResult> simulateDrops(const trial::Engine& engine, std::shared_
         if (!status) return status.error();
 
     DropResult result;
-    result.counts.resize(part->stablePoses.size());
+    result.counts.resize(dropped.stablePoses.size());
     for (const int pose : poseOf)
         ++(pose < 0 ? result.unsettled : result.counts[static_cast<std::size_t>(pose)]);
     return result;

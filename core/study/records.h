@@ -8,6 +8,8 @@
 #include "core/objectives/objectives.h"
 #include "core/search/search.h"
 #include "core/stats/binomial.h"
+#include "core/study/individual_id.h"
+#include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::study {
@@ -83,10 +85,8 @@ struct GenerationSummary {
 
 GenerationSummary summarize(const GenerationRecord& record);
 
-/// The best individual of a generation.
-struct Individual {
-    int generation = 0;
-    int individual = 0;
+/// An individual of a study, often the best of its generation.
+struct Individual : IndividualId {
     IndividualRecord record;
 };
 
@@ -101,9 +101,7 @@ struct EngineScore {
 };
 
 /// A generation's winner on the same trials in the engine that learned and in the reference.
-struct CheckRecord {
-    int generation = 0;
-    int individual = 0;
+struct CheckRecord : IndividualId {
     int trials = 0;  // in each engine
     EngineScore learning;
     EngineScore reference;
@@ -112,9 +110,7 @@ struct CheckRecord {
 };
 
 /// A winner re-simulated with many trials (paper, section 6.1.1).
-struct SelectionEntry {
-    int generation = 0;
-    int individual = 0;
+struct SelectionEntry : IndividualId {
     objectives::Fitness fitness;  // from the many trials
     int trials = 0;
     int finished = 0;
@@ -131,18 +127,12 @@ struct SelectionRecord {
 
 /// One row of the paper's Tables 2 and 3.
 struct ValidationRow {
-    int pose = 0;      // index into the part's stable poses
-    int trials = 0;    // T
-    int failures = 0;  // F = wrong + stuck + fellOff
-    int wrongOrientation = 0;
-    int stuck = 0;
-    int fellOff = 0;
+    int pose = 0;  // index into the part's stable poses
+    trial::Tally tally;
 };
 
 /// The table of one individual.
-struct ValidationRecord {
-    int generation = 0;
-    int individual = 0;
+struct ValidationRecord : IndividualId {
     std::string engine;
     base::Quaternion expectedOrientation = base::Quaternion::Identity();
     double tolerance = 0.0;  // [rad]

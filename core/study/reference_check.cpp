@@ -19,7 +19,7 @@ EngineScore scoreOf(const StudyInputs& inputs, const trial::Engine& engine, cons
     score.engine = engine.name();
     score.finished = static_cast<int>(trial::finalOrientations(outcomes).size());
     score.oriented =
-        trial::countOriented(outcomes, expected, inputs.part->symmetry, inputs.settings.validation.tolerance);
+        trial::tally(outcomes, expected, inputs.part->symmetry, inputs.settings.validation.tolerance).success;
     objectives::Evaluation evaluation = makeEvaluation(inputs, track, overlaps, outcomes);
     evaluation.oriented = score.oriented;
     score.fitness = objectives::measureAll(evaluation, summedObjectives(inputs.settings.evolution));
@@ -39,9 +39,8 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
     auto built = decodeTrack(inputs.settings.track, winner.record.design);
     if (!built) return built.error();
     const auto track = std::make_shared<const track::Track>(std::move(built).value());
-    const std::array batches = {makeLearningBatch(makeScene(inputs.settings, inputs.part, track),
-                                                  winner.generation, winner.individual,
-                                                  countCheckTrials(winner))};
+    const std::array batches = {
+        makeLearningBatch(makeScene(inputs.settings, inputs.part, track), winner, countCheckTrials(winner))};
     const auto learned = runTrials(*inputs.engine, batches, control);
     if (!learned) return learned.error();
     const auto judged = runTrials(reference, batches, control);

@@ -62,8 +62,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         if (!track) return track.error();
         const TrialScene scene =
             makeScene(settings, inputs.part, std::make_shared<const track::Track>(std::move(track).value()));
-        batches.push_back(makeSelectionBatch(scene, winner.generation, winner.individual,
-                                             settings.validation.selectionTrials));
+        batches.push_back(makeSelectionBatch(scene, winner, settings.validation.selectionTrials));
     }
     const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
     if (!outcomes) return outcomes.error();
@@ -80,8 +79,9 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         entry.finished = static_cast<int>(finals.size());
         entry.modalOrientation =
             trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
-        entry.oriented = trial::countOriented(own, entry.modalOrientation, inputs.part->symmetry,
-                                              settings.validation.tolerance);
+        entry.oriented =
+            trial::tally(own, entry.modalOrientation, inputs.part->symmetry, settings.validation.tolerance)
+                .success;
         objectives::Evaluation evaluation =
             makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own);
         evaluation.oriented = entry.oriented;
@@ -92,7 +92,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     record.made.maker = makerOf(*inputs.engine);
     for (const SelectionEntry& entry : record.entries) {
         const auto place = std::find_if(ranked.begin(), ranked.end(), [&](const Individual& winner) {
-            return winner.generation == entry.generation && winner.individual == entry.individual;
+            return isSameIndividual(winner, entry);
         });
         const std::vector<trial::Outcome>& own =
             (*outcomes)[static_cast<std::size_t>(place - ranked.begin())];
@@ -110,16 +110,14 @@ std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selecti
                                         const Individual& individual,
                                         std::span<const part::PoseGroup> groups) {
     using Source = TrackSuccess::Source;
-    const auto isMeant = [&](const auto& of) {
-        return of.generation == individual.generation && of.individual == individual.individual;
-    };
+    const auto isMeant = [&](const IndividualId& of) { return isSameIndividual(of, individual); };
     const auto allAlike = [](Source source, const stats::Count& count) {
         return TrackSuccess{source, count.share(), count, {{1.0, count}}};
     };
     const auto validation = std::find_if(validations.rbegin(), validations.rend(), isMeant);
     if (validation != validations.rend()) {
         const ValidationRow total = calcTotal(*validation);
-        const stats::Count count{total.trials - total.failures, total.trials};
+        const stats::Count count{total.tally.success, total.tally.trials()};
         std::vector<stats::Stratum> strata = listStrata(*validation, groups);
         if (const auto rate = stats::calcWeightedRate(strata))
             return TrackSuccess{Source::validation, *rate, count, std::move(strata)};

@@ -27,9 +27,10 @@ std::string shareText(int successes, int trials) {
 
 void appendRow(std::string& text, const std::string& name, const std::string& weight,
                const ValidationRow& row) {
+    const trial::Tally& tally = row.tally;
     fmt::format_to(std::back_inserter(text), "{:<15} {:>8} {:>7} {:>7}   {}   {:>6} {:>6} {:>9}\n", name,
-                   weight, row.trials, row.failures, shareText(row.trials - row.failures, row.trials),
-                   row.wrongOrientation, row.stuck, row.fellOff);
+                   weight, tally.trials(), tally.failures(), shareText(tally.success, tally.trials()),
+                   tally.wrongOrientation, tally.stuck, tally.fellOff);
 }
 
 }  // namespace

@@ -8,35 +8,19 @@ namespace trapwright::study {
 trial::TrialBatch makeTrackBatch(std::shared_ptr<const track::Track> track,
                                  std::shared_ptr<const part::Part> part, const SimulationSettings& simulation,
                                  std::uint64_t seed, int trials) {
-    return makeLearningBatch({&simulation, std::move(part), std::move(track), seed}, 0, 0, trials);
+    return makeLearningBatch({&simulation, std::move(part), std::move(track), seed}, {0, 0}, trials);
 }
 
 TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
                         const std::optional<base::Quaternion>& expected, double tolerance) {
     TrialCounts counts;
-    counts.trials = static_cast<int>(outcomes.size());
     counts.expected =
         expected ? *expected
                  : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
+    counts.tally = trial::tally(outcomes, counts.expected, symmetry, tolerance);
     for (const trial::Outcome& outcome : outcomes) {
-        for (const trial::PartOutcome& part : outcome.parts) {
+        for (const trial::PartOutcome& part : outcome.parts)
             counts.simulatedTime += part.time;
-            switch (trial::judge(part, counts.expected, symmetry, tolerance)) {
-                case trial::Verdict::success:
-                    ++counts.oriented;
-                    ++counts.finished;
-                    break;
-                case trial::Verdict::wrongOrientation:
-                    ++counts.finished;
-                    break;
-                case trial::Verdict::fellOff:
-                    ++counts.fellOff;
-                    break;
-                case trial::Verdict::stuck:
-                    ++counts.stuck;
-                    break;
-            }
-        }
     }
     return counts;
 }

@@ -6,17 +6,14 @@
 
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
+#include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::study {
 
 /// How the trials of one part on one track ended.
 struct TrialCounts {
-    int trials = 0;
-    int finished = 0;
-    int fellOff = 0;
-    int stuck = 0;               // or timed out
-    int oriented = 0;            // finished within the tolerance of `expected`
+    trial::Tally tally;
     double simulatedTime = 0.0;  // of all together [s]
     base::Quaternion expected = base::Quaternion::Identity();
 };

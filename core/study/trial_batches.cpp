@@ -24,10 +24,10 @@ trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& p
     return batch;
 }
 
-base::StreamKey keyOf(const TrialScene& scene, int generation, int individual, int trial,
+base::StreamKey keyOf(const TrialScene& scene, const IndividualId& individual, int trial,
                       base::Purpose purpose) {
-    return {scene.seed, static_cast<std::uint32_t>(generation), static_cast<std::uint32_t>(individual),
-            static_cast<std::uint32_t>(trial), purpose};
+    return {scene.seed, static_cast<std::uint32_t>(individual.generation),
+            static_cast<std::uint32_t>(individual.individual), static_cast<std::uint32_t>(trial), purpose};
 }
 
 }  // namespace
@@ -42,28 +42,27 @@ TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part>
             settings.evolution.learningStuckTime};
 }
 
-trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials,
+trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId& individual, int trials,
                                     int first) {
-    const int stream = scene.commonRandomNumbers ? 0 : individual;
-    trial::TrialBatch batch =
-        makeBatch(scene, scene.simulation->start,
-                  keyOf(scene, generation, stream, first, base::Purpose::trialStart), trials);
+    const IndividualId stream{individual.generation, scene.commonRandomNumbers ? 0 : individual.individual};
+    trial::TrialBatch batch = makeBatch(scene, scene.simulation->start,
+                                        keyOf(scene, stream, first, base::Purpose::trialStart), trials);
     double& stuckTime = batch.termination.stuckTime;
     stuckTime = std::min(stuckTime, scene.learningStuckTime.value_or(stuckTime));
     return batch;
 }
 
-trial::TrialBatch makeSelectionBatch(const TrialScene& scene, int generation, int individual, int trials) {
+trial::TrialBatch makeSelectionBatch(const TrialScene& scene, const IndividualId& individual, int trials) {
     return makeBatch(scene, scene.simulation->start,
-                     keyOf(scene, generation, individual, 0, base::Purpose::finalSelection), trials);
+                     keyOf(scene, individual, 0, base::Purpose::finalSelection), trials);
 }
 
-trial::TrialBatch makeValidationBatch(const TrialScene& scene, int generation, int individual, int pose,
+trial::TrialBatch makeValidationBatch(const TrialScene& scene, const IndividualId& individual, int pose,
                                       int trials) {
     trial::StartPolicy policy = scene.simulation->start;
     policy.nearPose = scene.part->stablePoses[static_cast<std::size_t>(pose)].rotation;
-    return makeBatch(scene, policy,
-                     keyOf(scene, generation, individual, pose * trials, base::Purpose::validation), trials);
+    return makeBatch(scene, policy, keyOf(scene, individual, pose * trials, base::Purpose::validation),
+                     trials);
 }
 
 }  // namespace trapwright::study

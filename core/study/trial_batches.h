@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/study/individual_id.h"
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
 
@@ -31,15 +32,15 @@ TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part>
 /// random numbers all individuals of a generation have the streams of individual 0, so that each meets the
 /// same starts and a difference of two scores has less noise. What does not move on is given up sooner than
 /// elsewhere (EvolutionSettings::learningStuckTime).
-trial::TrialBatch makeLearningBatch(const TrialScene& scene, int generation, int individual, int trials,
+trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId& individual, int trials,
                                     int first = 0);
 
 /// Fresh trials of a winner (paper, section 6.1.1).
-trial::TrialBatch makeSelectionBatch(const TrialScene& scene, int generation, int individual, int trials);
+trial::TrialBatch makeSelectionBatch(const TrialScene& scene, const IndividualId& individual, int trials);
 
 /// Trials that start near one of the part's stable poses (paper, section 6.2;
 /// decisions.md#selection-and-success). Trial i of pose p is trial p x trials + i of the stream.
-trial::TrialBatch makeValidationBatch(const TrialScene& scene, int generation, int individual, int pose,
+trial::TrialBatch makeValidationBatch(const TrialScene& scene, const IndividualId& individual, int pose,
                                       int trials);
 
 }  // namespace trapwright::study

@@ -11,40 +11,6 @@ namespace trapwright::study {
 
 namespace {
 
-ValidationRow makeRow(int pose, std::span<const trial::Outcome> outcomes, const ValidationRecord& record,
-                      const part::SymmetryGroup& symmetry) {
-    ValidationRow row;
-    row.pose = pose;
-    row.trials = static_cast<int>(outcomes.size());
-    for (const trial::Outcome& outcome : outcomes) {
-        for (const trial::PartOutcome& part : outcome.parts) {
-            switch (trial::judge(part, record.expectedOrientation, symmetry, record.tolerance)) {
-                case trial::Verdict::success:
-                    break;
-                case trial::Verdict::wrongOrientation:
-                    ++row.wrongOrientation;
-                    break;
-                case trial::Verdict::fellOff:
-                    ++row.fellOff;
-                    break;
-                case trial::Verdict::stuck:
-                    ++row.stuck;
-                    break;
-            }
-        }
-    }
-    row.failures = row.wrongOrientation + row.stuck + row.fellOff;
-    return row;
-}
-
-void add(ValidationRow& sum, const ValidationRow& row) {
-    sum.trials += row.trials;
-    sum.failures += row.failures;
-    sum.wrongOrientation += row.wrongOrientation;
-    sum.stuck += row.stuck;
-    sum.fellOff += row.fellOff;
-}
-
 std::vector<ValidationGroup> groupRows(const ValidationRecord& record,
                                        std::span<const part::PoseGroup> groups) {
     std::vector<ValidationGroup> grouped;
@@ -57,7 +23,7 @@ std::vector<ValidationGroup> groupRows(const ValidationRecord& record,
         if (own == grouped.end()) own = grouped.insert(own, {{row.pose}, 0.0, {}, {}});
         own->sum.pose = own->poses.front();
         own->rows.push_back(row);
-        add(own->sum, row);
+        own->sum.tally += row.tally;
     }
     std::erase_if(grouped, [](const ValidationGroup& group) { return group.rows.empty(); });
     return grouped;
@@ -66,7 +32,7 @@ std::vector<ValidationGroup> groupRows(const ValidationRecord& record,
 std::vector<stats::Stratum> strataOf(std::span<const ValidationGroup> groups) {
     std::vector<stats::Stratum> strata;
     for (const ValidationGroup& group : groups)
-        strata.push_back({group.weight, {group.sum.trials - group.sum.failures, group.sum.trials}});
+        strata.push_back({group.weight, {group.sum.tally.success, group.sum.tally.trials()}});
     return strata;
 }
 
@@ -94,8 +60,7 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
     std::vector<trial::TrialBatch> batches;
     batches.reserve(static_cast<std::size_t>(poses));
     for (int pose = 0; pose < poses; ++pose) {
-        batches.push_back(
-            makeValidationBatch(scene, individual.generation, individual.individual, pose, trials));
+        batches.push_back(makeValidationBatch(scene, individual, pose, trials));
     }
     const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
     if (!outcomes) return outcomes.error();
@@ -119,7 +84,8 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
     record.made.maker = makerOf(*inputs.engine);
     for (int pose = 0; pose < poses; ++pose) {
         const std::vector<trial::Outcome>& own = (*outcomes)[static_cast<std::size_t>(pose)];
-        record.rows.push_back(makeRow(pose, own, record, inputs.part->symmetry));
+        record.rows.push_back(
+            {pose, trial::tally(own, record.expectedOrientation, inputs.part->symmetry, record.tolerance)});
         record.made.outcomes.insert(record.made.outcomes.end(), own.begin(), own.end());
     }
     return record;
@@ -129,7 +95,7 @@ ValidationRow calcTotal(const ValidationRecord& record) {
     ValidationRow total;
     total.pose = -1;
     for (const ValidationRow& row : record.rows)
-        add(total, row);
+        total.tally += row.tally;
     return total;
 }
 

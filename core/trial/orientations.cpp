@@ -154,14 +154,39 @@ Verdict judge(const PartOutcome& outcome, const base::Quaternion& expected,
     return angle <= tolerance ? Verdict::success : Verdict::wrongOrientation;
 }
 
-int countOriented(std::span<const Outcome> outcomes, const base::Quaternion& expected,
-                  const part::SymmetryGroup& symmetry, double tolerance) {
-    int oriented = 0;
+void Tally::add(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::success:
+            ++success;
+            return;
+        case Verdict::wrongOrientation:
+            ++wrongOrientation;
+            return;
+        case Verdict::stuck:
+            ++stuck;
+            return;
+        case Verdict::fellOff:
+            ++fellOff;
+            return;
+    }
+}
+
+Tally& Tally::operator+=(const Tally& other) {
+    success += other.success;
+    wrongOrientation += other.wrongOrientation;
+    stuck += other.stuck;
+    fellOff += other.fellOff;
+    return *this;
+}
+
+Tally tally(std::span<const Outcome> outcomes, const base::Quaternion& expected,
+            const part::SymmetryGroup& symmetry, double tolerance) {
+    Tally counts;
     for (const Outcome& outcome : outcomes) {
         for (const PartOutcome& part : outcome.parts)
-            oriented += judge(part, expected, symmetry, tolerance) == Verdict::success ? 1 : 0;
+            counts.add(judge(part, expected, symmetry, tolerance));
     }
-    return oriented;
+    return counts;
 }
 
 base::Quaternion findModalOrientation(std::span<const base::Quaternion> orientations,

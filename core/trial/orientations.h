@@ -60,12 +60,31 @@ std::optional<Verdict> findVerdict(std::string_view name);
 Verdict judge(const PartOutcome& outcome, const base::Quaternion& expected,
               const part::SymmetryGroup& symmetry, double tolerance);
 
+/// Parts by what their runs count as.
+struct Tally {
+    int success = 0;
+    int wrongOrientation = 0;
+    int stuck = 0;
+    int fellOff = 0;
+
+    /// T: all parts; each has a trial of its own.
+    [[nodiscard]] int trials() const { return success + failures(); }
+    /// F.
+    [[nodiscard]] int failures() const { return wrongOrientation + stuck + fellOff; }
+    [[nodiscard]] int finished() const { return success + wrongOrientation; }
+
+    void add(Verdict verdict);
+    Tally& operator+=(const Tally& other);
+
+    friend bool operator==(const Tally&, const Tally&) = default;
+};
+
+/// What all these parts count as.
+Tally tally(std::span<const Outcome> outcomes, const base::Quaternion& expected,
+            const part::SymmetryGroup& symmetry, double tolerance);
+
 /// The orientations in which parts passed the finish line, in the trials' order.
 std::vector<base::Quaternion> finalOrientations(std::span<const Outcome> outcomes);
-
-/// How many of these parts succeeded (judge()).
-int countOriented(std::span<const Outcome> outcomes, const base::Quaternion& expected,
-                  const part::SymmetryGroup& symmetry, double tolerance);
 
 /// The most frequent orientation: the one with the most others within `tolerance` [rad], refined to the mean
 /// of those (in the symmetry copy nearest to it). Empty input gives the identity.

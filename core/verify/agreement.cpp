@@ -148,7 +148,7 @@ base::Result<std::vector<AgreementScene>> makeAgreementScenes(
         if (!part) return part.error();
         const auto add = [&](const char* name, const std::shared_ptr<const track::Track>& track) {
             const study::TrialScene scene{&simulation, part.value(), track, kSeed};
-            scenes.push_back({std::string(one.part), name, study::makeLearningBatch(scene, 0, 0, trials)});
+            scenes.push_back({std::string(one.part), name, study::makeLearningBatch(scene, {0, 0}, trials)});
         };
         add("flat", flat);
         add("hills", makeHills(one.amplitude));

@@ -37,8 +37,7 @@ base::Result<StoredTrials> findSelectionTrials(const store::StudyFile& file, con
         const study::SelectionRecord& selection = (*selections)[number];
         for (std::size_t rank = 0; rank < selection.entries.size(); ++rank) {
             const study::SelectionEntry& entry = selection.entries[rank];
-            if (entry.generation != individual.generation || entry.individual != individual.individual)
-                continue;
+            if (!isSameIndividual(entry, individual)) continue;
             trials = {entry.trials, selection.engine, entry.modalOrientation, settings.validation.tolerance};
             place = {static_cast<int>(number), static_cast<int>(rank)};
         }
@@ -59,11 +58,10 @@ base::Result<StoredTrials> findValidationTrials(const store::StudyFile& file,
     int number = 0;
     for (std::size_t place = 0; place < validations->size(); ++place) {
         const study::ValidationRecord& validation = (*validations)[place];
-        if (validation.generation != individual.generation || validation.individual != individual.individual)
-            continue;
+        if (!isSameIndividual(validation, individual)) continue;
         int count = 0;
         for (const study::ValidationRow& row : validation.rows)
-            if (std::find(poses.begin(), poses.end(), row.pose) != poses.end()) count += row.trials;
+            if (std::find(poses.begin(), poses.end(), row.pose) != poses.end()) count += row.tally.trials();
         if (count == 0) continue;
         trials = {count, validation.engine, validation.expectedOrientation, validation.tolerance};
         number = static_cast<int>(place);
@@ -82,8 +80,7 @@ base::Result<StoredTrials> findLearningTrials(const store::StudyFile& file, cons
     StoredTrials trials{individual.record.trials,
                         engines.nameFor(settings.simulation.engine, trial::EngineUse::learning), std::nullopt,
                         settings.validation.tolerance};
-    const auto added =
-        addKept(file.loadLearningOutcomes(individual.generation, individual.individual), 0, trials);
+    const auto added = addKept(file.loadLearningOutcomes(individual), 0, trials);
     if (!added) return added.error();
     return trials;
 }
@@ -116,8 +113,7 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
     const study::TrialScene scene =
         study::makeScene(settings, std::move(part), std::make_shared<const track::Track>(std::move(*track)));
     const int count = request.count > 0 ? request.count : stored.count;
-    if (request.kind == TrialKind::selection)
-        return study::makeSelectionBatch(scene, individual.generation, individual.individual, count);
+    if (request.kind == TrialKind::selection) return study::makeSelectionBatch(scene, individual, count);
     if (request.kind == TrialKind::validation) {
         // Which stream a trial has depends on how many there were of each pose.
         assert(!request.poses.empty());
@@ -130,17 +126,16 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
         }
         const int poses = static_cast<int>(request.poses.size());
         const int ofEachPose = stored.count > 0 ? stored.count / poses : count;
-        trial::TrialBatch batch = study::makeValidationBatch(
-            scene, individual.generation, individual.individual, request.poses.front(), ofEachPose);
+        trial::TrialBatch batch =
+            study::makeValidationBatch(scene, individual, request.poses.front(), ofEachPose);
         for (auto pose = request.poses.begin() + 1; pose != request.poses.end(); ++pose) {
-            const trial::TrialBatch more = study::makeValidationBatch(
-                scene, individual.generation, individual.individual, *pose, ofEachPose);
+            const trial::TrialBatch more = study::makeValidationBatch(scene, individual, *pose, ofEachPose);
             batch.trials.insert(batch.trials.end(), more.trials.begin(), more.trials.end());
         }
         batch.trials.resize(std::min(static_cast<std::size_t>(count), batch.trials.size()));
         return batch;
     }
-    return study::makeLearningBatch(scene, individual.generation, individual.individual, count);
+    return study::makeLearningBatch(scene, individual, count);
 }
 
 base::Result<std::optional<trial::MadeOutcomes>> unpackTrials(const StoredTrials& stored,

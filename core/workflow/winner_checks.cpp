@@ -27,7 +27,7 @@ Result<std::unique_ptr<WinnerChecks>> WinnerChecks::start(store::StudyFile& file
 
 void WinnerChecks::add(const study::GenerationRecord& record) {
     const study::IndividualRecord& winner = record.individuals[static_cast<std::size_t>(record.winner)];
-    if (winner.trials > 0) background_->add({record.index, record.winner, winner});
+    if (winner.trials > 0) background_->add({{record.index, record.winner}, winner});
 }
 
 base::Status WinnerChecks::save(const CheckSaved& saved) {

@@ -40,9 +40,9 @@ void fill(const std::filesystem::path& path) {
     VERIFY_OK(study->saveSelection({"native", {study::SelectionEntry{}}}));
     study::ValidationRecord validation;
     validation.engine = "native";
-    validation.rows = {{0, 10, 1, 1, 0, 0}};
+    validation.rows = {{0, {9, 1, 0, 0}}};
     VERIFY_OK(study->saveValidation(validation));
-    VERIFY_OK(study->chooseWinner(store::IndividualPlace{}));
+    VERIFY_OK(study->chooseWinner(study::IndividualId{}));
     study::PhysicalValidation physical;
     physical.plan = {{0}, 2};
     physical.trials.resize(1);

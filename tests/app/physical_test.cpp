@@ -25,7 +25,7 @@ class PhysicalTest : public QObject {
                 store::StudyFile::open(folder_->filePath("study.trap").toStdString(), sample::kProgram);
             VERIFY_OK(study);
             study::ValidationRecord simulated;
-            simulated.rows = {{0, 1000, 10, 10, 0, 0}, {2, 1000, 20, 0, 20, 0}};
+            simulated.rows = {{0, {990, 10, 0, 0}}, {2, {980, 0, 20, 0}}};
             VERIFY_OK(study->saveValidation(simulated));
             study::PhysicalValidation physical;
             physical.plan = {{0, 2}, 2};
@@ -120,7 +120,7 @@ class PhysicalTest : public QObject {
             auto study =
                 store::StudyFile::open(folder_->filePath("study.trap").toStdString(), sample::kProgram);
             VERIFY_OK(study);
-            VERIFY_OK(study->chooseWinner(store::IndividualPlace{0, 99}));
+            VERIFY_OK(study->chooseWinner(study::IndividualId{0, 99}));
         }
         const Ran ran = ask({"export", "study.trap", "track.json"});
         QCOMPARE(ran.code, 3);

@@ -33,8 +33,8 @@ void readGenerations(const store::StudyFile& study) {
     constexpr int kMost = 10;
     for (int i = 0; i < std::min(*count, kMost); ++i) {
         check(study.loadGeneration(i));
-        check(study.loadIndividual(i, 0));
-        readOutcomes(study.loadLearningOutcomes(i, 0));
+        check(study.loadIndividual({i, 0}));
+        readOutcomes(study.loadLearningOutcomes({i, 0}));
     }
     check(study.loadSummaries());
     if (const auto state = study.loadLearningState(); check(state) && *state) {

@@ -31,5 +31,5 @@ int main(int argc, char** argv) {
     known.push_back(makePeer<peers::MujocoEngine>("mujoco"));
     const app::Console console(json);
     auto result = app::runBench(options, known, console);
-    return static_cast<int>(result ? *result : console.fail(result.failure()));
+    return static_cast<int>(result ? *result : console.fail(result.error()));
 }

@@ -1,5 +1,7 @@
 #include "ui/feeder/physical_model.h"
 
+#include <functional>
+
 #include <QFont>
 
 #include "ui/models/numbers.h"
@@ -15,15 +17,16 @@ constexpr double kPercent = 100.0;
 constexpr double kLeastShown = 0.001;
 
 /// Of the weighted total no trials are counted.
-template <int SuccessCount::*count, SuccessCount Row::*side>
+template <auto count, SuccessCount Row::*side>
 QVariant countOf(const Row& row) {
-    return row.weighted ? QVariant() : QVariant((row.*side).*count);
+    return row.weighted ? QVariant() : QVariant(std::invoke(count, (row.*side).tally));
 }
 
-template <int SuccessCount::*count, SuccessCount Row::*side>
+template <auto count, SuccessCount Row::*side>
 QString countText(const Row& row) {
     if (row.weighted) return {};
-    return (row.*side).trials == 0 ? QStringLiteral("–") : QString::number((row.*side).*count);
+    return (row.*side).tally.trials() == 0 ? QStringLiteral("–")
+                                           : QString::number(std::invoke(count, (row.*side).tally));
 }
 
 template <SuccessCount Row::*side>
@@ -43,12 +46,12 @@ QVariant bounds(const Row& row) {
 
 template <SuccessCount Row::*side>
 QString boundsText(const Row& row) {
-    return models::boundsText((row.*side).bounds, (row.*side).trials);
+    return models::boundsText((row.*side).bounds, (row.*side).tally.trials());
 }
 
 template <SuccessCount Row::*side>
 QVariantList boundsValues(const Row& row) {
-    return models::boundsValues((row.*side).bounds, (row.*side).trials);
+    return models::boundsValues((row.*side).bounds, (row.*side).tally.trials());
 }
 
 QString poseText(const Row& row) {
@@ -90,31 +93,31 @@ std::vector<models::Column<Row>> PhysicalModel::makeColumns() {
          tr("Stable poses in which the parts were placed, counted from 1; those that look the same are one "
             "row."),
          [](const Row& r) { return QVariant(poseText(r)); }, &poseText},
-        {tr("Sim. T"), tr("Simulated trials (T)."), &countOf<&SuccessCount::trials, kSimulated>,
-         &countText<&SuccessCount::trials, kSimulated>},
+        {tr("Sim. T"), tr("Simulated trials (T)."), &countOf<&trial::Tally::trials, kSimulated>,
+         &countText<&trial::Tally::trials, kSimulated>},
         {tr("F"), tr("Simulated parts that did not finish in the expected orientation (F)."),
-         &countOf<&SuccessCount::failures, kSimulated>, &countText<&SuccessCount::failures, kSimulated>},
+         &countOf<&trial::Tally::failures, kSimulated>, &countText<&trial::Tally::failures, kSimulated>},
         {tr("P [%]"), tr("Simulated parts that finished in the expected orientation (P)."),
          &success<kSimulated>, &successText<kSimulated>},
         {tr("Bounds [%]"), models::boundsHelp(), &bounds<kSimulated>, &boundsText<kSimulated>,
          [] { return models::boundsTitles(tr("Simulated success")); }, &boundsValues<kSimulated>},
-        {tr("Feeder T"), tr("Trials on the feeder (T)."), &countOf<&SuccessCount::trials, kReal>,
-         [](const Row& r) { return r.weighted ? QString() : QString::number(r.physical.trials); }},
+        {tr("Feeder T"), tr("Trials on the feeder (T)."), &countOf<&trial::Tally::trials, kReal>,
+         [](const Row& r) { return r.weighted ? QString() : QString::number(r.physical.tally.trials()); }},
         {tr("of"), tr("Trials on the feeder that are planned."),
          [](const Row& r) { return r.weighted ? QVariant() : QVariant(r.planned); },
          [](const Row& r) { return r.weighted ? QString() : QString::number(r.planned); }},
-        {tr("F"), tr("Parts that failed on the feeder (F)."), &countOf<&SuccessCount::failures, kReal>,
-         &countText<&SuccessCount::failures, kReal>},
+        {tr("F"), tr("Parts that failed on the feeder (F)."), &countOf<&trial::Tally::failures, kReal>,
+         &countText<&trial::Tally::failures, kReal>},
         {tr("P [%]"), tr("Parts that succeeded on the feeder (P)."), &success<kReal>, &successText<kReal>},
         {tr("Bounds [%]"), models::boundsHelp(), &bounds<kReal>, &boundsText<kReal>,
          [] { return models::boundsTitles(tr("Success on the feeder")); }, &boundsValues<kReal>},
         {tr("Wrong"), tr("Parts that ended in another orientation on the feeder."),
-         &countOf<&SuccessCount::wrongOrientation, kReal>,
-         &countText<&SuccessCount::wrongOrientation, kReal>},
-        {tr("Stuck"), tr("Parts that got stuck on the feeder."), &countOf<&SuccessCount::stuck, kReal>,
-         &countText<&SuccessCount::stuck, kReal>},
+         &countOf<&trial::Tally::wrongOrientation, kReal>,
+         &countText<&trial::Tally::wrongOrientation, kReal>},
+        {tr("Stuck"), tr("Parts that got stuck on the feeder."), &countOf<&trial::Tally::stuck, kReal>,
+         &countText<&trial::Tally::stuck, kReal>},
         {tr("Fell"), tr("Parts that fell off the track on the feeder."),
-         &countOf<&SuccessCount::fellOff, kReal>, &countText<&SuccessCount::fellOff, kReal>},
+         &countOf<&trial::Tally::fellOff, kReal>, &countText<&trial::Tally::fellOff, kReal>},
         {tr("p"),
          tr("How probable a difference as large as this one would be if the simulated and the feeder's rates "
             "were equal; "

@@ -11,6 +11,8 @@ namespace {
 
 // Around the part, in its radii: large, and enough of the track to see where it lies.
 constexpr double kCloseUp = 1.0;
+// Before there is a track: its lead-in and lead-out alone.
+constexpr study::IndividualId kLayout{-1, -1};
 
 }  // namespace
 
@@ -42,10 +44,9 @@ void PlacingScene::setSession(session::StudySession* session) {
 }
 
 ExpectedExit PlacingScene::expected() const {
-    if (!session_ || !printed_ || printed_->generation < 0) return {};
+    if (!session_ || !printed_ || *printed_ == kLayout) return {};
     return {track_, session_->part(),
-            study::findExpected(session_->validations(), session_->selections(), printed_->generation,
-                                printed_->individual)};
+            study::findExpected(session_->validations(), session_->selections(), *printed_)};
 }
 
 void PlacingScene::setScene(scene::SceneView* scene) {
@@ -57,23 +58,23 @@ void PlacingScene::setScene(scene::SceneView* scene) {
 void PlacingScene::show(const study::PhysicalValidation* validation) {
     placing_.reset();
     if (!session_) return;
-    Printed printed;
+    study::IndividualId printed = kLayout;
     if (validation != nullptr) {
         placing_ = Placing{validation->plan, static_cast<int>(validation->trials.size()),
                            study::nextPose(*validation)};
-        printed = {validation->generation, validation->individual};
+        printed = *validation;
     } else if (const auto chosen = session_->chosen()) {
-        printed = {chosen->generation, chosen->individual};
+        printed = *chosen;
     }
     if (printed_ == printed) return draw();
     build(printed);
 }
 
-void PlacingScene::build(const Printed& printed) {
+void PlacingScene::build(const study::IndividualId& printed) {
     printed_ = printed;
     track_.reset();
     const study::TrackSettings& settings = session_->settings().track;
-    if (printed.generation < 0) return build_.buildLayout(settings);
+    if (printed == kLayout) return build_.buildLayout(settings);
     const auto winner = session_->loadWinner(printed.generation, printed.individual);
     if (winner) return build_.buildIndividual(settings, winner->record.design);
     emit failed(tr("The track cannot be shown"), QString::fromStdString(winner.error().message));

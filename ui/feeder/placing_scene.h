@@ -50,20 +50,14 @@ class PlacingScene : public QObject {
         int trial = 0;
         std::optional<int> pose;
     };
-    struct Printed {
-        int generation = -1;
-        int individual = -1;
-        friend bool operator==(const Printed&, const Printed&) = default;
-    };
-
-    void build(const Printed& printed);
+    void build(const study::IndividualId& printed);
     void draw();
 
     QPointer<session::StudySession> session_;
     scene::SceneView* scene_ = nullptr;
     session::TrackBuild build_;
     std::shared_ptr<const track::Track> track_;
-    std::optional<Printed> printed_;  // what track_ is, or is being built
+    std::optional<study::IndividualId> printed_;  // what track_ is, or is being built
     std::optional<Placing> placing_;
 };
 

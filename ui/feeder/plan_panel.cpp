@@ -188,7 +188,8 @@ void PlanPanel::showProgress() {
     const study::PhysicalTable table = study::comparePhysical(
         nullptr, *now, study::weighPoseGroups(*session_->part(), session_->settings()));
     for (const study::PhysicalRow& row : table.rows)
-        progress.push_back({row.poses.front(), row.physical.trials, row.planned, row.physical.failures});
+        progress.push_back(
+            {row.poses.front(), row.physical.tally.trials(), row.planned, row.physical.tally.failures()});
     cards_->showProgress(progress, guide_.pose());
 }
 

@@ -145,7 +145,7 @@ QImage successChart(const study::PhysicalTable& table, const QString& feeder, QS
     double lowest = 1.0;
     for (const study::PhysicalRow& row : rows)
         for (const study::SuccessCount* side : {&row.simulated, &row.physical})
-            if (side->trials > 0) lowest = std::min(lowest, side->bounds.low);
+            if (side->tally.trials() > 0) lowest = std::min(lowest, side->bounds.low);
     Frame frame(pixels, scaleLow(lowest));
     const double step = frame.area().width() / static_cast<double>(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {

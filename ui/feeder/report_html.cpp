@@ -254,11 +254,11 @@ QString settingsPiece(const Report& report) {
 }
 
 QString cells(const study::SuccessCount& count, bool weighted) {
-    if (count.trials == 0) return "<td>–</td><td>–</td><td>–</td><td>–</td>";
+    if (count.tally.trials() == 0) return "<td>–</td><td>–</td><td>–</td><td>–</td>";
     return QString("<td>%1</td><td>%2</td><td><b>%3</b></td><td>%4</td>")
-        .arg(weighted ? QString() : QString::number(count.trials),
-             weighted ? QString() : QString::number(count.failures), models::percent(count.rate),
-             models::boundsText(count.bounds, count.trials).replace(u' ', QChar::Nbsp));
+        .arg(weighted ? QString() : QString::number(count.tally.trials()),
+             weighted ? QString() : QString::number(count.tally.failures()), models::percent(count.rate),
+             models::boundsText(count.bounds, count.tally.trials()).replace(u' ', QChar::Nbsp));
 }
 
 QString resultRow(const study::PhysicalRow& row) {
@@ -274,7 +274,7 @@ QString resultRow(const study::PhysicalRow& row) {
     return QString("<tr%1><td>%2</td>%3%4<td>%5</td><td>%6</td><td>%7</td><td>%8</td></tr>")
         .arg(total ? " class=\"total\"" : "", first, cells(row.simulated, row.weighted),
              cells(real, row.weighted))
-        .arg(number(real.wrongOrientation), number(real.stuck), number(real.fellOff))
+        .arg(number(real.tally.wrongOrientation), number(real.tally.stuck), number(real.tally.fellOff))
         .arg(row.weighted     ? QString()
              : !row.p         ? QStringLiteral("–")
              : *row.p < 0.001 ? "&lt; 0.001"
@@ -365,7 +365,7 @@ QString chartPiece(const QString& title, const QString& text, const QString& pic
 
 QString titlePiece(const Report& report) {
     const int planned = report.table.total.planned;
-    const int made = report.table.total.physical.trials;
+    const int made = report.table.total.physical.tally.trials();
     QString html = "<h1>" + reportTitle(report).toHtmlEscaped() + "</h1>";
     if (!report.table.notice.empty()) {
         html += "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"6\"><tr><td class=\"notice\">" +

@@ -65,7 +65,7 @@ void IndividualModel::setGeneration(const study::GenerationRecord& record, searc
     rows.reserve(record.individuals.size());
     for (std::size_t i = 0; i < record.individuals.size(); ++i) {
         const int number = static_cast<int>(i);
-        rows.push_back({record.index, number, number == record.winner, record.individuals[i]});
+        rows.push_back({{{record.index, number}, record.individuals[i]}, number == record.winner});
     }
     std::vector<Column<IndividualRow>> columns = makeColumns();
     for (const search::NumberInfo& trait : search::describeMethod(method).traits)

@@ -6,11 +6,8 @@
 
 namespace trapwright::models {
 
-struct IndividualRow {
-    int generation = 0;
-    int individual = 0;
+struct IndividualRow : study::Individual {
     bool winner = false;
-    study::IndividualRecord record;
 };
 
 /// The individuals of one generation.

@@ -2,6 +2,7 @@
 
 #include <QFont>
 #include <QPixmap>
+#include <functional>
 #include <utility>
 
 #include "core/stats/binomial.h"
@@ -23,9 +24,10 @@ Row makeRow(Row::Kind kind, std::vector<int> poses, const study::ValidationRow& 
     made.kind = kind;
     made.poses = std::move(poses);
     made.row = row;
-    const int good = row.trials - row.failures;
-    if (row.trials > 0) made.rate = static_cast<double>(good) / row.trials;
-    made.bounds = stats::calcClopperPearson(good, row.trials);
+    const int good = row.tally.success;
+    const int trials = row.tally.trials();
+    if (trials > 0) made.rate = static_cast<double>(good) / trials;
+    made.bounds = stats::calcClopperPearson(good, trials);
     return made;
 }
 
@@ -63,14 +65,14 @@ QString helpOf(const Row& row) {
 }
 
 /// Of the weighted total no trials are counted.
-template <int study::ValidationRow::*count>
+template <auto count>
 QVariant countOf(const Row& row) {
-    return row.kind == Row::Kind::weighted ? QVariant() : QVariant(row.row.*count);
+    return row.kind == Row::Kind::weighted ? QVariant() : QVariant(std::invoke(count, row.row.tally));
 }
 
-template <int study::ValidationRow::*count>
+template <auto count>
 QString countText(const Row& row) {
-    return row.kind == Row::Kind::weighted ? QString() : QString::number(row.row.*count);
+    return row.kind == Row::Kind::weighted ? QString() : QString::number(std::invoke(count, row.row.tally));
 }
 
 /// Keeps names in line with those that have a sign before them.
@@ -98,7 +100,7 @@ int verdictOf(int column) {
 ValidationModel::ValidationModel(QObject* parent) : RecordModel(makeColumns(), parent) {}
 
 std::vector<Column<ValidationTableRow>> ValidationModel::makeColumns() {
-    using study::ValidationRow;
+    using trial::Tally;
     return {
         {tr("Pose"),
          tr("Stable poses near which the parts began, counted from 1; those that look the same are one row."),
@@ -106,23 +108,22 @@ std::vector<Column<ValidationTableRow>> ValidationModel::makeColumns() {
         {tr("Share [%]"), tr("How often parts land in this pose."),
          [](const Row& r) { return percentValue(r.weight); },
          [](const Row& r) { return r.weight ? fixed(kPercent * *r.weight, 1) : QString(); }},
-        {tr("Trials"), tr("Simulated trials (T)."), &countOf<&ValidationRow::trials>,
-         &countText<&ValidationRow::trials>},
+        {tr("Trials"), tr("Simulated trials (T)."), &countOf<&Tally::trials>, &countText<&Tally::trials>},
         {tr("Failed"), tr("Parts that did not finish in the expected orientation (F)."),
-         &countOf<&ValidationRow::failures>, &countText<&ValidationRow::failures>},
+         &countOf<&Tally::failures>, &countText<&Tally::failures>},
         {tr("Success [%]"), tr("Parts that finished in the expected orientation (P)."),
          [](const Row& r) { return percentValue(r.rate); }, [](const Row& r) { return percent(r.rate); }},
         {tr("Bounds [%]"), boundsHelp() + u' ' + tr("Sorted by the lower bound."),
          [](const Row& r) { return QVariant(kPercent * r.bounds.low); },
-         [](const Row& r) { return boundsText(r.bounds, r.row.trials); },
+         [](const Row& r) { return boundsText(r.bounds, r.row.tally.trials()); },
          [] { return boundsTitles(tr("Success")); },
-         [](const Row& r) { return boundsValues(r.bounds, r.row.trials); }},
-        {tr("Wrong"), tr("Parts that finished in another orientation."),
-         &countOf<&ValidationRow::wrongOrientation>, &countText<&ValidationRow::wrongOrientation>},
-        {tr("Stuck"), tr("Parts that got stuck or ran out of time."), &countOf<&ValidationRow::stuck>,
-         &countText<&ValidationRow::stuck>},
-        {tr("Fell"), tr("Parts that fell off the track."), &countOf<&ValidationRow::fellOff>,
-         &countText<&ValidationRow::fellOff>},
+         [](const Row& r) { return boundsValues(r.bounds, r.row.tally.trials()); }},
+        {tr("Wrong"), tr("Parts that finished in another orientation."), &countOf<&Tally::wrongOrientation>,
+         &countText<&Tally::wrongOrientation>},
+        {tr("Stuck"), tr("Parts that got stuck or ran out of time."), &countOf<&Tally::stuck>,
+         &countText<&Tally::stuck>},
+        {tr("Fell"), tr("Parts that fell off the track."), &countOf<&Tally::fellOff>,
+         &countText<&Tally::fellOff>},
     };
 }
 

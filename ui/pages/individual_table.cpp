@@ -27,7 +27,7 @@ IndividualTable::IndividualTable(QWidget* parent)
     connect(table_, &RecordTable::picked, this, [this](int row) {
         const models::IndividualRow& picked = model_.rows()[static_cast<std::size_t>(row)];
         individual_ = picked.individual;
-        emit this->picked({picked.generation, picked.individual, picked.record});
+        emit this->picked(picked);
     });
     connect(table_, &RecordTable::failed, this, &IndividualTable::failed);
 }

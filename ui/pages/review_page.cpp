@@ -192,8 +192,7 @@ void ReviewPage::showValidation() {
     const study::ValidationRecord* found = nullptr;
     if (session_ && winner) {
         for (const study::ValidationRecord& record : session_->validations())
-            if (record.generation == winner->generation && record.individual == winner->individual)
-                found = &record;
+            if (isSameIndividual(record, *winner)) found = &record;
     }
     if (found == nullptr) {
         shownValidation_->setHead({});

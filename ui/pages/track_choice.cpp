@@ -24,10 +24,6 @@ namespace {
 
 constexpr int kIndividualRole = Qt::UserRole + 1;
 
-bool isSame(const study::Individual& a, const study::Individual& b) {
-    return a.generation == b.generation && a.individual == b.individual;
-}
-
 QString nameOf(int generation, int individual) {
     return TrackChoice::tr("Generation %1, individual %2").arg(generation).arg(individual);
 }
@@ -133,7 +129,7 @@ void TrackChoice::listWinners() {
                              models::successWord(success ? std::optional(success->rate) : std::nullopt)),
             winner.generation);
         list_->setItemData(list_->count() - 1, winner.individual, kIndividualRole);
-        if (winner_ && isSame(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
+        if (winner_ && isSameIndividual(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
     };
     list_->setCurrentIndex(-1);
     const std::vector<study::Individual>& winners = session_->winners();
@@ -152,8 +148,7 @@ void TrackChoice::showFacts() {
     const study::SelectionEntry* compared = nullptr;
     for (const study::SelectionRecord& selection : session_->selections())
         for (const study::SelectionEntry& entry : selection.entries)
-            if (entry.generation == winner_->generation && entry.individual == winner_->individual)
-                compared = &entry;
+            if (isSameIndividual(entry, *winner_)) compared = &entry;
     if (compared != nullptr)
         facts.emplace_back(tr("Comparison"),
                            models::shareText(stats::Count{compared->oriented, compared->trials}));
@@ -200,7 +195,7 @@ void TrackChoice::choose() {
 
 bool TrackChoice::isFinal() const {
     const auto chosen = session_ ? session_->chosen() : std::nullopt;
-    return chosen && winner_ && isSame(*chosen, *winner_);
+    return chosen && winner_ && isSameIndividual(*chosen, *winner_);
 }
 
 void TrackChoice::showFinal() {

@@ -20,8 +20,7 @@ namespace {
 constexpr double kInterval = 1e-3;  // between the samples of a replay [s]
 
 bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
-    return a.kind == b.kind && a.poses == b.poses && a.winner.generation == b.winner.generation &&
-           a.winner.individual == b.winner.individual;
+    return a.kind == b.kind && a.poses == b.poses && isSameIndividual(a.winner, b.winner);
 }
 
 std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::SymmetryGroup& symmetry) {
@@ -170,9 +169,7 @@ void TrialReview::showTrack() {
 void TrialReview::makeSources() {
     sources_.clear();
     if (session_ && winner_) {
-        const auto isWinner = [this](const auto& record) {
-            return record.generation == winner_->generation && record.individual == winner_->individual;
-        };
+        const auto isWinner = [this](const auto& record) { return isSameIndividual(record, *winner_); };
         if (winner_->record.trials > 0)
             sources_.push_back({tr("Learning"), {TrialKind::learning, *winner_}, winner_->record.trials});
         int selected = 0;
@@ -192,7 +189,7 @@ void TrialReview::makeSources() {
                     poses.push_back(row.pose);
                 sources_.push_back({tr("Validation, %1").arg(models::poseName(poses)),
                                     {TrialKind::validation, *winner_, poses},
-                                    group.sum.trials});
+                                    group.sum.tally.trials()});
             }
         }
     }

@@ -10,9 +10,9 @@ base::Result<std::optional<study::Individual>> readChosen(const store::StudyFile
     const auto place = file.loadChosenWinner();
     if (!place) return place.error();
     if (!*place) return std::optional<study::Individual>();
-    auto record = file.loadIndividual((*place)->generation, (*place)->individual);
+    auto record = file.loadIndividual(**place);
     if (!record) return record.error();
-    return std::optional(study::Individual{(*place)->generation, (*place)->individual, std::move(*record)});
+    return std::optional(study::Individual{**place, std::move(*record)});
 }
 
 }  // namespace

@@ -197,9 +197,9 @@ base::Result<study::Individual> StudySession::loadWinner(int generation, int ind
         if (winner.individual == individual) return winner;
     }
     if (!state_->reader) return state_->cannotRead();
-    auto record = state_->reader->loadIndividual(generation, individual);
+    auto record = state_->reader->loadIndividual({generation, individual});
     if (!record) return record.error();
-    return study::Individual{generation, individual, std::move(*record)};
+    return study::Individual{{generation, individual}, std::move(*record)};
 }
 
 const std::vector<std::string>& StudySession::problems() const {

@@ -15,7 +15,7 @@ std::optional<study::Individual> StudySession::chosen() const {
 
 void StudySession::choose(const study::Individual& individual) {
     state_->chosen = individual;
-    const store::IndividualPlace place{individual.generation, individual.individual};
+    const study::IndividualId place = individual;
     note([place](store::StudyFile& file) { return file.chooseWinner(place); });
     emit chosenChanged();
 }

@@ -120,7 +120,7 @@ std::optional<workflow::Failure> StudySession::learn(Run& run, const study::Sett
     };
     events.saved = [this](const study::GenerationRecord& record) {
         const study::GenerationSummary summary = study::summarize(record);
-        const study::Individual winner{record.index, record.winner,
+        const study::Individual winner{{record.index, record.winner},
                                        record.individuals[static_cast<std::size_t>(record.winner)]};
         tell(this, [this, summary, winner, kept = std::make_shared<const study::GenerationRecord>(record)] {
             state_->summaries.push_back(summary);

@@ -38,15 +38,15 @@ QString cacheFolder() {
 /// The final track: chosen, else the best of the last comparison, else the best winner.
 std::optional<study::Individual> findTrack(const store::StudyFile& file,
                                            const std::vector<study::SelectionRecord>& selections) {
-    std::optional<store::IndividualPlace> place;
+    std::optional<study::IndividualId> place;
     if (!selections.empty() && !selections.back().entries.empty()) {
         const study::SelectionEntry& best = selections.back().entries.front();
         place = {best.generation, best.individual};
     }
     if (const auto chosen = file.loadChosenWinner(); chosen && *chosen) place = **chosen;
     if (place) {
-        const auto record = file.loadIndividual(place->generation, place->individual);
-        if (record) return study::Individual{place->generation, place->individual, *record};
+        const auto record = file.loadIndividual(*place);
+        if (record) return study::Individual{*place, *record};
     }
     const auto winners = file.loadWinners();
     if (!winners) return std::nullopt;

@@ -65,8 +65,8 @@ class BenchmarkTest : public QObject {
         QVERIFY(measured.ok());
         QCOMPARE(measured->size(), 2U);
         for (const bench::Measurement& one : *measured) {
-            QCOMPARE(one.counts.trials, 4);
-            QCOMPARE(one.counts.finished, 2);
+            QCOMPARE(one.counts.tally.trials(), 4);
+            QCOMPARE(one.counts.tally.finished(), 2);
             QCOMPARE(one.cpuSeconds.size(), 3U);
             // 0.75 s in the mean, in steps of 2 ms.
             QVERIFY(std::abs(one.stepsPerTrial() - 375.0) < 1e-9);

@@ -14,8 +14,7 @@ using store::StudyFile;
 namespace {
 
 study::CheckRecord sampleCheck(int generation) {
-    return {generation,
-            sample::generation(generation).winner,
+    return {{generation, sample::generation(generation).winner},
             97,
             {"native", testing::paperFitness(-1.0, -0.1 - generation, 0.1 + 0.2), 96, 95},
             {"simbody", testing::paperFitness(-1.0, -1.0 / 3.0, 0.7), 94, 90 - generation}};
@@ -96,8 +95,8 @@ class StudyChecksTest : public QObject {
         sample::write(path_, 3);
         const study::SelectionRecord selection{
             "simbody",
-            {{2, 1, testing::paperFitness(-1.0, -0.1, 0.1 + 0.2), 10, 9, 8, base::Quaternion::Identity()},
-             {0, 4, testing::paperFitness(0.0, -1.0 / 3.0, 0.7), 10, 9, 7, base::Quaternion::Identity()}}};
+            {{{2, 1}, testing::paperFitness(-1.0, -0.1, 0.1 + 0.2), 10, 9, 8, base::Quaternion::Identity()},
+             {{0, 4}, testing::paperFitness(0.0, -1.0 / 3.0, 0.7), 10, 9, 7, base::Quaternion::Identity()}}};
         {
             auto study = StudyFile::open(path_, sample::kProgram);
             VERIFY_OK(study);

@@ -165,7 +165,7 @@ class StudyFeederTest : public QObject {
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
         QVERIFY(!study->loadChosenWinner().value());
-        for (const store::IndividualPlace place : {store::IndividualPlace{0, 4}, {0, 2}}) {
+        for (const study::IndividualId place : {study::IndividualId{0, 4}, {0, 2}}) {
             VERIFY_OK(study->chooseWinner(place));
             QVERIFY(study->loadChosenWinner().value() == place);
         }
@@ -212,7 +212,7 @@ class StudyFeederTest : public QObject {
         VERIFY_OK(study->addPhysicalTrial(0, trialOf(0, 3, trial::Verdict::success)));
         VERIFY_OK(study->appendDriveLog(std::vector{reading(1, 1.0)}));
         VERIFY_OK(study->addCalibration(measured(0)));
-        VERIFY_OK(study->chooseWinner(store::IndividualPlace{0, 1}));
+        VERIFY_OK(study->chooseWinner(study::IndividualId{0, 1}));
         SQLite::Database database(path_.string(), SQLite::OPEN_READONLY);
         QCOMPARE(database.execAndGet("PRAGMA user_version").getInt(), store::currentSchemaVersion());
     }

@@ -86,7 +86,7 @@ class StudyOfVersion7Test : public QObject {
         const auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
         for (int i = 0; i < 4; ++i)
-            QVERIFY(!study->loadLearningOutcomes(2, i).value());
+            QVERIFY(!study->loadLearningOutcomes({2, i}).value());
     }
 
     /// The next generation is that which the old program had.

@@ -80,7 +80,7 @@ class StudyOutcomesTest : public QObject {
             for (int i = 0; i < 6; ++i) {
                 const auto count =
                     static_cast<std::size_t>(record.individuals[static_cast<std::size_t>(i)].trials);
-                const auto packed = study->loadLearningOutcomes(index, i);
+                const auto packed = study->loadLearningOutcomes({index, i});
                 VERIFY_OK(packed);
                 QCOMPARE(packed->has_value(), count > 0);
                 if (count == 0) continue;
@@ -92,9 +92,9 @@ class StudyOutcomesTest : public QObject {
             // Whoever reads the individuals does not read these.
             QVERIFY(study->loadGeneration(index).value().made.outcomes.empty());
         }
-        VERIFY_OK(study->loadLearningOutcomes(2, 0));
-        QVERIFY(!study->loadLearningOutcomes(2, 0).value());
-        QVERIFY(!study->loadLearningOutcomes(0, 6).value());
+        VERIFY_OK(study->loadLearningOutcomes({2, 0}));
+        QVERIFY(!study->loadLearningOutcomes({2, 0}).value());
+        QVERIFY(!study->loadLearningOutcomes({0, 6}).value());
     }
 
     /// More than are packed together, so that individuals, ranks and poses lie in several pieces.
@@ -115,7 +115,7 @@ class StudyOutcomesTest : public QObject {
             entry.trials = count;
             selection.entries.push_back(entry);
             // Not all poses were tried.
-            validation.rows.push_back({static_cast<int>(2 * firsts.size()), count});
+            validation.rows.push_back({static_cast<int>(2 * firsts.size()), {count, 0, 0, 0}});
         }
         selection.made = {kMaker, outcomes(all, 1)};
         validation.made = {{"", "simbody", "FMA"}, outcomes(all, 2)};
@@ -139,7 +139,7 @@ class StudyOutcomesTest : public QObject {
         auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
         VERIFY_OK(study);
         VERIFY_OK(study->saveGeneration(sample::generation(0)));
-        QVERIFY(!study->loadLearningOutcomes(0, 0).value());
+        QVERIFY(!study->loadLearningOutcomes({0, 0}).value());
     }
 
     void olderStudiesHaveNone() {
@@ -152,11 +152,11 @@ class StudyOutcomesTest : public QObject {
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
         for (int i = 0; i < 6; ++i)
-            QVERIFY(!study->loadLearningOutcomes(0, i).value());
+            QVERIFY(!study->loadLearningOutcomes({0, i}).value());
         // What is learned from now on has some.
         const study::GenerationRecord next = generation(1);
         VERIFY_OK(study->saveGeneration(next));
-        QVERIFY(hold(study->loadLearningOutcomes(1, 1), next.made, 0,
+        QVERIFY(hold(study->loadLearningOutcomes({1, 1}), next.made, 0,
                      static_cast<std::size_t>(next.individuals[1].trials)));
     }
 
@@ -169,7 +169,7 @@ class StudyOutcomesTest : public QObject {
         VERIFY_OK(study->copyTo(copied));
         const auto copy = StudyFile::openReadOnly(copied);
         VERIFY_OK(copy);
-        QVERIFY(hold(copy->loadLearningOutcomes(0, 1), record.made, 0,
+        QVERIFY(hold(copy->loadLearningOutcomes({0, 1}), record.made, 0,
                      static_cast<std::size_t>(record.individuals[1].trials)));
     }
 
@@ -202,7 +202,7 @@ class StudyOutcomesTest : public QObject {
         VERIFY_OK(study);
         int damaged = 0;
         for (int i = 0; i < 6; ++i) {
-            const auto packed = study->loadLearningOutcomes(0, i);
+            const auto packed = study->loadLearningOutcomes({0, i});
             if (packed && !*packed) continue;
             const auto read = packed ? store::unpack(**packed) : packed.error();
             if (read) continue;
@@ -227,7 +227,7 @@ class StudyOutcomesTest : public QObject {
         });
         const auto study = StudyFile::openReadOnly(path_);
         VERIFY_OK(study);
-        const auto packed = study->loadLearningOutcomes(0, 1);
+        const auto packed = study->loadLearningOutcomes({0, 1});
         VERIFY_OK(packed);
         QVERIFY(!store::unpack(**packed).ok());
     }

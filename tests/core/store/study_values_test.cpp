@@ -29,13 +29,13 @@ QString firstMessage(const StudyFile& study) {
 
 void fill(StudyFile& study) {
     VERIFY_OK(study.saveGeneration(sample::generation(0)));
-    VERIFY_OK(study.saveCheck({0, 0, 10, {"native", {}, 9, 8}, {"simbody", {}, 7, 6}}));
+    VERIFY_OK(study.saveCheck({{0, 0}, 10, {"native", {}, 9, 8}, {"simbody", {}, 7, 6}}));
     study::SelectionRecord selection;
     selection.entries.push_back({});
     selection.entries[0].trials = 10;
     VERIFY_OK(study.saveSelection(selection));
     study::ValidationRecord validation;
-    validation.rows.push_back({0, 10, 4, 2, 1, 1});
+    validation.rows.push_back({0, {6, 2, 1, 1}});
     VERIFY_OK(study.saveValidation(validation));
     study::PhysicalValidation physical;
     physical.plan.poses = {0, 1};

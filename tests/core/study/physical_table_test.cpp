@@ -32,7 +32,7 @@ PhysicalValidation physical(const std::vector<int>& failures, int trials) {
 ValidationRecord simulated(const std::vector<int>& failures, int trials) {
     ValidationRecord record;
     for (std::size_t pose = 0; pose < failures.size(); ++pose)
-        record.rows.push_back({static_cast<int>(pose), trials, failures[pose], failures[pose], 0, 0});
+        record.rows.push_back({static_cast<int>(pose), {trials - failures[pose], failures[pose], 0, 0}});
     return record;
 }
 
@@ -94,10 +94,10 @@ class PhysicalTableTest : public QObject {
         const study::PhysicalTable table =
             study::comparePhysical(&record, physical({0, 0, 0, 0, 0, 0}, 100), {});
         QCOMPARE(table.rows.size(), std::size_t{6});
-        QCOMPARE(table.total.simulated.failures, 38);
-        QCOMPARE(table.total.simulated.trials, 6000);
-        QCOMPARE(table.total.physical.trials, 600);
-        QCOMPARE(table.total.physical.failures, 0);
+        QCOMPARE(table.total.simulated.tally.failures(), 38);
+        QCOMPARE(table.total.simulated.tally.trials(), 6000);
+        QCOMPARE(table.total.physical.tally.trials(), 600);
+        QCOMPARE(table.total.physical.tally.failures(), 0);
         QVERIFY(std::abs(table.total.physical.bounds.low - 0.9939) < 5e-5);
         for (const study::PhysicalRow& row : table.rows)
             QVERIFY(row.p.value() > 0.2);
@@ -118,7 +118,7 @@ class PhysicalTableTest : public QObject {
     // feeder's.
     void aPoseWithoutSimulation() {
         ValidationRecord record = simulated({0, 10, 5}, 1000);
-        record.rows[2].trials = record.rows[2].failures = record.rows[2].wrongOrientation = 0;
+        record.rows[2].tally = {};
         const std::vector<part::PoseGroup> groups = {{{0}, 0.6}, {{1}, 0.3}, {{2}, 0.1}};
         const study::PhysicalTable table = study::comparePhysical(&record, physical({0, 1, 0}, 100), groups);
         QVERIFY2(contains(table.summary, "99.7 % on the feeder") &&
@@ -225,17 +225,17 @@ class PhysicalTableTest : public QObject {
         selections[0].entries[0].generation = 3;
         selections[0].entries[0].individual = 7;
         selections[0].entries[0].modalOrientation = one;
-        QVERIFY(!study::findExpected({}, {}, 3, 7));
+        QVERIFY(!study::findExpected({}, {}, {3, 7}));
         // None finished: their most frequent orientation says nothing.
-        QVERIFY(!study::findExpected({}, selections, 3, 7));
+        QVERIFY(!study::findExpected({}, selections, {3, 7}));
         selections[0].entries[0].finished = 5;
-        QVERIFY(!study::findExpected({}, selections, 3, 8));
-        QVERIFY(study::findExpected({}, selections, 3, 7)->coeffs() == one.coeffs());
+        QVERIFY(!study::findExpected({}, selections, {3, 8}));
+        QVERIFY(study::findExpected({}, selections, {3, 7})->coeffs() == one.coeffs());
         std::vector<ValidationRecord> validations(2);
         validations[0].generation = 3;
         validations[0].individual = 7;
         validations[0].expectedOrientation = two;
-        QVERIFY(study::findExpected(validations, selections, 3, 7)->coeffs() == two.coeffs());
+        QVERIFY(study::findExpected(validations, selections, {3, 7})->coeffs() == two.coeffs());
     }
 
     void csvCanBeReadAgain() {
@@ -277,10 +277,10 @@ class PhysicalTableTest : public QObject {
         QCOMPARE(table.rows.size(), std::size_t{3});
         QCOMPARE(table.rows[0].poses, groups[0].poses);
         QCOMPARE(table.rows[0].planned, 100);
-        QCOMPARE(table.rows[0].simulated.trials, 6000);
-        QCOMPARE(table.rows[0].simulated.failures, 90);
-        QCOMPARE(table.rows[0].physical.trials, 100);
-        QCOMPARE(table.total.physical.trials, 300);
+        QCOMPARE(table.rows[0].simulated.tally.trials(), 6000);
+        QCOMPARE(table.rows[0].simulated.tally.failures(), 90);
+        QCOMPARE(table.rows[0].physical.tally.trials(), 100);
+        QCOMPARE(table.total.physical.tally.trials(), 300);
         QCOMPARE(table.total.planned, 300);
         QVERIFY(std::abs(*table.total.physical.rate - 200.0 / 300.0) < 1e-12);
         QVERIFY(std::abs(*table.weighted.physical.rate - 0.989) < 1e-12);
@@ -303,8 +303,8 @@ class PhysicalTableTest : public QObject {
         const study::PhysicalTable table = study::comparePhysical(nullptr, physical({3, 5, 0}, 100), groups);
         QCOMPARE(table.rows.size(), std::size_t{2});
         QCOMPARE(table.rows[0].planned, 200);
-        QCOMPARE(table.rows[0].physical.trials, 200);
-        QCOMPARE(table.rows[0].physical.failures, 8);
+        QCOMPARE(table.rows[0].physical.tally.trials(), 200);
+        QCOMPARE(table.rows[0].physical.tally.failures(), 8);
         QCOMPARE(table.total.planned, 300);
         // A pose that the plan leaves out has no row and no weight.
         const study::PhysicalTable some = study::comparePhysical(nullptr, physical({3, 5}, 100), groups);

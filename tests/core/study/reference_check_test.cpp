@@ -49,7 +49,7 @@ std::vector<GenerationRecord> learn(const study::StudyInputs& inputs, Background
     study::LearningEvents events;
     events.save = [&](const GenerationRecord& record) {
         const auto& winner = record.individuals[static_cast<std::size_t>(record.winner)];
-        if (checks != nullptr) checks->add({record.index, record.winner, winner});
+        if (checks != nullptr) checks->add({{record.index, record.winner}, winner});
         saved.push_back(record);
         return base::success();
     };
@@ -58,7 +58,7 @@ std::vector<GenerationRecord> learn(const study::StudyInputs& inputs, Background
 }
 
 Individual winnerOf(const GenerationRecord& record) {
-    return {record.index, record.winner, record.individuals[static_cast<std::size_t>(record.winner)]};
+    return {{record.index, record.winner}, record.individuals[static_cast<std::size_t>(record.winner)]};
 }
 
 /// Waits until so many checks are there.

@@ -12,7 +12,7 @@ class SelectionTest : public QObject {
 
  private slots:
     void successIsThatOfTheNewestWord() {
-        study::Individual winner{4, 2, {}};
+        study::Individual winner{{4, 2}, {}};
         QVERIFY(!findSuccess({}, {}, winner, {}));
         winner.record.trials = 100;
         winner.record.oriented = 70;
@@ -28,9 +28,9 @@ class SelectionTest : public QObject {
         QCOMPARE(findSuccess(selections, {}, winner, {})->count.successes, 991);
 
         // Validated twice: 10 of 30 failed, then 3 of 20.
-        study::ValidationRecord first{4, 2, "native", {}, 0.0, {{0, 10, 4}, {1, 20, 6}}};
-        study::ValidationRecord second{4, 2, "native", {}, 0.0, {{0, 20, 3}}};
-        study::ValidationRecord other{4, 3, "native", {}, 0.0, {{0, 20, 20}}};
+        study::ValidationRecord first{{4, 2}, "native", {}, 0.0, {{0, {6, 4, 0, 0}}, {1, {14, 6, 0, 0}}}};
+        study::ValidationRecord second{{4, 2}, "native", {}, 0.0, {{0, {17, 3, 0, 0}}}};
+        study::ValidationRecord other{{4, 3}, "native", {}, 0.0, {{0, {0, 20, 0, 0}}}};
         const std::vector<study::ValidationRecord> validations = {first, second, other};
         QCOMPARE(findSuccess({}, {&first, 1}, winner, {})->count.successes, 20);
         QCOMPARE(findSuccess({}, validations, winner, {})->count.successes, 17);
@@ -42,8 +42,9 @@ class SelectionTest : public QObject {
 
     // 6 of 10 in a pose in which 90 % land, 20 of 20 in the other: 0.9 0.6 + 0.1 = 0.64, not 26 of 30.
     void aValidationCountsAsPartsLand() {
-        const study::Individual winner{4, 2, {}};
-        const study::ValidationRecord record{4, 2, "native", {}, 0.0, {{0, 10, 4}, {1, 20, 0}}};
+        const study::Individual winner{{4, 2}, {}};
+        const study::ValidationRecord record{
+            {4, 2}, "native", {}, 0.0, {{0, {6, 4, 0, 0}}, {1, {20, 0, 0, 0}}}};
         const std::vector<part::PoseGroup> groups = {{{0}, 0.9}, {{1}, 0.1}};
         const auto success = findSuccess({}, {&record, 1}, winner, groups);
         QCOMPARE(success->rate, 0.64);

@@ -167,11 +167,11 @@ class ValidationTest : public QObject {
         for (int pose = 0; pose < 3; ++pose) {
             const study::ValidationRow& row = record->rows[static_cast<std::size_t>(pose)];
             QCOMPARE(row.pose, pose);
-            QCOMPARE(row.trials, 100);
-            QCOMPARE(row.fellOff, pose);
-            QCOMPARE(row.stuck, 3 * pose);
-            QCOMPARE(row.wrongOrientation, given ? 90 - 4 * pose : 10);
-            QCOMPARE(row.failures, row.fellOff + row.stuck + row.wrongOrientation);
+            QCOMPARE(row.tally.trials(), 100);
+            QCOMPARE(row.tally.fellOff, pose);
+            QCOMPARE(row.tally.stuck, 3 * pose);
+            QCOMPARE(row.tally.wrongOrientation, given ? 90 - 4 * pose : 10);
+            QCOMPARE(row.tally.failures(), row.tally.fellOff + row.tally.stuck + row.tally.wrongOrientation);
         }
         if (!given) {
             QVERIFY(trial::calcOrientationAngle(record->expectedOrientation, about(base::Vec3::UnitZ(), 20),
@@ -179,9 +179,9 @@ class ValidationTest : public QObject {
                                                 trial::OrientationDistance::symmetric) < 1e-6);
         }
         const study::ValidationRow total = study::calcTotal(*record);
-        QCOMPARE(total.trials, 300);
-        QCOMPARE(total.fellOff, 3);
-        QCOMPARE(total.stuck, 9);
+        QCOMPARE(total.tally.trials(), 300);
+        QCOMPARE(total.tally.fellOff, 3);
+        QCOMPARE(total.tally.stuck, 9);
     }
 
     void validationStartsNearThePoses() {
@@ -193,7 +193,7 @@ class ValidationTest : public QObject {
         base::Vec3 heading = base::Vec3::Zero();
         constexpr int kTrials = 400;
         for (int pose = 0; pose < 3; ++pose) {
-            const trial::TrialBatch batch = study::makeValidationBatch(scene, 3, 4, pose, kTrials);
+            const trial::TrialBatch batch = study::makeValidationBatch(scene, {3, 4}, pose, kTrials);
             const base::Quaternion& stable =
                 inputs.part->stablePoses[static_cast<std::size_t>(pose)].rotation;
             for (int i = 0; i < kTrials; ++i) {
@@ -219,9 +219,9 @@ class ValidationTest : public QObject {
         const auto track = std::make_shared<const track::Track>(
             study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.design).value());
         const study::TrialScene scene{&inputs.settings.simulation, inputs.part, track, 7};
-        const trial::TrialBatch few = study::makeLearningBatch(scene, 3, 4, 5);
-        const trial::TrialBatch many = study::makeLearningBatch(scene, 3, 4, 50);
-        const trial::TrialBatch fresh = study::makeSelectionBatch(scene, 3, 4, 5);
+        const trial::TrialBatch few = study::makeLearningBatch(scene, {3, 4}, 5);
+        const trial::TrialBatch many = study::makeLearningBatch(scene, {3, 4}, 50);
+        const trial::TrialBatch fresh = study::makeSelectionBatch(scene, {3, 4}, 5);
         for (std::size_t i = 0; i < 5; ++i) {
             QCOMPARE(few.trials[i].stream,
                      (base::StreamKey{7, 3, 4, static_cast<std::uint32_t>(i), base::Purpose::trialStart}));
@@ -239,11 +239,11 @@ class ValidationTest : public QObject {
         stuckTime = 1.5;
         inputs.settings.evolution.learningStuckTime = 0.5;
         const study::TrialScene scene = study::makeScene(inputs.settings, inputs.part, track);
-        QCOMPARE(study::makeLearningBatch(scene, 0, 0, 1).termination.stuckTime, 0.5);
-        QCOMPARE(study::makeSelectionBatch(scene, 0, 0, 1).termination.stuckTime, 1.5);
-        QCOMPARE(study::makeValidationBatch(scene, 0, 0, 0, 1).termination.stuckTime, 1.5);
+        QCOMPARE(study::makeLearningBatch(scene, {0, 0}, 1).termination.stuckTime, 0.5);
+        QCOMPARE(study::makeSelectionBatch(scene, {0, 0}, 1).termination.stuckTime, 1.5);
+        QCOMPARE(study::makeValidationBatch(scene, {0, 0}, 0, 1).termination.stuckTime, 1.5);
         stuckTime = 0.3;  // the lesser counts
-        QCOMPARE(study::makeLearningBatch(scene, 0, 0, 1).termination.stuckTime, 0.3);
+        QCOMPARE(study::makeLearningBatch(scene, {0, 0}, 1).termination.stuckTime, 0.3);
     }
 
     void partWithoutPosesIsRefused() {
@@ -260,8 +260,9 @@ class ValidationTest : public QObject {
         study::ValidationRecord record;
         const std::vector<int> failures = {0, 10, 5, 9, 7, 7};
         for (int i = 0; i < 6; ++i)
-            record.rows.push_back({i, 1000, failures[static_cast<std::size_t>(i)],
-                                   failures[static_cast<std::size_t>(i)], 0, 0});
+            record.rows.push_back({i,
+                                   {1000 - failures[static_cast<std::size_t>(i)],
+                                    failures[static_cast<std::size_t>(i)], 0, 0}});
         const QStringList lines =
             QString::fromStdString(study::formatValidation(study::tabulate(record, {}))).split('\n');
         const auto words = [&](int line) { return lines[line].simplified(); };
@@ -279,15 +280,16 @@ class ValidationTest : public QObject {
         study::ValidationRecord record;
         const std::vector<int> failures = {0, 10, 5, 9, 7, 7};
         for (int i = 0; i < 6; ++i)
-            record.rows.push_back({i, 1000, failures[static_cast<std::size_t>(i)],
-                                   failures[static_cast<std::size_t>(i)], 0, 0});
+            record.rows.push_back({i,
+                                   {1000 - failures[static_cast<std::size_t>(i)],
+                                    failures[static_cast<std::size_t>(i)], 0, 0}});
         const std::vector<part::PoseGroup> groups = {{{0, 1}, 0.645}, {{2, 3}, 0.243}, {{4, 5}, 0.112}};
         const study::ValidationTable table = study::tabulate(record, groups);
         QCOMPARE(table.groups.size(), std::size_t{3});
-        QCOMPARE(table.groups[1].sum.trials, 2000);
-        QCOMPARE(table.groups[1].sum.failures, 14);
+        QCOMPARE(table.groups[1].sum.tally.trials(), 2000);
+        QCOMPARE(table.groups[1].sum.tally.failures(), 14);
         QCOMPARE(table.groups[1].rows.size(), std::size_t{2});
-        QCOMPARE(table.total.failures, 38);
+        QCOMPARE(table.total.tally.failures(), 38);
         const double rate = 1.0 - 0.645 * 0.005 - 0.243 * 0.007 - 0.112 * 0.007;
         QVERIFY(std::abs(table.weighted.rate.value() - rate) < 1e-12);
         const QStringList lines = QString::fromStdString(study::formatValidation(table)).split('\n');
@@ -321,10 +323,14 @@ class ValidationTest : public QObject {
 
     void selectionTableListsTheBestFirst() {
         study::SelectionRecord record{"fake", {}};
-        record.entries.push_back({439, 17, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 1000,
+        record.entries.push_back({{439, 17},
+                                  testing::paperFitness(0.0, -0.01, 0.85),
+                                  1000,
+                                  1000,
+                                  1000,
                                   base::Quaternion::Identity()});
         record.entries.push_back(
-            {12, 3, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
+            {{12, 3}, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
         const QStringList lines = QString::fromStdString(study::formatSelection(record)).split('\n');
         QCOMPARE(lines[1].simplified(), QString("1 439 17 -0.010 0.850 1000 1000 100.0 % 99.6 ... 100.0 %"));
         QCOMPARE(lines[2].simplified(), QString("2 12 3 -0.250 0.500 0 0 - -"));
@@ -339,7 +345,7 @@ class ValidationTest : public QObject {
         study::LearningEvents events;
         events.save = [&](const study::GenerationRecord& record) {
             winners.push_back(
-                {record.index, record.winner, record.individuals[static_cast<std::size_t>(record.winner)]});
+                {{record.index, record.winner}, record.individuals[static_cast<std::size_t>(record.winner)]});
             return base::success();
         };
         VERIFY_OK(study::evolve(inputs, std::nullopt, events, {}));
@@ -352,7 +358,7 @@ class ValidationTest : public QObject {
         QVERIFY(best != winners.end());
         const auto table = study::validate(inputs, *best, std::nullopt, {});
         VERIFY_OK(table);
-        QCOMPARE(study::calcTotal(*table).trials, 90);
+        QCOMPARE(study::calcTotal(*table).tally.trials(), 90);
         // The same again, on one thread.
         study::StudyInputs single = fake::waveInputs(1);
         single.settings = inputs.settings;

@@ -83,8 +83,8 @@ class StoredScoresTest : public QObject {
             for (std::size_t i = 0; i < record->individuals.size(); ++i) {
                 const study::IndividualRecord& individual = record->individuals[i];
                 counts.insert(individual.trials);
-                const auto [batch, outcomes] =
-                    read(*file, inputs, {TrialKind::learning, {generation, static_cast<int>(i), individual}});
+                const auto [batch, outcomes] = read(
+                    *file, inputs, {TrialKind::learning, {{generation, static_cast<int>(i)}, individual}});
                 QCOMPARE(static_cast<int>(outcomes.size()), individual.trials);
                 QVERIFY(agree(
                     objectives::measureAll(
@@ -92,10 +92,10 @@ class StoredScoresTest : public QObject {
                     individual.fitness));
                 const auto counted = study::countTrials(outcomes, inputs.part->symmetry, std::nullopt,
                                                         inputs.settings.validation.tolerance);
-                QCOMPARE(counted.finished, individual.finished);
-                QCOMPARE(counted.fellOff, individual.fellOff);
-                QCOMPARE(counted.stuck, individual.stuck);
-                QCOMPARE(std::optional(counted.oriented), individual.oriented);
+                QCOMPARE(counted.tally.finished(), individual.finished);
+                QCOMPARE(counted.tally.fellOff, individual.fellOff);
+                QCOMPARE(counted.tally.stuck, individual.stuck);
+                QCOMPARE(std::optional(counted.tally.success), individual.oriented);
             }
         }
         // A race gives them different numbers of trials.
@@ -106,9 +106,7 @@ class StoredScoresTest : public QObject {
         QVERIFY(workflow::validateAndSave(*file, inputs, winner, std::nullopt, {}).ok());
         const study::SelectionRecord selection = file->loadSelections()->front();
         for (const study::SelectionEntry& entry : selection.entries) {
-            const study::Individual individual{
-                entry.generation, entry.individual,
-                file->loadIndividual(entry.generation, entry.individual).value()};
+            const study::Individual individual{entry, file->loadIndividual(entry).value()};
             const auto [batch, outcomes] = read(*file, inputs, {TrialKind::selection, individual});
             QCOMPARE(static_cast<int>(outcomes.size()), entry.trials);
             QVERIFY(agree(objectives::measureAll(study::makeEvaluation(inputs, *batch.track,
@@ -121,9 +119,9 @@ class StoredScoresTest : public QObject {
             const auto [batch, outcomes] = read(*file, inputs, {TrialKind::validation, winner, {row.pose}});
             const auto counted = study::countTrials(outcomes, inputs.part->symmetry,
                                                     validation.expectedOrientation, validation.tolerance);
-            QCOMPARE(counted.trials - counted.oriented, row.failures);
-            QCOMPARE(counted.fellOff, row.fellOff);
-            QCOMPARE(counted.stuck, row.stuck);
+            QCOMPARE(counted.tally.failures(), row.tally.failures());
+            QCOMPARE(counted.tally.fellOff, row.tally.fellOff);
+            QCOMPARE(counted.tally.stuck, row.tally.stuck);
         }
     }
 

@@ -64,8 +64,7 @@ Study load(const char* path) {
         study::makeScene(settings, part,
                          std::make_shared<const track::Track>(
                              take(study::decodeTrack(settings.track, best.front().record.design))));
-    const trial::TrialBatch batch =
-        study::makeSelectionBatch(scene, best.front().generation, best.front().individual, kTrials);
+    const trial::TrialBatch batch = study::makeSelectionBatch(scene, best.front(), kTrials);
     const auto outcomes = take(native::NativeEngine({0, 0.0}).run(std::span(&batch, 1), {})).front();
     const base::Quaternion expected =
         trial::findModalOrientation(trial::finalOrientations(outcomes), part->symmetry, loaded.tolerance);

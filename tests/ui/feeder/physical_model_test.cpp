@@ -32,7 +32,7 @@ class PhysicalModelTest : public QObject {
         add(physical, 2, trial::Verdict::fellOff);
         add(physical, 0, trial::Verdict::stuck);
         study::ValidationRecord simulated;
-        simulated.rows = {{0, 200, 3, 3, 0, 0}, {1, 200, 3, 0, 3, 0}};
+        simulated.rows = {{0, {197, 3, 0, 0}}, {1, {197, 0, 3, 0}}};
         const std::vector<part::PoseGroup> groups = {{{0}, 0.9}, {{1}, 0.1}};
         PhysicalModel model;
         model.setTable(study::comparePhysical(&simulated, physical, groups));

@@ -59,7 +59,7 @@ study::ValidationTable paperTable(const std::vector<part::PoseGroup>& groups = {
     const std::vector<int> failures = {0, 10, 5, 9, 7, 7};
     for (int pose = 0; pose < 6; ++pose) {
         const int failed = failures[static_cast<std::size_t>(pose)];
-        record.rows.push_back({pose, 1000, failed, failed, 0, 0});
+        record.rows.push_back({pose, {1000 - failed, failed, 0, 0}});
     }
     return study::tabulate(record, groups);
 }
@@ -283,10 +283,14 @@ class RecordModelsTest : public QObject {
 
     void selectionIsRanked() {
         study::SelectionRecord record{"simbody", {}};
-        record.entries.push_back({439, 17, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 994,
+        record.entries.push_back({{439, 17},
+                                  testing::paperFitness(0.0, -0.01, 0.85),
+                                  1000,
+                                  1000,
+                                  994,
                                   base::Quaternion::Identity()});
         record.entries.push_back(
-            {12, 3, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
+            {{12, 3}, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
         SelectionModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
         model.setSelection(record);

@@ -329,7 +329,8 @@ class ReviewPageTest : public QObject {
         int row = -1;
         for (int i = 0; i < model.rowCount(); ++i) {
             const models::ValidationTableRow& one = model.rows()[static_cast<std::size_t>(i)];
-            if (one.kind == models::ValidationTableRow::Kind::pose && one.row.wrongOrientation > 0) row = i;
+            if (one.kind == models::ValidationTableRow::Kind::pose && one.row.tally.wrongOrientation > 0)
+                row = i;
         }
         QVERIFY2(row >= 0, "The study of this test has no such failure.");
         user.validation().scrollTo(user.validation().model()->index(row, 0));
@@ -342,7 +343,7 @@ class ReviewPageTest : public QObject {
         QCOMPARE(user.find<QComboBox>("trials.pose")->currentData().toInt(), wanted.pose);
         // All of them in the end, and nothing else.
         const QAbstractItemModel& shown = *user.trials().model();
-        QTRY_COMPARE_WITH_TIMEOUT(shown.rowCount(), wanted.wrongOrientation, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(shown.rowCount(), wanted.tally.wrongOrientation, kPatience);
         for (int i = 0; i < shown.rowCount(); ++i)
             QCOMPARE(shown.index(i, 0).data(models::VerdictRole).toInt(),
                      static_cast<int>(trial::Verdict::wrongOrientation));
@@ -353,7 +354,7 @@ class ReviewPageTest : public QObject {
             return one.opens && std::find(one.poses.begin(), one.poses.end(), wanted.pose) != one.poses.end();
         });
         QVERIFY(group != model.rows().end());
-        const int all = group->row.wrongOrientation;
+        const int all = group->row.tally.wrongOrientation;
         const int groupRow = static_cast<int>(group - model.rows().begin());
         user.validation().scrollTo(model.index(groupRow, 0));
         user.click(user.validation(), groupRow, ValidationModel::WrongOrientation);

@@ -267,7 +267,7 @@ class StudyRunsTest : public QObject {
         const study::ValidationRecord& validation = session->validations().front();
         QCOMPARE(validation.rows.size(), session->part()->stablePoses.size());
         for (std::size_t row = 0; row < validation.rows.size(); ++row)
-            QCOMPARE(validation.rows[row].failures, table->rows[row].failures);
+            QCOMPARE(validation.rows[row].tally.failures(), table->rows[row].tally.failures());
         session.reset();
         session = fixture_->open("a.trap");
         QCOMPARE(session->selections().size(), std::size_t{1});

@@ -66,10 +66,11 @@ class StudyTrialsTest : public QObject {
             const std::vector<ListedTrials> told = simulate(request);
             QCOMPARE(told[0].outcomes.size(), std::size_t{10});
             const auto& verdicts = told[0].judged.verdicts;
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::stuck), row.stuck);
-            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::fellOff), row.fellOff);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::stuck), row.tally.stuck);
+            QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::fellOff),
+                     row.tally.fellOff);
             QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::wrongOrientation),
-                     row.wrongOrientation);
+                     row.tally.wrongOrientation);
             // Fewer are the first of them, whichever the pose is.
             request.count = 3;
             const std::vector<ListedTrials> fewer = simulate(request);
