@@ -56,9 +56,10 @@ fi
 mkdir -p "$cache"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# Without the precompiled headers: they are the compiler's own, and a file must name what it needs itself.
+# Without the precompiled headers: they are the compiler's own, and a file must name what it needs itself. Nor is it
+# part of a verdict where the object goes.
 database=$work/compile_commands.json
-sed -E '/"command":/ s/ (-Winvalid-pch|-fpch-preprocess|-include [^ ]*cmake_pch\.hxx)//g' \
+sed -E '/"command":/ s/ (-Winvalid-pch|-fpch-preprocess|-include [^ ]*cmake_pch\.hxx|-o [^ ]*\.o)//g' \
     "$build/compile_commands.json" > "$database"
 
 # What was changed last comes first, and before it what git does not know yet.

@@ -38,7 +38,7 @@ while (($# > 0)); do
     esac
     shift
 done
-camera=$build/tests/ui/window/screenshots
+camera=$build/tests/ui/screenshots
 [[ -x $camera ]] || fail "there is no $camera; packaging/build.sh makes it."
 command -v xvfb-run > /dev/null || fail "xvfb-run is not installed; packaging/install.sh does it."
 mkdir -p "$out"

@@ -1,4 +1,5 @@
-# One target per folder. trapwright_library(core_base SOURCES a.cpp PUBLIC core_x PRIVATE Foreign::lib)
+# One target per folder, in the list of its layer: its links say whom the folder may use.
+# trapwright_library(core_base SOURCES base/a.cpp PUBLIC core_x PRIVATE Foreign::lib)
 add_library(trapwright_options INTERFACE)
 target_compile_options(trapwright_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
 # GCC 12 sees overlapping and overlong copies in `"text" + std::string` that are not there (GCC bugs 105651, 105329).
@@ -23,7 +24,7 @@ if(TRAPWRIGHT_FUZZ)
 endif()
 
 # Foreign headers that nearly every file reads are compiled once for all targets of a layer, which halves the time of a
-# build. A folder's list file names the set that its targets use in TRAPWRIGHT_PRECOMPILED. Foreign headers alone: ours
+# build. A layer's list names in TRAPWRIGHT_PRECOMPILED the set that the targets after it use. Foreign headers alone: ours
 # change. check_tidy.sh looks at every file without them, so none can lean on what it does not include itself.
 # trapwright_precompiled(core_headers HEADERS <vector> LIBS Eigen3::Eigen)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// Nothing but precompiled headers.\n")
@@ -68,26 +69,52 @@ if(TRAPWRIGHT_SANITIZE)
     set(TRAPWRIGHT_TEST_TIMEOUT 3600)
 endif()
 
-# trapwright_test(core_base_random_test LIBS core_base): built from random_test.cpp beside the calling list file.
-function(trapwright_test name)
-    cmake_parse_arguments(ARG "" "SOURCE" "LIBS" ${ARGN})
-    add_executable(${name} ${ARG_SOURCE})
-    set_target_properties(${name} PROPERTIES AUTOMOC ON)
-    target_link_libraries(${name} PRIVATE ${ARG_LIBS} Qt6::Test trapwright_options)
-    trapwright_use_precompiled(${name})
-    target_compile_definitions(${name} PRIVATE TRAPWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${TRAPWRIGHT_TEST_TIMEOUT})
+# A test on an X server of its own, with OpenGL in software.
+# trapwright_x_server_test(x_test COMMAND x_program an_argument SCREEN 2560x1600 ENVIRONMENT QT_SCALE_FACTOR=2)
+function(trapwright_x_server_test name)
+    cmake_parse_arguments(ARG "" "SCREEN" "COMMAND;ENVIRONMENT" ${ARGN})
+    list(POP_FRONT ARG_COMMAND program)
+    add_test(NAME ${name}
+        COMMAND xvfb-run -a -s "-screen 0 ${ARG_SCREEN}x24 +extension GLX" $<TARGET_FILE:${program}> ${ARG_COMMAND})
+    set(environment QT_QPA_PLATFORM=xcb LIBGL_ALWAYS_SOFTWARE=1 ${ARG_ENVIRONMENT})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${TRAPWRIGHT_TEST_TIMEOUT} ENVIRONMENT "${environment}")
 endfunction()
 
-# The same for a test that shows windows: it gets an X server of its own, with OpenGL in software.
-function(trapwright_gui_test name)
+# A program that tests start, or that is run by hand. trapwright_test_program(soak SOURCE window/soak.cpp LIBS ui_window)
+function(trapwright_test_program name)
     cmake_parse_arguments(ARG "" "SOURCE" "LIBS" ${ARGN})
     add_executable(${name} ${ARG_SOURCE})
-    set_target_properties(${name} PROPERTIES AUTOMOC ON)
-    target_link_libraries(${name} PRIVATE ${ARG_LIBS} Qt6::Test trapwright_options)
-    trapwright_use_precompiled(${name})
+    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${name} PRIVATE ${ARG_LIBS} trapwright_options)
     target_compile_definitions(${name} PRIVATE TRAPWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    add_test(NAME ${name} COMMAND xvfb-run -a -s "-screen 0 2560x1600x24 +extension GLX" $<TARGET_FILE:${name}>)
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${TRAPWRIGHT_TEST_TIMEOUT} ENVIRONMENT "QT_QPA_PLATFORM=xcb;LIBGL_ALWAYS_SOFTWARE=1")
+endfunction()
+
+# trapwright_test(peers_test SOURCE peers_test.cpp LIBS tests_peers). X_SERVER: it shows windows.
+function(trapwright_test name)
+    cmake_parse_arguments(ARG "X_SERVER" "SOURCE" "LIBS" ${ARGN})
+    trapwright_test_program(${name} SOURCE ${ARG_SOURCE} LIBS ${ARG_LIBS} Qt6::Test)
+    set_target_properties(${name} PROPERTIES AUTOMOC ON)
+    trapwright_use_precompiled(${name})
+    if(ARG_X_SERVER)
+        trapwright_x_server_test(${name} COMMAND ${name} SCREEN 2560x1600)
+    else()
+        add_test(NAME ${name} COMMAND ${name})
+        set_tests_properties(${name} PROPERTIES TIMEOUT ${TRAPWRIGHT_TEST_TIMEOUT})
+    endif()
+endfunction()
+
+# Tests of one folder that link the same: core_base_random_test is tests/core/base/random_test.cpp, and so on.
+# trapwright_tests(core/base LIBS core_base TESTS random_test csv_test). X_SERVER: as above.
+function(trapwright_tests folder)
+    cmake_parse_arguments(ARG "X_SERVER" "" "LIBS;TESTS" ${ARGN})
+    string(REPLACE "/" "_" subject ${folder})
+    set(x_server)
+    if(ARG_X_SERVER)
+        set(x_server X_SERVER)
+    endif()
+    foreach(test ${ARG_TESTS})
+        cmake_path(GET test FILENAME name)
+        trapwright_test(${subject}_${name} ${x_server}
+            SOURCE ${PROJECT_SOURCE_DIR}/tests/${folder}/${test}.cpp LIBS ${ARG_LIBS})
+    endforeach()
 endfunction()

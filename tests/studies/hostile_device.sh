@@ -36,8 +36,8 @@ sequences=${1:-1000}
 at_once=${AT_ONCE:-40}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build/release/tests
-program=$build/app/transports/hostile_device
-window=$build/ui/feeder/hostile_window
+program=$build/app/hostile_device
+window=$build/ui/hostile_window
 for needed in "$program" "$window"; do
     [[ -x $needed ]] && continue
     echo "hostile_device.sh: $needed is not there. Build it with packaging/build.sh release." >&2

@@ -21,7 +21,7 @@ case "${1:-}" in
 esac
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build/release
-probe=$build/tests/ui/window/responsiveness
+probe=$build/tests/ui/responsiveness
 read -ra options <<< "${OPTIONS:---population 40 --trials 40 --engine hybrid}"
 if [[ ! -x $probe ]]; then
     echo "responsiveness.sh: $probe is not there. Build it with packaging/build.sh release." >&2

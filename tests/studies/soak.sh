@@ -24,7 +24,7 @@ case "${1:-}" in
 esac
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build/release
-soak=$build/tests/ui/window/soak
+soak=$build/tests/ui/soak
 trapwright=$build/app/trapwright/trapwright
 if [[ ! -x $soak ]]; then
     echo "soak.sh: $soak is not there. Build it with packaging/build.sh release." >&2

@@ -84,4 +84,4 @@ int main(int argc, char** argv) {
     SceneMemoryTest test;
     return QTest::qExec(&test, argc, argv);
 }
-#include "scene_memory_test.moc"
+#include "memory_test.moc"
