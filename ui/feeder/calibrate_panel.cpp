@@ -17,13 +17,17 @@
 
 #include "ui/feeder/drive_link.h"
 #include "ui/look/whole_headers.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::feeder {
 
 using calibration::Estimate;
 using calibration::Method;
-using session::StudySession;
+using session::StudyDesign;
+using session::StudyFeeder;
+using session::StudyRuns;
 
 namespace {
 
@@ -146,16 +150,20 @@ QWidget* CalibratePanel::makeResult() {
     return box;
 }
 
-void CalibratePanel::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+void CalibratePanel::setFeeder(StudyFeeder* feeder) {
+    if (feeder_) {
+        feeder_->disconnect(this);
+        feeder_->design().disconnect(this);
+        feeder_->runs().disconnect(this);
+    }
+    feeder_ = feeder;
     readings_.clear();
     speeds_.reset();
-    if (session_) {
-        connect(session_, &StudySession::calibrationAdded, this, &CalibratePanel::showChanges);
-        connect(session_, &StudySession::settingsChanged, this, &CalibratePanel::showChanges);
-        connect(session_, &StudySession::stateChanged, this, &CalibratePanel::showChanges);
-        connect(session_, &StudySession::speedTableReady, this, [this](const calibration::SpeedTable& table) {
+    if (feeder_) {
+        connect(feeder_, &StudyFeeder::calibrationAdded, this, &CalibratePanel::showChanges);
+        connect(&feeder_->design(), &StudyDesign::settingsChanged, this, &CalibratePanel::showChanges);
+        connect(&feeder_->runs(), &StudyRuns::stateChanged, this, &CalibratePanel::showChanges);
+        connect(feeder_, &StudyFeeder::speedTableReady, this, [this](const calibration::SpeedTable& table) {
             speeds_ = table;
             showResult();
         });
@@ -165,12 +173,12 @@ void CalibratePanel::setSession(StudySession* session) {
 }
 
 void CalibratePanel::carry(const study::Settings& settings) {
-    carried_ = Carried{session_->settings(), settings};
+    carried_ = Carried{feeder_->design().settings(), settings};
 }
 
 std::optional<study::Settings> CalibratePanel::takeCarried() {
     const std::optional<Carried> carried = std::exchange(carried_, std::nullopt);
-    if (!carried || !session_ || !(session_->settings() == carried->from)) return std::nullopt;
+    if (!carried || !feeder_ || !(feeder_->design().settings() == carried->from)) return std::nullopt;
     return carried->to;
 }
 
@@ -205,7 +213,7 @@ void CalibratePanel::showMethod() {
     watchButton_->setVisible(speed);
     watchButton_->setText(watch_.isValid() ? tr("Stop the watch") : tr("Start the watch"));
     if (speed && link_.linked()) fields_[0]->setValue(link_.target() * now.fields[0].factor);
-    if (speed && session_ && !speeds_) session_->requestSpeedTable();
+    if (speed && feeder_ && !speeds_) feeder_->requestSpeedTable();
     table_->setHeaderLabels(headings);
     table_->setColumnCount(static_cast<int>(headings.size()));
     showReadings();
@@ -250,7 +258,7 @@ std::optional<base::Result<Estimate>> CalibratePanel::estimate() {
 void CalibratePanel::showResult() {
     const MethodText& now = method();
     const auto found = estimate();
-    keep_->setEnabled(session_ && found && found->ok());
+    keep_->setEnabled(feeder_ && found && found->ok());
     result_->setText(now.result);
     const std::size_t count = calibration::countReadings(readings());
     if (count == 0) {
@@ -267,13 +275,13 @@ void CalibratePanel::showResult() {
 
 void CalibratePanel::showChanges() {
     const auto changes =
-        session_ ? session_->calibrationChanges(link_.target()) : std::vector<calibration::Change>();
-    const bool locked = session_ && session_->locked();
+        feeder_ ? feeder_->calibrationChanges(link_.target()) : std::vector<calibration::Change>();
+    const bool locked = feeder_ && feeder_->design().locked();
     QString text;
     for (const calibration::Change& change : changes)
         text += (text.isEmpty() ? "" : "<br>") + changeText(change).toHtmlEscaped();
     if (changes.empty()) {
-        text = session_ && !session_->calibrations().empty()
+        text = feeder_ && !feeder_->calibrations().empty()
                    ? tr("The settings are those measured.")
                    : tr("A measurement that is kept can be applied to the settings.");
     } else if (locked) {
@@ -318,16 +326,16 @@ void CalibratePanel::toggleWatch() {
 
 void CalibratePanel::keep() {
     const auto found = estimate();
-    if (!session_ || !found || !found->ok()) return;
+    if (!feeder_ || !found || !found->ok()) return;
     calibration::Calibration calibration;
     calibration.method = method().method;
     calibration.readings = readings();
     calibration.result = **found;
     if (calibration.method == Method::conveyingSpeed)
-        calibration.frequency = session_->settings().simulation.drive.frequency;
+        calibration.frequency = feeder_->design().settings().simulation.drive.frequency;
     calibration.operatorName = QSettings().value("feeder/operator").toString().toStdString();
     readings() = calibration::emptyReadings(method().method);
-    session_->addCalibration(std::move(calibration));
+    feeder_->addCalibration(std::move(calibration));
     showReadings();
 }
 

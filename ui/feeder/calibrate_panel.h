@@ -19,7 +19,7 @@ class QPushButton;
 class QTreeWidget;
 
 namespace trapwright::session {
-class StudySession;
+class StudyFeeder;
 }
 
 namespace trapwright::feeder {
@@ -33,7 +33,7 @@ class CalibratePanel : public QWidget {
  public:
     CalibratePanel(DriveLink& link, QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setFeeder(session::StudyFeeder* feeder);
 
     /// Keeps settings for the fork of this study that is about to be opened.
     void carry(const study::Settings& settings);
@@ -66,7 +66,7 @@ class CalibratePanel : public QWidget {
     void keep();
 
     DriveLink& link_;
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyFeeder> feeder_;
     const std::vector<MethodText> methods_;
     std::map<calibration::Method, calibration::Readings> readings_;  // not kept yet
     std::optional<calibration::SpeedTable> speeds_;

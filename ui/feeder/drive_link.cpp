@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
 
 namespace trapwright::feeder {
 
 using drive::State;
-using session::StudySession;
+using session::StudyDesign;
+using session::StudyFeeder;
 
 namespace {
 
@@ -32,17 +34,17 @@ DriveLink::~DriveLink() {
     disconnectDrive();
 }
 
-void DriveLink::setSession(StudySession* session) {
+void DriveLink::setFeeder(StudyFeeder* feeder) {
     disconnectDrive();
-    if (session_) session_->disconnect(this);
-    session_ = session;
+    if (feeder_) feeder_->design().disconnect(this);
+    feeder_ = feeder;
     target_ = 0.0;
-    if (session_) connect(session_, &StudySession::settingsChanged, this, &DriveLink::followSettings);
+    if (feeder_) connect(&feeder_->design(), &StudyDesign::settingsChanged, this, &DriveLink::followSettings);
     emit targetChanged();
 }
 
 void DriveLink::connectDrive(const drive::Profile& profile, const drive::Address& address) {
-    if (loop_ || !session_ || !access_.makeDrive) return;
+    if (loop_ || !feeder_ || !access_.makeDrive) return;
     drive::Address reached = address;
     if (profile.isVirtual) {
         auto served = access_.serveFeeder(profile);
@@ -102,19 +104,19 @@ bool DriveLink::moves() const {
 }
 
 calibration::DriveSetting DriveLink::setting() const {
-    if (!session_ || !loop_) return {};
+    if (!feeder_ || !loop_) return {};
     const drive::Reading& reading = snapshot_.reading;
     calibration::DriveState state;
     state.setPoint = target_;
     state.frequency = reading.frequency ? reading.frequency : profile_.frequency;
     if (snapshot_.state == State::running) state.halfStroke = reading.halfStroke;
     state.fullHalfStroke = profile_.fullHalfStroke;
-    return calibration::findDriveSetting(state, session_->calibrations());
+    return calibration::findDriveSetting(state, feeder_->calibrations());
 }
 
 calibration::DriveComparison DriveLink::comparison() const {
-    if (!session_ || !loop_) return {};
-    return calibration::compareDrive(setting(), session_->settings().simulation.drive);
+    if (!feeder_ || !loop_) return {};
+    return calibration::compareDrive(setting(), feeder_->design().settings().simulation.drive);
 }
 
 void DriveLink::start() {
@@ -150,8 +152,8 @@ void DriveLink::note(const QString& text) {
 
 drive::Limits DriveLink::limits() const {
     drive::Limits limits;
-    if (!session_) return limits;
-    const study::FeederSettings& settings = session_->settings().feeder;
+    if (!feeder_) return limits;
+    const study::FeederSettings& settings = feeder_->design().settings().feeder;
     limits.rampPerSecond = settings.rampPerSecond;
     // A drive that is only on or off knows no share of full.
     if (!loop_ || profile_.hasSetPoint()) limits.highest = settings.highestSetPoint;
@@ -159,11 +161,11 @@ drive::Limits DriveLink::limits() const {
 }
 
 void DriveLink::followSettings() {
-    if (!session_) return;
+    if (!feeder_) return;
     if (loop_) {
         loop_->setLimits(limits());
         if (profile_.hasFrequency())
-            loop_->setFrequency(session_->settings().simulation.drive.frequency);
+            loop_->setFrequency(feeder_->design().settings().simulation.drive.frequency);
         else
             loop_->setFrequency(std::nullopt);
     }
@@ -198,7 +200,7 @@ void DriveLink::takeLog() {
 
 void DriveLink::saveLog() {
     if (unsaved_.empty()) return;
-    if (session_) session_->appendDriveLog(std::move(unsaved_));
+    if (feeder_) feeder_->appendDriveLog(std::move(unsaved_));
     unsaved_.clear();
 }
 

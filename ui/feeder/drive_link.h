@@ -12,7 +12,7 @@
 #include "ui/session/environment.h"
 
 namespace trapwright::session {
-class StudySession;
+class StudyFeeder;
 }
 
 namespace trapwright::feeder {
@@ -27,7 +27,7 @@ class DriveLink : public QObject {
     ~DriveLink() override;
 
     /// Ends a connection that is still there, as disconnectDrive().
-    void setSession(session::StudySession* session);
+    void setFeeder(session::StudyFeeder* feeder);
     [[nodiscard]] const session::DriveAccess& access() const { return access_; }
 
     /// Connects in the background; snapshot() tells what comes of it. A virtual feeder is served first, and
@@ -94,7 +94,7 @@ class DriveLink : public QObject {
     void saveLog();
 
     const session::DriveAccess access_;
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyFeeder> feeder_;
     drive::Profile profile_;
     drive::Snapshot snapshot_;
     double target_ = 0.0;

@@ -20,7 +20,7 @@
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
 #include "ui/look/whole_headers.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_feeder.h"
 
 namespace trapwright::feeder {
 
@@ -96,8 +96,8 @@ DriveLog::DriveLog(DriveLink& link, QWidget* parent)
     remark_->setEnabled(false);
 }
 
-void DriveLog::setSession(session::StudySession* session) {
-    session_ = session;
+void DriveLog::setFeeder(const session::StudyFeeder* feeder) {
+    feeder_ = feeder;
     list_->clear();
     stack_->setCurrentIndex(0);
 }
@@ -119,13 +119,13 @@ void DriveLog::add(const std::vector<LogEntry>& entries) {
 }
 
 void DriveLog::askAndSave() {
-    if (!session_) return;
+    if (!feeder_) return;
     look::askForNewFile(
         this,
         {"table", tr("Save the log of the drive"), tr("Save"), tr("CSV (*.csv)"), "csv", tr("drive-log")},
         [this](const std::filesystem::path& file) {
-            if (!session_) return;
-            const auto log = session_->loadDriveLog(0.0, std::numeric_limits<double>::max());
+            if (!feeder_) return;
+            const auto log = feeder_->loadDriveLog(0.0, std::numeric_limits<double>::max());
             const base::Status saved =
                 log ? base::writeFile(file, drive::toCsv(*log)) : base::Status(log.error());
             if (!saved)

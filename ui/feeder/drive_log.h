@@ -11,7 +11,7 @@ class QStackedLayout;
 class QTreeWidget;
 
 namespace trapwright::session {
-class StudySession;
+class StudyFeeder;
 }
 
 namespace trapwright::feeder {
@@ -26,7 +26,7 @@ class DriveLog : public QWidget {
     DriveLog(DriveLink& link, QWidget* parent);
 
     /// Begins anew.
-    void setSession(session::StudySession* session);
+    void setFeeder(const session::StudyFeeder* feeder);
 
  signals:
     void failed(const QString& what, const QString& message);
@@ -36,7 +36,7 @@ class DriveLog : public QWidget {
     void askAndSave();
 
     DriveLink& link_;
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyFeeder> feeder_;
     QTreeWidget* list_;
     QStackedLayout* stack_;
     QLineEdit* remark_;

@@ -14,14 +14,16 @@
 #include "ui/feeder/drive_texts.h"
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
 
 namespace trapwright::feeder {
 
 using calibration::Deviation;
 using calibration::DriveComparison;
 using calibration::StrokeSource;
-using session::StudySession;
+using session::StudyDesign;
+using session::StudyFeeder;
 
 namespace {
 
@@ -177,13 +179,16 @@ void DriveMatch::makeWarning() {
     grid->setColumnStretch(1, 1);
 }
 
-void DriveMatch::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+void DriveMatch::setFeeder(const StudyFeeder* feeder) {
+    if (feeder_) {
+        feeder_->disconnect(this);
+        feeder_->design().disconnect(this);
+    }
+    feeder_ = feeder;
     dismissed_ = {};
-    if (session_) {
-        connect(session_, &StudySession::settingsChanged, this, &DriveMatch::refresh);
-        connect(session_, &StudySession::calibrationAdded, this, &DriveMatch::refresh);
+    if (feeder_) {
+        connect(&feeder_->design(), &StudyDesign::settingsChanged, this, &DriveMatch::refresh);
+        connect(feeder_, &StudyFeeder::calibrationAdded, this, &DriveMatch::refresh);
     }
     refresh();
 }
@@ -194,8 +199,8 @@ void DriveMatch::changeEvent(QEvent* event) {
 }
 
 DriveMatch::Seen DriveMatch::now() const {
-    if (!session_) return {};
-    const trial::Vibration& simulated = session_->settings().simulation.drive;
+    if (!feeder_) return {};
+    const trial::Vibration& simulated = feeder_->design().settings().simulation.drive;
     return {QString::fromStdString(link_.profile().title), link_.target(), simulated.halfStroke,
             simulated.frequency};
 }
@@ -205,12 +210,12 @@ void DriveMatch::takeSetPoint() {
 }
 
 void DriveMatch::refresh() {
-    const bool shown = session_ && link_.linked() && link_.snapshot().connected && link_.target() > 0.0;
+    const bool shown = feeder_ && link_.linked() && link_.snapshot().connected && link_.target() > 0.0;
     setVisible(shown);
     if (!shown) return;
     const calibration::DriveSetting setting = link_.setting();
     const DriveComparison comparison = link_.comparison();
-    const trial::Vibration& simulated = session_->settings().simulation.drive;
+    const trial::Vibration& simulated = feeder_->design().settings().simulation.drive;
     numbers_[0][0]->setText(setting.halfStroke ? strokeText(*setting.halfStroke) : kNothing);
     numbers_[0][1]->setText(strokeText(simulated.halfStroke));
     numbers_[0][2]->setText(differenceCell(comparison.halfStroke));
@@ -233,8 +238,8 @@ void DriveMatch::showWarning(const DriveComparison& comparison, const calibratio
         warning_->setStyleSheet(style);
         sign_->setPixmap(look::signPixmap("warning", colour, kSign, devicePixelRatioF()));
     }
-    const double simulated = session_->settings().simulation.drive.halfStroke;
-    const double highest = session_->settings().feeder.highestSetPoint;
+    const double simulated = feeder_->design().settings().simulation.drive.halfStroke;
+    const double highest = feeder_->design().settings().feeder.highestSetPoint;
     const bool stroke = comparison.halfStroke && comparison.halfStroke->large();
     const auto wanted = stroke ? setting.setPointFor(simulated) : std::nullopt;
     const bool settable = wanted && link_.profile().hasSetPoint() && *wanted <= highest;

@@ -11,7 +11,7 @@ class QLabel;
 class QPushButton;
 
 namespace trapwright::session {
-class StudySession;
+class StudyFeeder;
 }
 
 namespace trapwright::feeder {
@@ -32,7 +32,7 @@ class DriveMatch : public QWidget {
  public:
     DriveMatch(DriveLink& link, QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setFeeder(const session::StudyFeeder* feeder);
 
  protected:
     void changeEvent(QEvent* event) override;
@@ -56,7 +56,7 @@ class DriveMatch : public QWidget {
     [[nodiscard]] Seen now() const;
 
     DriveLink& link_;
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyFeeder> feeder_;
     // Half-stroke, frequency: of the drive, of the study, difference.
     std::array<std::array<QLabel*, 3>, 2> numbers_{};
     QLabel* source_;

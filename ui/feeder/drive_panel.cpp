@@ -16,12 +16,12 @@
 #include "ui/feeder/drive_texts.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/theme.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
 
 namespace trapwright::feeder {
 
 using drive::State;
-using session::StudySession;
+using session::StudyDesign;
 
 namespace {
 
@@ -192,13 +192,13 @@ QWidget* DrivePanel::makeLimits() {
     return box;
 }
 
-void DrivePanel::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    match_->setSession(session);
-    setEnabled(session_ != nullptr);
-    if (!session_) return;
-    connect(session_, &StudySession::settingsChanged, this, &DrivePanel::showSettings);
+void DrivePanel::setStudy(StudyDesign* design, const session::StudyFeeder* feeder) {
+    if (design_) design_->disconnect(this);
+    design_ = design;
+    match_->setFeeder(feeder);
+    setEnabled(design_ != nullptr);
+    if (!design_) return;
+    connect(design_, &StudyDesign::settingsChanged, this, &DrivePanel::showSettings);
     showSettings();
 }
 
@@ -207,16 +207,16 @@ void DrivePanel::refresh() {
 }
 
 void DrivePanel::changeLimits() {
-    if (!session_) return;
-    study::Settings settings = session_->settings();
+    if (!design_) return;
+    study::Settings settings = design_->settings();
     settings.feeder.highestSetPoint = highest_->value() / kPercent;
     settings.feeder.rampPerSecond = ramp_->value() / kPercent;
-    session_->changeSettings(settings, tr("Limits of the drive"));
+    design_->changeSettings(settings, tr("Limits of the drive"));
 }
 
 void DrivePanel::showSettings() {
-    if (!session_) return;
-    const study::FeederSettings& settings = session_->settings().feeder;
+    if (!design_) return;
+    const study::FeederSettings& settings = design_->settings().feeder;
     {
         const QSignalBlocker one(highest_);
         const QSignalBlocker two(ramp_);
@@ -228,7 +228,7 @@ void DrivePanel::showSettings() {
 }
 
 void DrivePanel::showTarget() {
-    const double highest = session_ ? session_->settings().feeder.highestSetPoint : 1.0;
+    const double highest = design_ ? design_->settings().feeder.highestSetPoint : 1.0;
     const QSignalBlocker one(slider_);
     const QSignalBlocker two(setPoint_);
     slider_->setRange(0, static_cast<int>(std::lround(kSliderSteps * highest)));

@@ -11,8 +11,9 @@ class QPushButton;
 class QSlider;
 
 namespace trapwright::session {
-class StudySession;
-}
+class StudyDesign;
+class StudyFeeder;
+}  // namespace trapwright::session
 
 namespace trapwright::feeder {
 
@@ -26,7 +27,8 @@ class DrivePanel : public QWidget {
  public:
     DrivePanel(DriveLink& link, QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    /// Null, both of them: no study is open.
+    void setStudy(session::StudyDesign* design, const session::StudyFeeder* feeder);
     /// The page is shown: what profiles there are may have changed.
     void refresh();
 
@@ -46,7 +48,7 @@ class DrivePanel : public QWidget {
     void changeLimits();
 
     DriveLink& link_;
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyDesign> design_;
     ConnectionCard* connection_;
     DriveMatch* match_;
     QLabel* state_;

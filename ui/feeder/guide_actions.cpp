@@ -7,8 +7,6 @@
 
 namespace trapwright::feeder {
 
-using trial::Verdict;
-
 GuideActions::GuideActions(TrialGuide& guide, DriveLink& link, QObject* parent)
     : QObject(parent),
       guide_(guide),

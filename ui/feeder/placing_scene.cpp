@@ -3,7 +3,8 @@
 #include "core/study/physical_table.h"
 #include "core/trial/start.h"
 #include "ui/scene/scene_view.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::feeder {
 
@@ -35,8 +36,8 @@ PlacingScene::PlacingScene(QObject* parent) : QObject(parent), build_(this) {
             [this](const QString& message) { emit failed(tr("The track cannot be shown"), message); });
 }
 
-void PlacingScene::setSession(session::StudySession* session) {
-    session_ = session;
+void PlacingScene::setRuns(const session::StudyRuns* runs) {
+    runs_ = runs;
     build_.cancel();
     printed_.reset();
     placing_.reset();
@@ -44,9 +45,9 @@ void PlacingScene::setSession(session::StudySession* session) {
 }
 
 ExpectedExit PlacingScene::expected() const {
-    if (!session_ || !printed_ || *printed_ == kLayout) return {};
-    return {track_, session_->part(),
-            study::findExpected(session_->validations(), session_->selections(), *printed_)};
+    if (!runs_ || !printed_ || *printed_ == kLayout) return {};
+    return {track_, runs_->design().part(),
+            study::findExpected(runs_->validations(), runs_->selections(), *printed_)};
 }
 
 void PlacingScene::setScene(scene::SceneView* scene) {
@@ -57,13 +58,13 @@ void PlacingScene::setScene(scene::SceneView* scene) {
 
 void PlacingScene::show(const study::PhysicalValidation* validation) {
     placing_.reset();
-    if (!session_) return;
+    if (!runs_) return;
     study::IndividualId printed = kLayout;
     if (validation != nullptr) {
         placing_ = Placing{validation->plan, static_cast<int>(validation->trials.size()),
                            study::nextPose(*validation)};
         printed = *validation;
-    } else if (const auto chosen = session_->chosen()) {
+    } else if (const auto chosen = runs_->chosen()) {
         printed = *chosen;
     }
     if (printed_ == printed) return draw();
@@ -73,18 +74,18 @@ void PlacingScene::show(const study::PhysicalValidation* validation) {
 void PlacingScene::build(const study::IndividualId& printed) {
     printed_ = printed;
     track_.reset();
-    const study::TrackSettings& settings = session_->settings().track;
+    const study::TrackSettings& settings = runs_->design().settings().track;
     if (printed == kLayout) return build_.buildLayout(settings);
-    const auto winner = session_->loadWinner(printed.generation, printed.individual);
+    const auto winner = runs_->loadWinner(printed.generation, printed.individual);
     if (winner) return build_.buildIndividual(settings, winner->record.design);
     emit failed(tr("The track cannot be shown"), QString::fromStdString(winner.error().message));
 }
 
 void PlacingScene::draw() {
-    if (scene_ == nullptr || !session_) return;
+    if (scene_ == nullptr || !runs_) return;
     scene::TrackMarks marks = scene::TrackMarks::none();
     marks.conveyingArrow = true;
-    const std::shared_ptr<const part::Part> part = session_->part();
+    const std::shared_ptr<const part::Part> part = runs_->design().part();
     // A study that was changed elsewhere may name a pose that the part does not have.
     const bool known = placing_ && placing_->pose && *placing_->pose >= 0 &&
                        static_cast<std::size_t>(*placing_->pose) < part->stablePoses.size();

@@ -14,7 +14,7 @@ namespace trapwright::scene {
 class SceneView;
 }
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::feeder {
@@ -30,7 +30,7 @@ class PlacingScene : public QObject {
  public:
     explicit PlacingScene(QObject* parent);
 
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
     /// None: the page is not shown.
     void setScene(scene::SceneView* scene);
     /// The next trial of this validation; null: none is chosen.
@@ -53,7 +53,7 @@ class PlacingScene : public QObject {
     void build(const study::IndividualId& printed);
     void draw();
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     scene::SceneView* scene_ = nullptr;
     session::TrackBuild build_;
     std::shared_ptr<const track::Track> track_;

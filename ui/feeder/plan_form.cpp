@@ -14,11 +14,12 @@
 
 #include "core/study/pose_weights.h"
 #include "ui/feeder/plan_cards.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::feeder {
 
-using session::StudySession;
+using session::StudyRuns;
 
 namespace {
 
@@ -89,14 +90,15 @@ PlanForm::PlanForm(QWidget* parent)
     connect(begin_, &QPushButton::clicked, this, &PlanForm::begin);
 }
 
-void PlanForm::setSession(StudySession* session) {
-    session_ = session;
+void PlanForm::setRuns(const StudyRuns* runs) {
+    runs_ = runs;
     reset();
 }
 
 void PlanForm::reset() {
-    if (session_ && session_->part()) {
-        cards_->setPart(session_->part(), study::weighPoseGroups(*session_->part(), session_->settings()));
+    if (runs_ && runs_->design().part()) {
+        cards_->setPart(runs_->design().part(),
+                        study::weighPoseGroups(*runs_->design().part(), runs_->design().settings()));
     } else {
         cards_->setPart(nullptr, {});
     }
@@ -111,13 +113,13 @@ void PlanForm::listTracks() {
     const QVariant individual = track_->currentData(kIndividualRole);
     const bool first = track_->currentIndex() <= 0;
     track_->clear();
-    if (!session_) return showTotal();
+    if (!runs_) return showTotal();
     const auto add = [this](const study::Individual& winner, const QString& text) {
         track_->addItem(text.arg(winner.generation).arg(winner.individual), winner.generation);
         track_->setItemData(track_->count() - 1, winner.individual, kIndividualRole);
     };
-    if (const auto final = session_->chosen()) add(*final, tr("Final: generation %1, individual %2"));
-    const std::vector<study::Individual>& winners = session_->winners();
+    if (const auto final = runs_->chosen()) add(*final, tr("Final: generation %1, individual %2"));
+    const std::vector<study::Individual>& winners = runs_->winners();
     std::for_each(winners.rbegin(), winners.rend(),
                   [&](const study::Individual& winner) { add(winner, tr("Generation %1, individual %2")); });
     // What was picked stays picked.

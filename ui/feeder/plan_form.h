@@ -12,7 +12,7 @@ class QPushButton;
 class QSpinBox;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::feeder {
@@ -26,7 +26,7 @@ class PlanForm : public QWidget {
  public:
     explicit PlanForm(QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
     /// With the study's final track and all poses.
     void reset();
     /// There are other tracks to choose from.
@@ -40,7 +40,7 @@ class PlanForm : public QWidget {
     void showTotal();
     void begin();
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     QComboBox* track_;
     PlanCards* cards_;
     QSpinBox* repetitions_;

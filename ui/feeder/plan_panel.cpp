@@ -21,11 +21,15 @@
 #include "ui/feeder/plan_form.h"
 #include "ui/feeder/trial_guide.h"
 #include "ui/look/icon.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::feeder {
 
-using session::StudySession;
+using session::StudyDesign;
+using session::StudyFeeder;
+using session::StudyRuns;
 
 namespace {
 
@@ -118,24 +122,25 @@ QWidget* PlanPanel::makeOverview() {
     return page;
 }
 
-void PlanPanel::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    if (session_) {
-        connect(session_, &StudySession::partChanged, form_, &PlanForm::reset);
-        connect(session_, &StudySession::partChanged, this, &PlanPanel::refresh);
-        connect(session_, &StudySession::settingsChanged, this, &PlanPanel::refresh);
-        connect(session_, &StudySession::chosenChanged, form_, &PlanForm::listTracks);
-        connect(session_, &StudySession::generationSaved, form_, &PlanForm::listTracks);
+void PlanPanel::setFeeder(const StudyFeeder* feeder) {
+    if (feeder_) feeder_->design().disconnect(this);
+    feeder_ = feeder;
+    if (feeder_) {
+        connect(&feeder_->design(), &StudyDesign::partChanged, form_, &PlanForm::reset);
+        connect(&feeder_->design(), &StudyDesign::partChanged, this, &PlanPanel::refresh);
+        connect(&feeder_->design(), &StudyDesign::settingsChanged, this, &PlanPanel::refresh);
+        connect(&feeder_->runs(), &StudyRuns::chosenChanged, form_, &PlanForm::listTracks);
+        connect(&feeder_->runs(), &StudyRuns::generationSaved, form_, &PlanForm::listTracks);
     }
-    form_->setSession(session);
+    form_->setRuns(feeder != nullptr ? &feeder->runs() : nullptr);
     refresh();
     showForm(false);
 }
 
 void PlanPanel::refresh() {
-    if (session_ && session_->part()) {
-        cards_->setPart(session_->part(), study::weighPoseGroups(*session_->part(), session_->settings()));
+    if (feeder_ && feeder_->design().part()) {
+        cards_->setPart(feeder_->design().part(),
+                        study::weighPoseGroups(*feeder_->design().part(), feeder_->design().settings()));
     } else {
         cards_->setPart(nullptr, {});
     }
@@ -146,8 +151,8 @@ void PlanPanel::refresh() {
 void PlanPanel::listValidations() {
     const QSignalBlocker blocker(list_);
     list_->clear();
-    if (session_) {
-        const auto& all = session_->physicalValidations();
+    if (feeder_) {
+        const auto& all = feeder_->physicalValidations();
         std::for_each(all.rbegin(), all.rend(), [this](const study::PhysicalValidation& one) {
             list_->addItem(tr("Validation %1, %2").arg(one.number + 1).arg(dateText(one.started)),
                            one.number);
@@ -162,12 +167,12 @@ void PlanPanel::listValidations() {
 void PlanPanel::showProgress() {
     const study::PhysicalValidation* now = guide_.validation();
     // While a study is closed, the guide still has its validation.
-    const bool shown = now != nullptr && session_ != nullptr;
+    const bool shown = now != nullptr && feeder_ != nullptr;
     cards_->setVisible(shown);
     expected_->setVisible(shown);
     if (!shown) {
         return facts_->setText(
-            session_ && session_->winners().empty()
+            feeder_ && feeder_->runs().winners().empty()
                 ? tr("Learn a track, print it, mount it: then it can be validated here.")
                 : tr("The printed track is validated on the real feeder: the part is placed in each stable "
                      "pose many times (poses that look the same are one), and how each trial ends is "
@@ -186,7 +191,7 @@ void PlanPanel::showProgress() {
 
     std::vector<PoseProgress> progress;
     const study::PhysicalTable table = study::comparePhysical(
-        nullptr, *now, study::weighPoseGroups(*session_->part(), session_->settings()));
+        nullptr, *now, study::weighPoseGroups(*feeder_->design().part(), feeder_->design().settings()));
     for (const study::PhysicalRow& row : table.rows)
         progress.push_back(
             {row.poses.front(), row.physical.tally.trials(), row.planned, row.physical.tally.failures()});

@@ -8,7 +8,7 @@ class QLabel;
 class QStackedWidget;
 
 namespace trapwright::session {
-class StudySession;
+class StudyFeeder;
 }
 
 namespace trapwright::feeder {
@@ -25,7 +25,7 @@ class PlanPanel : public QWidget {
  public:
     PlanPanel(TrialGuide& guide, DriveLink& link, QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setFeeder(const session::StudyFeeder* feeder);
     /// What can be planned may have changed.
     void refresh();
     /// Below the plan: what success looks like.
@@ -38,7 +38,7 @@ class PlanPanel : public QWidget {
     void showForm(bool form);
 
     TrialGuide& guide_;
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyFeeder> feeder_;
     QComboBox* list_ = nullptr;
     QLabel* facts_ = nullptr;
     PlanCards* cards_ = nullptr;

@@ -11,6 +11,9 @@
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 #include "ui/scene/picture_maker.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::feeder {
@@ -40,7 +43,7 @@ ReportCard::ReportCard(TrialGuide& guide, PlacingScene& placing, const std::stri
     update();
 }
 
-void ReportCard::setSession(session::StudySession* session) {
+void ReportCard::setSession(const session::StudySession* session) {
     session_ = session;
     update();
 }
@@ -59,14 +62,14 @@ Report ReportCard::makeReport() const {
     const study::PhysicalValidation& physical = *guide_.validation();
     Report report;
     report.study = look::toText(session_->path().filename());
-    report.part = session_->part();
-    report.settings = session_->settings();
+    report.part = session_->design().part();
+    report.settings = session_->design().settings();
     report.physical = physical;
-    if (const study::ValidationRecord* found = study::findSimulated(session_->validations(), physical))
+    if (const study::ValidationRecord* found = study::findSimulated(session_->runs().validations(), physical))
         report.simulated = *found;
     report.table = study::comparePhysical(report.simulated ? &*report.simulated : nullptr, physical,
                                           study::weighPoseGroups(*report.part, report.settings));
-    report.calibrations = session_->calibrations();
+    report.calibrations = session_->feeder().calibrations();
     scene::PictureMaker pictures;
     pictures.setTheme(scene::SceneTheme::light());
     if (placing_.track()) report.track = pictures.trackPicture(placing_.track(), kTrackPicture).result();

@@ -25,7 +25,7 @@ class ReportCard : public QWidget {
     /// `program`: name and version.
     ReportCard(TrialGuide& guide, PlacingScene& placing, const std::string& program, QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setSession(const session::StudySession* session);
     /// As if the user had chosen this file.
     void write(const std::filesystem::path& pdf);
 
@@ -40,7 +40,7 @@ class ReportCard : public QWidget {
     TrialGuide& guide_;
     PlacingScene& placing_;
     const std::string program_;
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudySession> session_;
     QPushButton* save_;
     QLabel* text_;
 };

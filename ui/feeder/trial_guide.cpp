@@ -5,12 +5,13 @@
 #include "core/part/stable_poses.h"
 #include "ui/feeder/drive_link.h"
 #include "ui/feeder/drive_texts.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
 
 namespace trapwright::feeder {
 
 using drive::State;
-using session::StudySession;
+using session::StudyFeeder;
 
 namespace {
 
@@ -23,15 +24,15 @@ TrialGuide::TrialGuide(DriveLink& link, QObject* parent) : QObject(parent), link
     connect(&link_, &DriveLink::stateChanged, this, &TrialGuide::watchDrive);
 }
 
-void TrialGuide::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+void TrialGuide::setFeeder(StudyFeeder* feeder) {
+    if (feeder_) feeder_->disconnect(this);
+    feeder_ = feeder;
     std::optional<int> last;
-    if (session_) {
-        connect(session_, &StudySession::physicalValidationChanged, this, [this](int validation) {
+    if (feeder_) {
+        connect(feeder_, &StudyFeeder::physicalValidationChanged, this, [this](int validation) {
             if (index_ == validation) emit changed();
         });
-        for (const study::PhysicalValidation& one : session_->physicalValidations()) {
+        for (const study::PhysicalValidation& one : feeder_->physicalValidations()) {
             if (!last || study::nextPose(one)) last = one.number;
         }
     }
@@ -39,7 +40,7 @@ void TrialGuide::setSession(StudySession* session) {
 }
 
 void TrialGuide::begin(const study::PhysicalValidation& validation) {
-    if (session_) choose(session_->startPhysicalValidation(validation));
+    if (feeder_) choose(feeder_->startPhysicalValidation(validation));
 }
 
 void TrialGuide::choose(std::optional<int> validation) {
@@ -55,8 +56,8 @@ void TrialGuide::choose(std::optional<int> validation) {
 }
 
 const study::PhysicalValidation* TrialGuide::validation() const {
-    if (!session_ || !index_) return nullptr;
-    const auto& all = session_->physicalValidations();
+    if (!feeder_ || !index_) return nullptr;
+    const auto& all = feeder_->physicalValidations();
     const auto place = static_cast<std::size_t>(*index_);
     return place < all.size() ? &all[place] : nullptr;
 }
@@ -64,7 +65,7 @@ const study::PhysicalValidation* TrialGuide::validation() const {
 std::vector<int> TrialGuide::alikePoses() const {
     const std::optional<int> next = pose();
     if (!next) return {};
-    const std::vector<part::PoseGroup> groups = part::findPoseGroups(*session_->part());
+    const std::vector<part::PoseGroup> groups = part::findPoseGroups(*feeder_->design().part());
     const int group = part::findPoseGroup(groups, *next);
     return group < 0 ? std::vector{*next} : groups[static_cast<std::size_t>(group)].poses;
 }
@@ -156,7 +157,7 @@ void TrialGuide::finish(trial::Verdict outcome) {
         trial.frequency = setting.frequency.value_or(0.0);
         trial.halfStroke = setting.halfStroke.value_or(0.0);
     }
-    session_->addPhysicalTrial(*index_, trial);
+    feeder_->addPhysicalTrial(*index_, trial);
     settle(nextStage());
     if (driven_ && (restBetween_ || stage_ == Stage::done)) link_.stop();
 }
@@ -164,7 +165,7 @@ void TrialGuide::finish(trial::Verdict outcome) {
 void TrialGuide::undo() {
     if (stage_ == Stage::running) return settle(Stage::placing);
     if (made() == 0) return;
-    session_->undoPhysicalTrial(*index_);
+    feeder_->undoPhysicalTrial(*index_);
     settle(stage_ == Stage::paused ? Stage::paused : Stage::placing);
 }
 
@@ -183,8 +184,8 @@ void TrialGuide::setNote(const QString& note) {
     if (now == nullptr || now->trials.empty()) return;
     study::PhysicalTrial trial = now->trials.back();
     trial.note = note.toStdString();
-    session_->undoPhysicalTrial(*index_);
-    session_->addPhysicalTrial(*index_, trial);
+    feeder_->undoPhysicalTrial(*index_);
+    feeder_->addPhysicalTrial(*index_, trial);
 }
 
 void TrialGuide::watchDrive() {

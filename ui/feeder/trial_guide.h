@@ -10,7 +10,7 @@
 #include "core/study/physical_validation.h"
 
 namespace trapwright::session {
-class StudySession;
+class StudyFeeder;
 }
 
 namespace trapwright::feeder {
@@ -33,7 +33,7 @@ class TrialGuide : public QObject {
     TrialGuide(DriveLink& link, QObject* parent);
 
     /// Chooses the last validation that is not complete, or else the last one.
-    void setSession(session::StudySession* session);
+    void setFeeder(session::StudyFeeder* feeder);
     /// Begins a new one.
     void begin(const study::PhysicalValidation& validation);
     /// Goes on with one of the study; none: with no one.
@@ -84,7 +84,7 @@ class TrialGuide : public QObject {
     [[nodiscard]] QString findObstacle() const;
 
     DriveLink& link_;
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyFeeder> feeder_;
     std::optional<int> index_;
     Stage stage_ = Stage::none;
     QString trouble_;

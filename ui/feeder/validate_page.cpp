@@ -21,10 +21,15 @@
 #include "ui/look/folding_group.h"
 #include "ui/pages/result_table.h"
 #include "ui/scene/scene_view.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::feeder {
 
+using session::StudyDesign;
+using session::StudyRuns;
 using session::StudySession;
 
 ValidatePage::ValidatePage(const session::Environment& environment, QWidget* parent)
@@ -114,22 +119,23 @@ QWidget* ValidatePage::sceneBar() {
 }
 
 void ValidatePage::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
+    if (session_) session_->leave(this);
     session_ = session;
-    link_.setSession(session);
-    placing_.setSession(session);
-    drive_->setSession(session);
-    plan_->setSession(session);
-    log_->setSession(session);
-    calibrate_->setSession(session);
+    session::StudyFeeder* feeder = session != nullptr ? &session->feeder() : nullptr;
+    link_.setFeeder(feeder);
+    placing_.setRuns(session != nullptr ? &session->runs() : nullptr);
+    drive_->setStudy(session != nullptr ? &session->design() : nullptr, feeder);
+    plan_->setFeeder(feeder);
+    log_->setFeeder(feeder);
+    calibrate_->setFeeder(feeder);
     report_->setSession(session);
-    guide_.setSession(session);
+    guide_.setFeeder(feeder);
     if (session_) {
-        connect(session_, &StudySession::validationSaved, this, &ValidatePage::showTable);
-        connect(session_, &StudySession::validationSaved, this, &ValidatePage::showExpected);
-        connect(session_, &StudySession::selectionSaved, this, &ValidatePage::showExpected);
-        connect(session_, &StudySession::partChanged, this, &ValidatePage::showTrial);
-        connect(session_, &StudySession::settingsChanged, this, &ValidatePage::showTrial);
+        connect(&session_->runs(), &StudyRuns::validationSaved, this, &ValidatePage::showTable);
+        connect(&session_->runs(), &StudyRuns::validationSaved, this, &ValidatePage::showExpected);
+        connect(&session_->runs(), &StudyRuns::selectionSaved, this, &ValidatePage::showExpected);
+        connect(&session_->design(), &StudyDesign::partChanged, this, &ValidatePage::showTrial);
+        connect(&session_->design(), &StudyDesign::settingsChanged, this, &ValidatePage::showTrial);
     }
     showTrial();
     goOnWithFork();
@@ -200,9 +206,9 @@ void ValidatePage::showTable() {
         table_->setHead({});
         return model_.clear();
     }
-    const study::PhysicalTable table =
-        study::comparePhysical(study::findSimulated(session_->validations(), *physical), *physical,
-                               study::weighPoseGroups(*session_->part(), session_->settings()));
+    const study::PhysicalTable table = study::comparePhysical(
+        study::findSimulated(session_->runs().validations(), *physical), *physical,
+        study::weighPoseGroups(*session_->design().part(), session_->design().settings()));
     // Above the table there is room for a line or two; the whole of it is in the report.
     const QString notice = QString::fromStdString(table.feeders.mixed() ? table.notice : std::string());
     table_->setHead(QString("%1 %2").arg(notice, QString::fromStdString(table.summary)).trimmed(),
@@ -215,21 +221,21 @@ void ValidatePage::showTable() {
 
 void ValidatePage::applyCalibration() {
     if (!session_) return;
-    const auto changes = session_->calibrationChanges(link_.target());
+    const auto changes = session_->feeder().calibrationChanges(link_.target());
     if (changes.empty()) return;
-    if (session_->locked()) {
+    if (session_->design().locked()) {
         // The fork opens in place of this study, with its settings.
-        calibrate_->carry(session_->calibratedSettings(changes));
+        calibrate_->carry(session_->feeder().calibratedSettings(changes));
         emit forkWanted();
         return;
     }
-    session_->changeSettings(session_->calibratedSettings(changes), tr("Calibration"));
+    session_->design().changeSettings(session_->feeder().calibratedSettings(changes), tr("Calibration"));
 }
 
 void ValidatePage::goOnWithFork() {
     const auto carried = calibrate_->takeCarried();
-    if (!session_ || !carried || session_->locked() || !session_->summaries().empty()) return;
-    session_->changeSettings(*carried, tr("Calibration"));
+    if (!session_ || !carried || session_->design().locked() || !session_->runs().summaries().empty()) return;
+    session_->design().changeSettings(*carried, tr("Calibration"));
 }
 
 }  // namespace trapwright::feeder

@@ -11,8 +11,6 @@ namespace trapwright::models {
 
 namespace {
 
-using trial::Verdict;
-
 struct Text {
     Q_DECLARE_TR_FUNCTIONS(VerdictLook)
 };

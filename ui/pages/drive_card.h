@@ -3,7 +3,7 @@
 #include <QWidget>
 
 #include "core/verify/predicted_speed.h"
-#include "ui/session/newest_task.h"
+#include "ui/session/work_thread.h"
 
 class QLabel;
 

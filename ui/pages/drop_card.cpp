@@ -15,12 +15,12 @@
 
 #include "core/study/presets.h"
 #include "ui/look/text.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
 
 namespace trapwright::pages {
 
 using look::numberText;
-using session::StudySession;
+using session::StudyDesign;
 
 namespace {
 
@@ -111,7 +111,7 @@ DropCard::DropCard(QWidget* parent)
     auto* cancel = new QPushButton(tr("Cancel"), busy_);
     cancel->setObjectName("drop.cancel");
     connect(cancel, &QPushButton::clicked, this, [this] {
-        if (session_) session_->cancelDrops();
+        if (design_) design_->cancelDrops();
     });
     auto* busyRow = new QHBoxLayout;
     busyRow->addWidget(busyText_, 1);
@@ -146,7 +146,7 @@ DropCard::DropCard(QWidget* parent)
     for (QSpinBox* box : {drops_, seed_})
         connect(box, &QSpinBox::valueChanged, this, touched);
     connect(start_, &QPushButton::clicked, this, [this] {
-        if (session_) session_->startDrops(settings());
+        if (design_) design_->startDrops(settings());
     });
     showState();
 }
@@ -161,23 +161,23 @@ QDoubleSpinBox* DropCard::makeNumber(const QString& name, const QString& title, 
     return box;
 }
 
-void DropCard::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+void DropCard::setDesign(StudyDesign* design) {
+    if (design_) design_->disconnect(this);
+    design_ = design;
     touched_ = false;
-    if (session_) connect(session_, &StudySession::dropsChanged, this, &DropCard::showState);
+    if (design_) connect(design_, &StudyDesign::dropsChanged, this, &DropCard::showState);
     showState();
 }
 
 void DropCard::refresh(const part::MaterialLibrary& library) {
-    if (!session_) return;
+    if (!design_) return;
     listSurfaces(library);
     if (!touched_) {
         study::DropSettings shown = settings();
-        if (const auto last = session_->dropTest()) {
+        if (const auto last = design_->dropTest()) {
             shown = last->settings;
         } else {
-            shown.contact = session_->settings().simulation.contact;
+            shown.contact = design_->settings().simulation.contact;
         }
         showSettings(shown);
     }
@@ -190,7 +190,7 @@ void DropCard::listSurfaces(const part::MaterialLibrary& library) {
     surface_->clear();
     pairs_.clear();
     surface_->addItem(tr("As on the track"), kTrack);
-    if (const part::Material* material = study::findUsedMaterial(library, session_->settings().part)) {
+    if (const part::Material* material = study::findUsedMaterial(library, design_->settings().part)) {
         for (const part::MaterialPair& pair : library.pairs) {
             if (pair.material != material->name) continue;
             surface_->addItem(QString::fromStdString(pair.surface), static_cast<int>(pairs_.size()));
@@ -204,9 +204,9 @@ void DropCard::listSurfaces(const part::MaterialLibrary& library) {
 
 void DropCard::takeSurface() {
     const int chosen = surface_->currentData().toInt();
-    if (chosen == kOwn || !session_) return static_->setFocus();
+    if (chosen == kOwn || !design_) return static_->setFocus();
     study::DropSettings taken = settings();
-    taken.contact = chosen == kTrack ? session_->settings().simulation.contact
+    taken.contact = chosen == kTrack ? design_->settings().simulation.contact
                                      : study::contactOf(pairs_[static_cast<std::size_t>(chosen)]);
     showSettings(taken);
     touched_ = true;
@@ -226,14 +226,14 @@ void DropCard::showSettings(const study::DropSettings& settings) {
 }
 
 void DropCard::showSurface() {
-    if (!session_) return;
+    if (!design_) return;
     const trial::ContactParameters contact = settings().contact;
     const QVariant present = surface_->currentData();
     const auto fits = [&](const QVariant& item) {
         const int index = item.toInt();
         if (!item.isValid() || index == kOwn) return false;
         return sameContact(contact, index == kTrack
-                                        ? session_->settings().simulation.contact
+                                        ? design_->settings().simulation.contact
                                         : study::contactOf(pairs_[static_cast<std::size_t>(index)]));
     };
     // What was chosen stays, where several have the same numbers.
@@ -251,8 +251,8 @@ study::DropSettings DropCard::settings() const {
     settings.height = height_->value() * 1e-3;
     settings.contact = {static_->value(), kinetic_->value(), restitution_->value()};
     settings.seed = static_cast<std::uint64_t>(seed_->value());
-    if (!session_) return settings;
-    const study::SimulationSettings& simulation = session_->settings().simulation;
+    if (!design_) return settings;
+    const study::SimulationSettings& simulation = design_->settings().simulation;
     settings.gravity = simulation.gravity;
     // The boxes show two digits; the track's numbers have them all.
     if (sameContact(settings.contact, simulation.contact)) settings.contact = simulation.contact;
@@ -260,11 +260,11 @@ study::DropSettings DropCard::settings() const {
 }
 
 void DropCard::showState() {
-    const auto drops = session_ ? session_->drops() : std::nullopt;
+    const auto drops = design_ ? design_->drops() : std::nullopt;
     busy_->setVisible(drops.has_value());
     start_->setVisible(!drops);
     const bool frictions = kinetic_->value() <= static_->value();
-    start_->setEnabled(session_ != nullptr && frictions);
+    start_->setEnabled(design_ != nullptr && frictions);
     start_->setToolTip(frictions ? QString()
                                  : tr("The kinetic friction must not be above the static friction"));
     if (drops) {
@@ -275,9 +275,9 @@ void DropCard::showState() {
         bar_->setRange(0, drops->settings.drops);
         bar_->setValue(done);
     }
-    const auto last = session_ ? session_->dropTest() : std::nullopt;
+    const auto last = design_ ? design_->dropTest() : std::nullopt;
     last_->setVisible(!drops);
-    const bool counts = session_ && session_->settings().part.poseWeights == study::PoseWeights::dropped;
+    const bool counts = design_ && design_->settings().part.poseWeights == study::PoseWeights::dropped;
     last_->setText(last     ? describe(*last)
                    : counts ? tr("Not dropped yet; until then the estimate counts.")
                             : tr("Not dropped yet."));

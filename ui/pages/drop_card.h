@@ -14,7 +14,7 @@ class QPushButton;
 class QSpinBox;
 
 namespace trapwright::session {
-class StudySession;
+class StudyDesign;
 }
 
 namespace trapwright::pages {
@@ -26,7 +26,7 @@ class DropCard : public QWidget {
  public:
     explicit DropCard(QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setDesign(session::StudyDesign* design);
     /// The study's settings, part or drops have changed.
     void refresh(const part::MaterialLibrary& library);
 
@@ -39,7 +39,7 @@ class DropCard : public QWidget {
     void showState();
     [[nodiscard]] study::DropSettings settings() const;
 
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyDesign> design_;
     std::vector<part::MaterialPair> pairs_;  // of the part's material
     bool touched_ = false;                   // the user has set something since the study was opened
     QDoubleSpinBox* height_;

@@ -17,12 +17,12 @@
 #include "ui/look/theme.h"
 #include "ui/look/whole_headers.h"
 #include "ui/models/numbers.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
 using session::RunState;
-using session::StudySession;
+using session::StudyRuns;
 
 namespace {
 
@@ -74,24 +74,24 @@ EventLog::EventLog(QWidget* parent)
     colour();
 }
 
-void EventLog::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+void EventLog::setRuns(const StudyRuns* runs) {
+    if (runs_) runs_->disconnect(this);
+    runs_ = runs;
     list_->clear();
     stack_->setCurrentIndex(0);
-    if (!session_) return;
-    last_ = session_->state();
-    connect(session_, &StudySession::stateChanged, this, &EventLog::tellState);
-    connect(session_, &StudySession::generationSaved, this, &EventLog::tellGeneration);
-    connect(session_, &StudySession::checkSaved, this, &EventLog::tellCheck);
-    connect(session_, &StudySession::selectionSaved, this,
-            [this] { add(Kind::good, tr("Selection saved")); });
-    connect(session_, &StudySession::validationSaved, this,
-            [this] { add(Kind::good, tr("Validation saved")); });
-    connect(session_, &StudySession::failed, this,
-            [this](const QString& what, const QString& message) { add(Kind::error, what + ". " + message); });
-    const auto known = session_->summaries().size();
+    if (!runs_) return;
+    last_ = runs_->state();
+    connect(runs_, &StudyRuns::stateChanged, this, &EventLog::tellState);
+    connect(runs_, &StudyRuns::generationSaved, this, &EventLog::tellGeneration);
+    connect(runs_, &StudyRuns::checkSaved, this, &EventLog::tellCheck);
+    connect(runs_, &StudyRuns::selectionSaved, this, [this] { add(Kind::good, tr("Selection saved")); });
+    connect(runs_, &StudyRuns::validationSaved, this, [this] { add(Kind::good, tr("Validation saved")); });
+    const auto known = runs_->summaries().size();
     if (known > 0) add(Kind::info, tr("Opened, generations saved: %1").arg(known));
+}
+
+void EventLog::tellFailure(const QString& what, const QString& message) {
+    add(Kind::error, what + ". " + message);
 }
 
 void EventLog::changeEvent(QEvent* event) {
@@ -128,7 +128,7 @@ void EventLog::colour() {
 
 void EventLog::tellState(RunState state) {
     const RunState before = std::exchange(last_, state);
-    const QString next = QString::number(session_->summaries().size());
+    const QString next = QString::number(runs_->summaries().size());
     switch (state) {
         case RunState::learning:
             add(Kind::info, before == RunState::paused ? tr("Learning continued")
@@ -159,7 +159,7 @@ void EventLog::tellState(RunState state) {
 }
 
 void EventLog::tellGeneration(int generation) {
-    const study::GenerationSummary& summary = session_->summaries().back();
+    const study::GenerationSummary& summary = runs_->summaries().back();
     add(Kind::good, tr("Generation %1 saved: success of its winner %2, F %3, in %4")
                         .arg(generation)
                         .arg(models::shareText(summary.statistics.success),
@@ -168,7 +168,7 @@ void EventLog::tellGeneration(int generation) {
 }
 
 void EventLog::tellCheck(int generation) {
-    const study::CheckRecord& check = session_->checks().back();
+    const study::CheckRecord& check = runs_->checks().back();
     const auto share = [&](const study::EngineScore& score) {
         return tr("%1 %2 of %3")
             .arg(QString::fromStdString(score.engine))

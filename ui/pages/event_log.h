@@ -5,13 +5,13 @@
 #include <QWidget>
 #include <array>
 
-#include "ui/session/run_state.h"
+#include "ui/session/study_runs.h"
 
 class QStackedLayout;
 class QTreeWidget;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::pages {
@@ -23,7 +23,9 @@ class EventLog : public QWidget {
     explicit EventLog(QWidget* parent = nullptr);
 
     /// Begins anew.
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
+    /// See StudySession::failed().
+    void tellFailure(const QString& what, const QString& message);
 
  protected:
     void changeEvent(QEvent* event) override;
@@ -37,7 +39,7 @@ class EventLog : public QWidget {
     void tellGeneration(int generation);
     void tellCheck(int generation);
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     session::RunState last_ = session::RunState::idle;
     std::array<QIcon, 4> signs_;  // by kind
     QTreeWidget* list_;

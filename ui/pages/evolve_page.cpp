@@ -25,10 +25,14 @@
 #include "ui/pages/settings_form.h"
 #include "ui/pages/track_in_scene.h"
 #include "ui/scene/scene_view.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
 
+using session::StudyDesign;
+using session::StudyRuns;
 using session::StudySession;
 
 namespace {
@@ -100,7 +104,7 @@ QWidget* EvolvePage::makeThreads(QWidget* parent) {
     layout->addWidget(threads_);
     connect(threads_, &QSpinBox::valueChanged, this, [this](int threads) {
         QSettings().setValue(kThreadsSetting, threads);
-        if (session_) session_->setThreads(static_cast<unsigned>(threads));
+        if (session_) session_->runs().setThreads(static_cast<unsigned>(threads));
     });
     return row;
 }
@@ -154,7 +158,7 @@ void EvolvePage::addActions() {
 void EvolvePage::connectViews() {
     connect(card_, &RunCard::settingsWanted, this, [this] { emit pageWanted("track"); });
     connect(form_, &SettingsForm::edited, this, [this](const study::Settings& settings, const QString& what) {
-        if (session_) session_->changeSettings(settings, what);
+        if (session_) session_->design().changeSettings(settings, what);
     });
     connect(summary_, &EvolveSummary::changeWanted, this, &EvolvePage::changeSettings);
     connect(strip_, &FilmStrip::picked, this, &EvolvePage::pickWinner);
@@ -181,25 +185,28 @@ QWidget* EvolvePage::sceneBar() {
 }
 
 void EvolvePage::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
+    if (session_) session_->leave(this);
     session_ = session;
     build_.cancel();
     blueprint_.reset();
     track_.reset();
     picked_.reset();
-    card_->setSession(session);
+    const session::StudyRuns* runs = session != nullptr ? &session->runs() : nullptr;
+    card_->setRuns(runs);
     charts_->setSession(session);
-    generations_->setSession(session);
-    individuals_->setSession(session);
-    log_->setSession(session);
-    strip_->setSession(session);
+    generations_->setRuns(runs);
+    individuals_->setRuns(runs);
+    log_->setRuns(runs);
+    strip_->setRuns(runs);
     if (session_) {
-        form_->offer("simulation.engine", engineChoices(session_->engines()));
-        session_->setThreads(static_cast<unsigned>(threads_->value()));
-        connect(session_, &StudySession::settingsChanged, this, &EvolvePage::refresh);
-        connect(session_, &StudySession::partChanged, this, &EvolvePage::refresh);
-        connect(session_, &StudySession::stateChanged, this, &EvolvePage::refresh);
-        connect(session_, &StudySession::generationSaved, this, [this] {
+        connect(session_, &StudySession::failed, this,
+                [this](const QString& what, const QString& message) { log_->tellFailure(what, message); });
+        form_->offer("simulation.engine", engineChoices(session_->design().engines()));
+        session_->runs().setThreads(static_cast<unsigned>(threads_->value()));
+        connect(&session_->design(), &StudyDesign::settingsChanged, this, &EvolvePage::refresh);
+        connect(&session_->design(), &StudyDesign::partChanged, this, &EvolvePage::refresh);
+        connect(&session_->runs(), &StudyRuns::stateChanged, this, &EvolvePage::refresh);
+        connect(&session_->runs(), &StudyRuns::generationSaved, this, [this] {
             if (!picked_) showPicked();
         });
     }
@@ -220,12 +227,12 @@ void EvolvePage::refresh() {
         widget->setVisible(session_ != nullptr);
     compare_->setEnabled(session_ != nullptr);
     if (session_) {
-        const bool locked = session_->locked();
-        form_->show(session_->settings());
+        const bool locked = session_->design().locked();
+        form_->show(session_->design().settings());
         form_->setLocked(
             [locked](const std::string& key) { return !locked || key == "evolution.generations"; });
-        form_->setProblems(session_->problems(), session_->recommendations());
-        summary_->show(session_->settings(), locked);
+        form_->setProblems(session_->design().problems(), session_->design().recommendations());
+        summary_->show(session_->design().settings(), locked);
     }
     showPicked();
 }
@@ -239,7 +246,7 @@ void EvolvePage::askForComparison() {
 
 void EvolvePage::changeSettings() {
     if (!session_) return;
-    const bool locked = session_->locked();
+    const bool locked = session_->design().locked();
     emit pageWanted("track");
     if (locked) emit forkWanted();
 }
@@ -256,7 +263,7 @@ void EvolvePage::pick(const study::Individual& individual) {
 
 void EvolvePage::pickWinner(int generation) {
     if (!session_) return;
-    const std::vector<study::Individual>& winners = session_->winners();
+    const std::vector<study::Individual>& winners = session_->runs().winners();
     if (generation >= 0 && generation < static_cast<int>(winners.size()))
         pick(winners[static_cast<std::size_t>(generation)]);
 }
@@ -267,7 +274,7 @@ void EvolvePage::stepWinner(int step) {
 
 const study::Individual* EvolvePage::shown() const {
     if (picked_) return &*picked_;
-    return session_ ? study::findBestWinner(session_->winners()) : nullptr;
+    return session_ ? study::findBestWinner(session_->runs().winners()) : nullptr;
 }
 
 void EvolvePage::showPicked() {
@@ -282,14 +289,14 @@ void EvolvePage::showPicked() {
     if (individual == nullptr) {
         individual_->clear();
     } else {
-        individual_->show(session_->settings(), *individual);
+        individual_->show(session_->design().settings(), *individual);
         if (track_) individual_->showTrack(*track_);
     }
     if (session_ && scene_ != nullptr) buildTrack(individual);
 }
 
 void EvolvePage::buildTrack(const study::Individual* individual) {
-    const study::TrackSettings& settings = session_->settings().track;
+    const study::TrackSettings& settings = session_->design().settings().track;
     Blueprint blueprint{settings, individual != nullptr ? individual->record.design : search::Design()};
     if (blueprint_ && *blueprint_ == blueprint) return showScene();
     blueprint_ = std::move(blueprint);
@@ -301,7 +308,7 @@ void EvolvePage::buildTrack(const study::Individual* individual) {
 }
 
 QString EvolvePage::captionOf(const study::Individual& individual) const {
-    const auto& winners = session_->winners();
+    const auto& winners = session_->runs().winners();
     const auto generation = static_cast<std::size_t>(individual.generation);
     const bool winner =
         generation < winners.size() && winners[generation].individual == individual.individual;
@@ -313,7 +320,7 @@ QString EvolvePage::captionOf(const study::Individual& individual) const {
 }
 
 void EvolvePage::showScene() {
-    if (scene_ != nullptr && session_) showTrackWithPart(*scene_, track_, session_->part());
+    if (scene_ != nullptr && session_) showTrackWithPart(*scene_, track_, session_->design().part());
 }
 
 }  // namespace trapwright::pages

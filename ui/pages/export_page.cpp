@@ -24,6 +24,8 @@
 #include "ui/pages/print_form.h"
 #include "ui/pages/split_form.h"
 #include "ui/scene/scene_view.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -75,12 +77,12 @@ ExportPage::ExportPage(QWidget* parent)
     tracks_->setToolTip(tr("The first of the last selection, unless another one is picked"));
     tracks_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     connect(tracks_, &QComboBox::activated, this, [this] {
-        const auto winner = session_->loadWinner(tracks_->currentData(kGeneration).toInt(),
-                                                 tracks_->currentData(kIndividual).toInt());
+        const auto winner = session_->runs().loadWinner(tracks_->currentData(kGeneration).toInt(),
+                                                        tracks_->currentData(kIndividual).toInt());
         if (!winner)
             return emit failed(tr("The track cannot be read"),
                                QString::fromStdString(winner.error().message));
-        session_->choose(*winner);
+        session_->runs().choose(*winner);
         build();
     });
 
@@ -181,22 +183,23 @@ void ExportPage::addExport(const QString& format, const QString& text, const QKe
 }
 
 void ExportPage::setSession(session::StudySession* session) {
-    if (session_) session_->disconnect(this);
+    if (session_) session_->leave(this);
     session_ = session;
     print_.cancel();
     printed_.reset();
     shown_.reset();
     findings_->clear();
     if (session_) {
-        using session::StudySession;
-        connect(session_, &StudySession::settingsChanged, this, &ExportPage::refresh);
-        connect(session_, &StudySession::generationSaved, this, [this] {
+        using session::StudyDesign;
+        using session::StudyRuns;
+        connect(&session_->design(), &StudyDesign::settingsChanged, this, &ExportPage::refresh);
+        connect(&session_->runs(), &StudyRuns::generationSaved, this, [this] {
             listStale_ = scene_ == nullptr;
             if (!listStale_) refresh();
         });
-        connect(session_, &StudySession::selectionSaved, this, &ExportPage::refresh);
-        connect(session_, &StudySession::chosenChanged, this, &ExportPage::refresh);
-        connect(session_, &StudySession::validationSaved, this, [this] {
+        connect(&session_->runs(), &StudyRuns::selectionSaved, this, &ExportPage::refresh);
+        connect(&session_->runs(), &StudyRuns::chosenChanged, this, &ExportPage::refresh);
+        connect(&session_->runs(), &StudyRuns::validationSaved, this, [this] {
             if (printed_) take(printed_);
         });
     }
@@ -217,12 +220,12 @@ void ExportPage::deactivate() {
 }
 
 void ExportPage::refresh() {
-    const bool any = session_ && !session_->winners().empty();
+    const bool any = session_ && !session_->runs().winners().empty();
     empty_->setVisible(!any);
     contents_->setVisible(any);
     foot_->setVisible(any);
     if (session_) {
-        const study::TrackSettings& settings = session_->settings().track;
+        const study::TrackSettings& settings = session_->design().settings().track;
         form_->setDesign(settings.baseThickness, settings.shape.type == track::FeederType::bowl);
     }
     const QVariant before = tracks_->currentData(kGeneration);
@@ -241,9 +244,9 @@ void ExportPage::fillTracks() {
         tracks_->setItemData(tracks_->count() - 1, ofGeneration, kGeneration);
         tracks_->setItemData(tracks_->count() - 1, number, kIndividual);
     };
-    if (!session_->selections().empty()) {
+    if (!session_->runs().selections().empty()) {
         int place = 0;
-        for (const study::SelectionEntry& entry : session_->selections().back().entries) {
+        for (const study::SelectionEntry& entry : session_->runs().selections().back().entries) {
             add(tr("Selected, place %1: generation %2, individual %3")
                     .arg(++place)
                     .arg(entry.generation)
@@ -251,7 +254,7 @@ void ExportPage::fillTracks() {
                 entry.generation, entry.individual);
         }
     }
-    const std::vector<study::Individual>& winners = session_->winners();
+    const std::vector<study::Individual>& winners = session_->runs().winners();
     for (const study::Individual& winner : study::rankWinners(winners, static_cast<int>(winners.size()))) {
         add(tr("Generation %1, individual %2: %3")
                 .arg(winner.generation)
@@ -259,7 +262,7 @@ void ExportPage::fillTracks() {
                 .arg(models::successWord(winner.record.success())),
             winner.generation, winner.individual);
     }
-    const auto chosen = session_->chosen();
+    const auto chosen = session_->runs().chosen();
     for (int i = 0; chosen && i < tracks_->count(); ++i) {
         if (tracks_->itemData(i, kGeneration) == chosen->generation &&
             tracks_->itemData(i, kIndividual) == chosen->individual)
@@ -279,7 +282,7 @@ void ExportPage::build() {
     }
     const int generation = tracks_->currentData(kGeneration).toInt();
     const int individual = tracks_->currentData(kIndividual).toInt();
-    const auto winner = session_->loadWinner(generation, individual);
+    const auto winner = session_->runs().loadWinner(generation, individual);
     if (!winner)
         return emit failed(tr("The track cannot be read"), QString::fromStdString(winner.error().message));
     setState(tr("Building the solid ..."));
@@ -289,8 +292,8 @@ void ExportPage::build() {
                                   .arg(individual)
                                   .toStdString();
     const PrintChoice& choice = form_->choice();
-    print_.build({session_->settings().track, winner->record.design, about, choice.options, choice.limits,
-                  form_->printer().space, form_->split().mode(), form_->split().options()});
+    print_.build({session_->design().settings().track, winner->record.design, about, choice.options,
+                  choice.limits, form_->printer().space, form_->split().mode(), form_->split().options()});
 }
 
 void ExportPage::take(const std::shared_ptr<const session::PrintedTrack>& printed) {
@@ -312,10 +315,10 @@ void ExportPage::exportWhenBuilt(const QString& format) {
 }
 
 std::optional<study::TrackSuccess> ExportPage::successOfTrack() const {
-    const auto winner = session_->loadWinner(tracks_->currentData(kGeneration).toInt(),
-                                             tracks_->currentData(kIndividual).toInt());
+    const auto winner = session_->runs().loadWinner(tracks_->currentData(kGeneration).toInt(),
+                                                    tracks_->currentData(kIndividual).toInt());
     if (!winner) return std::nullopt;
-    return session_->findSuccess(*winner);
+    return session_->runs().findSuccess(*winner);
 }
 
 void ExportPage::exportAs(const QString& format) {

@@ -17,11 +17,12 @@
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
 #include "ui/pages/film_frame.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
-using session::StudySession;
+using session::StudyRuns;
 
 namespace {
 
@@ -120,13 +121,13 @@ QWidget* FilmStrip::makeControls() {
     return controls;
 }
 
-void FilmStrip::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    if (session_) {
-        connect(session_, &StudySession::generationSaved, this, [this] {
+void FilmStrip::setRuns(const StudyRuns* runs) {
+    if (runs_) runs_->disconnect(this);
+    runs_ = runs;
+    if (runs_) {
+        connect(runs_, &StudyRuns::generationSaved, this, [this] {
             const QScopedValueRollback<bool> setting(setting_, true);
-            model_.append(session_->winners().back());
+            model_.append(runs_->winners().back());
             slider_->setMaximum(model_.rowCount() - 1);
             stack_->setCurrentIndex(1);
             seen_->start();
@@ -172,9 +173,9 @@ bool FilmStrip::eventFilter(QObject* watched, QEvent* event) {
 void FilmStrip::refresh() {
     const QScopedValueRollback<bool> setting(setting_, true);
     const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
-    pictures_->setTracks(session_ ? session_->settings().track : study::TrackSettings());
+    pictures_->setTracks(runs_ ? runs_->design().settings().track : study::TrackSettings());
     pictures_->setLook(dark, devicePixelRatioF());
-    model_.setWinners(session_ ? session_->winners() : std::vector<study::Individual>());
+    model_.setWinners(runs_ ? runs_->winners() : std::vector<study::Individual>());
     slider_->setRange(0, std::max(model_.rowCount() - 1, 0));
     stack_->setCurrentIndex(model_.rowCount() > 0 ? 1 : 0);
     seen_->start();

@@ -14,7 +14,7 @@ class QTimer;
 class QToolButton;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::pages {
@@ -26,7 +26,7 @@ class FilmStrip : public QWidget {
  public:
     explicit FilmStrip(QWidget* parent = nullptr);
 
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
     /// What the scene shows: a generation (-1: none is there yet), what to call it, and whether the best one
     /// is followed.
     void setCurrent(int generation, const QString& caption, bool following);
@@ -47,7 +47,7 @@ class FilmStrip : public QWidget {
     void redraw();
     void wantSeen();
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     models::WinnerModel model_;
     WinnerPictures* pictures_;
     QStackedLayout* stack_;

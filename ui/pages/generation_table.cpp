@@ -5,11 +5,12 @@
 #include <QVBoxLayout>
 
 #include "ui/pages/details_button.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
-using session::StudySession;
+using session::StudyRuns;
 
 GenerationTable::GenerationTable(QWidget* parent)
     : QWidget(parent),
@@ -43,15 +44,13 @@ QWidget* GenerationTable::makeHead() {
     return head;
 }
 
-void GenerationTable::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    if (!session_) return model_.setGenerations({}, {}, search::Method::genetic);
-    model_.setGenerations(session_->summaries(), session_->checks(), session_->settings().evolution.search);
-    connect(session_, &StudySession::generationSaved, this,
-            [this] { model_.append(session_->summaries().back()); });
-    connect(session_, &StudySession::checkSaved, this,
-            [this] { model_.setCheck(session_->checks().back()); });
+void GenerationTable::setRuns(const StudyRuns* runs) {
+    if (runs_) runs_->disconnect(this);
+    runs_ = runs;
+    if (!runs_) return model_.setGenerations({}, {}, search::Method::genetic);
+    model_.setGenerations(runs_->summaries(), runs_->checks(), runs_->design().settings().evolution.search);
+    connect(runs_, &StudyRuns::generationSaved, this, [this] { model_.append(runs_->summaries().back()); });
+    connect(runs_, &StudyRuns::checkSaved, this, [this] { model_.setCheck(runs_->checks().back()); });
 }
 
 void GenerationTable::setCurrent(int generation) {

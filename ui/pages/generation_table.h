@@ -6,7 +6,7 @@
 #include "ui/pages/record_table.h"
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::pages {
@@ -17,7 +17,7 @@ class GenerationTable : public QWidget {
  public:
     explicit GenerationTable(QWidget* parent = nullptr);
 
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
     /// -1: none.
     void setCurrent(int generation);
 
@@ -28,7 +28,7 @@ class GenerationTable : public QWidget {
  private:
     QWidget* makeHead();
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     models::GenerationModel model_;
     RecordTable* table_;
 };

@@ -7,11 +7,12 @@
 #include <QVBoxLayout>
 
 #include "ui/pages/details_button.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
-using session::StudySession;
+using session::StudyRuns;
 
 IndividualTable::IndividualTable(QWidget* parent)
     : QWidget(parent),
@@ -54,8 +55,8 @@ QWidget* IndividualTable::makeHead() {
     return head;
 }
 
-void IndividualTable::setSession(StudySession* session) {
-    session_ = session;
+void IndividualTable::setRuns(const StudyRuns* runs) {
+    runs_ = runs;
     loaded_ = -1;
     setCurrent(-1, -1);
 }
@@ -73,15 +74,15 @@ void IndividualTable::showEvent(QShowEvent* event) {
 
 void IndividualTable::load() {
     spin_->parentWidget()->setVisible(generation_ >= 0);
-    if (!session_ || generation_ < 0) {
+    if (!runs_ || generation_ < 0) {
         loaded_ = -1;
         return model_.clear();
     }
     const QSignalBlocker quiet(spin_);
-    spin_->setRange(0, static_cast<int>(session_->summaries().size()) - 1);
+    spin_->setRange(0, static_cast<int>(runs_->summaries().size()) - 1);
     spin_->setValue(generation_);
     if (loaded_ != generation_) {
-        const auto record = session_->loadGeneration(generation_);
+        const auto record = runs_->loadGeneration(generation_);
         if (!record) {
             loaded_ = -1;
             model_.clear();
@@ -90,7 +91,7 @@ void IndividualTable::load() {
             return;
         }
         loaded_ = generation_;
-        model_.setGeneration(*record, session_->settings().evolution.search);
+        model_.setGeneration(*record, runs_->design().settings().evolution.search);
         count_->setText(
             tr("%1 individuals, %L2 trials").arg(model_.rowCount()).arg(study::summarize(*record).trials));
     }

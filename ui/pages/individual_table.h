@@ -10,7 +10,7 @@ class QLabel;
 class QSpinBox;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::pages {
@@ -22,7 +22,7 @@ class IndividualTable : public QWidget {
  public:
     explicit IndividualTable(QWidget* parent = nullptr);
 
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
     /// The generation with this individual as the current one; a generation of -1: none.
     void setCurrent(int generation, int individual);
 
@@ -39,7 +39,7 @@ class IndividualTable : public QWidget {
     QWidget* makeHead();
     void load();
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     models::IndividualModel model_;
     RecordTable* table_;
     QSpinBox* spin_;

@@ -11,12 +11,14 @@
 
 #include "core/part/stable_poses.h"
 #include "ui/look/text.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
 using session::RunState;
-using session::StudySession;
+using session::StudyDesign;
+using session::StudyRuns;
 
 namespace {
 
@@ -38,10 +40,10 @@ JudgingCard::JudgingCard(QWidget* parent)
       busy_(makeProgress()) {
     compare_->setObjectName("review.compare");
     compare_->setShortcut(Qt::Key_F8);
-    connect(compare_, &QAction::triggered, this, [this] { session_->startSelection(); });
+    connect(compare_, &QAction::triggered, this, [this] { runs_->startSelection(); });
     validate_->setObjectName("review.validate");
     validate_->setShortcut(Qt::Key_F9);
-    connect(validate_, &QAction::triggered, this, [this] { session_->startValidation(*winner_); });
+    connect(validate_, &QAction::triggered, this, [this] { runs_->startValidation(*winner_); });
 
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -79,7 +81,7 @@ QWidget* JudgingCard::makeProgress() {
     auto* stop = new QPushButton(tr("Stop"), busy);
     stop->setObjectName("review.stop");
     connect(stop, &QPushButton::clicked, this, [this] {
-        if (session_) session_->stopNow();
+        if (runs_) runs_->stopNow();
     });
     auto* row = new QHBoxLayout;
     row->addWidget(busyText_, 1);
@@ -93,14 +95,17 @@ QWidget* JudgingCard::makeProgress() {
     return busy;
 }
 
-void JudgingCard::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    if (session_) {
-        connect(session_, &StudySession::stateChanged, this, &JudgingCard::update);
-        connect(session_, &StudySession::settingsChanged, this, &JudgingCard::update);
-        connect(session_, &StudySession::generationSaved, this, &JudgingCard::update);
-        connect(session_, &StudySession::progressed, this, &JudgingCard::showProgress);
+void JudgingCard::setRuns(StudyRuns* runs) {
+    if (runs_) {
+        runs_->disconnect(this);
+        runs_->design().disconnect(this);
+    }
+    runs_ = runs;
+    if (runs_) {
+        connect(runs_, &StudyRuns::stateChanged, this, &JudgingCard::update);
+        connect(&runs_->design(), &StudyDesign::settingsChanged, this, &JudgingCard::update);
+        connect(runs_, &StudyRuns::generationSaved, this, &JudgingCard::update);
+        connect(runs_, &StudyRuns::progressed, this, &JudgingCard::showProgress);
     }
     update();
 }
@@ -111,10 +116,10 @@ void JudgingCard::setWinner(const std::optional<study::Individual>& winner) {
 }
 
 void JudgingCard::update() {
-    const RunState state = session_ ? session_->state() : RunState::idle;
+    const RunState state = runs_ ? runs_->state() : RunState::idle;
     const bool judging = state == RunState::selecting || state == RunState::validating;
     QString obstacle;
-    if (!session_ || session_->winners().empty()) {
+    if (!runs_ || runs_->winners().empty()) {
         obstacle = tr("Learn a track first");
     } else if (state != RunState::idle && state != RunState::simulating) {
         obstacle = judging ? tr("Wait for the end of what is being simulated, or stop it")
@@ -128,15 +133,15 @@ void JudgingCard::update() {
                                              : obstacle);
     busy_->setVisible(judging);
     showProgress();
-    if (!session_) return;
-    const study::ValidationSettings& settings = session_->settings().validation;
+    if (!runs_) return;
+    const study::ValidationSettings& settings = runs_->design().settings().validation;
     const QLocale locale;
-    const auto winners = std::min<std::size_t>(static_cast<std::size_t>(settings.selectionWinners),
-                                               session_->winners().size());
+    const auto winners =
+        std::min<std::size_t>(static_cast<std::size_t>(settings.selectionWinners), runs_->winners().size());
     compareText_->setText(
         tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials)));
-    const std::size_t poses = session_->part()->stablePoses.size();
-    const std::size_t groups = part::findPoseGroups(*session_->part()).size();
+    const std::size_t poses = runs_->design().part()->stablePoses.size();
+    const std::size_t groups = part::findPoseGroups(*runs_->design().part()).size();
     const QString trials = locale.toString(settings.trialsPerPose);
     validateText_->setText(
         groups == poses
@@ -145,10 +150,10 @@ void JudgingCard::update() {
 }
 
 void JudgingCard::showProgress() {
-    if (!session_ || busy_->isHidden()) return;
-    const session::RunProgress progress = session_->progress();
+    if (!runs_ || busy_->isHidden()) return;
+    const session::RunProgress progress = runs_->progress();
     const QLocale locale;
-    QString text = session_->state() == RunState::selecting ? tr("Comparing") : tr("Validating");
+    QString text = runs_->state() == RunState::selecting ? tr("Comparing") : tr("Validating");
     if (progress.trials > 0)
         text = tr("%1: %2 of %3 trials")
                    .arg(text, locale.toString(static_cast<qlonglong>(progress.trialsDone)),

@@ -12,7 +12,7 @@ class QProgressBar;
 class QPushButton;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::pages {
@@ -24,7 +24,7 @@ class JudgingCard : public QWidget {
  public:
     explicit JudgingCard(QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setRuns(session::StudyRuns* runs);
     /// The track that would be validated; none if there is none.
     void setWinner(const std::optional<study::Individual>& winner);
 
@@ -37,7 +37,7 @@ class JudgingCard : public QWidget {
     void update();
     void showProgress();
 
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyRuns> runs_;
     std::optional<study::Individual> winner_;
     QAction* compare_;
     QAction* validate_;

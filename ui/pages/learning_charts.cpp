@@ -6,10 +6,14 @@
 #include "ui/charts/study_chart.h"
 #include "ui/look/text.h"
 #include "ui/session/study_curves.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
 
+using session::StudyDesign;
+using session::StudyRuns;
 using session::StudySession;
 
 namespace {
@@ -56,25 +60,25 @@ std::vector<Panel> LearningCharts::panels() const {
     return panels;
 }
 
-void LearningCharts::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
+void LearningCharts::setSession(const StudySession* session) {
+    if (session_) session_->leave(this);
     session_ = session;
     reading_.cancel();
     const bool compared = std::exchange(other_, std::nullopt).has_value();
     showStudies();
     if (compared) emit comparisonChanged();
     if (!session_) return;
-    connect(session_, &StudySession::generationSaved, this, [this] {
-        const study::GenerationSummary& summary = session_->summaries().back();
+    connect(&session_->runs(), &StudyRuns::generationSaved, this, [this] {
+        const study::GenerationSummary& summary = session_->runs().summaries().back();
         for (charts::StudyChart* chart : charts_)
             chart->appendGeneration(summary, summary.trialsPerSecond());
     });
-    connect(session_, &StudySession::checkSaved, this, [this] {
+    connect(&session_->runs(), &StudyRuns::checkSaved, this, [this] {
         for (charts::StudyChart* chart : charts_)
-            chart->appendCheck(session_->checks().back());
+            chart->appendCheck(session_->runs().checks().back());
     });
-    connect(session_, &StudySession::partChanged, this, &LearningCharts::showStudies);
-    connect(session_, &StudySession::settingsChanged, this, &LearningCharts::showStudies);
+    connect(&session_->design(), &StudyDesign::partChanged, this, &LearningCharts::showStudies);
+    connect(&session_->design(), &StudyDesign::settingsChanged, this, &LearningCharts::showStudies);
     connect(session_, &StudySession::pathChanged, this, &LearningCharts::showStudies);
 }
 
@@ -124,9 +128,9 @@ QString LearningCharts::comparedName() const {
 void LearningCharts::showStudies() {
     std::vector<charts::StudyCurves> studies;
     if (session_) {
-        const std::vector<study::GenerationSummary>& summaries = session_->summaries();
-        studies.push_back({look::toText(session_->path().stem()), summaries, session_->checks(),
-                           speedsOf(summaries), session_->attainable()});
+        const std::vector<study::GenerationSummary>& summaries = session_->runs().summaries();
+        studies.push_back({look::toText(session_->path().stem()), summaries, session_->runs().checks(),
+                           speedsOf(summaries), session_->design().attainable()});
         if (other_) studies.push_back(*other_);
     }
     for (charts::StudyChart* chart : charts_)

@@ -8,7 +8,7 @@
 
 #include "ui/charts/study_curves.h"
 #include "ui/pages/page.h"
-#include "ui/session/newest_task.h"
+#include "ui/session/work_thread.h"
 
 namespace trapwright::charts {
 class StudyChart;
@@ -26,7 +26,7 @@ class LearningCharts : public QObject {
     /// Asked for once; who asks owns the charts.
     [[nodiscard]] std::vector<Panel> panels() const;
 
-    void setSession(session::StudySession* session);
+    void setSession(const session::StudySession* session);
     /// Reads the other study in the background; it may be learning in another process.
     void compareWith(const std::filesystem::path& study);
     void endComparison();
@@ -42,7 +42,7 @@ class LearningCharts : public QObject {
     void showStudies();
     void add(charts::StudyChart* chart);
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudySession> session_;
     std::optional<charts::StudyCurves> other_;
     session::NewestTask reading_;
     std::vector<charts::StudyChart*> charts_;

@@ -18,7 +18,7 @@
 #include "ui/look/file_dialog.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
 
 namespace trapwright::pages {
 
@@ -412,21 +412,21 @@ void MaterialsDialog::tell(const QString& message) {
     look::colourText(*problems_, look::Tone::bad);
 }
 
-part::MaterialLibrary readMaterials(const session::StudySession& session) {
-    return part::readMaterials(session.ownMaterials());
+part::MaterialLibrary readMaterials(const session::StudyDesign& design) {
+    return part::readMaterials(design.ownMaterials());
 }
 
-void usePair(session::StudySession& session, const part::MaterialPair& pair) {
-    study::Settings settings = session.settings();
+void usePair(session::StudyDesign& design, const part::MaterialPair& pair) {
+    study::Settings settings = design.settings();
     settings.simulation.contact = study::contactOf(pair);
     settings.simulation.surface = pair.surface;
-    session.changeSettings(settings, MaterialsDialog::tr("Pair of materials"));
+    design.changeSettings(settings, MaterialsDialog::tr("Pair of materials"));
     if (settings.part.material == pair.material && settings.part.density == pair.density.value) return;
     settings.part.material = pair.material;
     settings.part.density = pair.density.value;
-    store::StoredPart stored = session.storedPart();
+    store::StoredPart stored = design.storedPart();
     stored.options.density = pair.density.value;
-    session.changePart(stored, settings.part, MaterialsDialog::tr("Material"));
+    design.changePart(stored, settings.part, MaterialsDialog::tr("Material"));
 }
 
 QString pairText(const part::MaterialPair& pair) {

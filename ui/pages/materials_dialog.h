@@ -17,7 +17,7 @@ class QStandardItemModel;
 class QTableView;
 
 namespace trapwright::session {
-class StudySession;
+class StudyDesign;
 }
 
 namespace trapwright::pages {
@@ -94,10 +94,10 @@ class MaterialsDialog : public QDialog {
 };
 
 /// The library of a study's user, and what is wrong with it.
-part::MaterialLibrary readMaterials(const session::StudySession& session);
+part::MaterialLibrary readMaterials(const session::StudyDesign& design);
 /// Has the study take a pair: friction and restitution, and the part's material and density where they are
 /// others. Each can be undone.
-void usePair(session::StudySession& session, const part::MaterialPair& pair);
+void usePair(session::StudyDesign& design, const part::MaterialPair& pair);
 /// "POM on printed PLA: friction 0.3 static, 0.25 kinetic; restitution 0.2"
 QString pairText(const part::MaterialPair& pair);
 

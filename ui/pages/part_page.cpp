@@ -24,6 +24,8 @@
 #include "ui/pages/problem_text.h"
 #include "ui/pages/settings_form.h"
 #include "ui/scene/scene_view.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -187,7 +189,7 @@ void PartPage::addForm() {
     keep->setObjectName("part.proposal.keep");
     connect(take, &QPushButton::clicked, this, [this] {
         const auto pair = std::exchange(proposed_, std::nullopt);
-        if (pair && session_) usePair(*session_, *pair);
+        if (pair && design_) usePair(*design_, *pair);
         showProposal();
     });
     connect(keep, &QPushButton::clicked, this, [this] {
@@ -232,20 +234,23 @@ void PartPage::addForm() {
 }
 
 void PartPage::setSession(session::StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+    if (design_) design_->disconnect(this);
+    if (runs_) runs_->disconnect(this);
+    design_ = session != nullptr ? &session->design() : nullptr;
+    runs_ = session != nullptr ? &session->runs() : nullptr;
     shownMesh_.reset();
     proposed_.reset();
     afterMaterial_.reset();
-    drop_->setSession(session);
+    drop_->setDesign(design_);
     readMaterials();
-    if (session_) {
-        using session::StudySession;
-        connect(session_, &StudySession::settingsChanged, this, &PartPage::refresh);
-        connect(session_, &StudySession::partChanged, this, &PartPage::refresh);
-        connect(session_, &StudySession::stateChanged, this, &PartPage::refresh);
-        connect(session_, &StudySession::dropsChanged, this, [this] {
-            if (!session_->drops()) refresh();
+    if (design_) {
+        using session::StudyDesign;
+        using session::StudyRuns;
+        connect(design_, &StudyDesign::settingsChanged, this, &PartPage::refresh);
+        connect(design_, &StudyDesign::partChanged, this, &PartPage::refresh);
+        connect(runs_, &StudyRuns::stateChanged, this, &PartPage::refresh);
+        connect(design_, &StudyDesign::dropsChanged, this, [this] {
+            if (!design_->drops()) refresh();
         });
     }
     refresh();
@@ -255,7 +260,7 @@ void PartPage::activate(scene::SceneView& scene) {
     scene_ = &scene;
     // Other pages change the library, too.
     readMaterials();
-    if (session_) refresh();
+    if (design_) refresh();
     showScene();
 }
 
@@ -285,17 +290,17 @@ void PartPage::take(const workflow::LoadedPart& part) {
     setBusy({});
     imported_ = part;
     // The scores of a study belong to its part.
-    if (!session_ || session_->locked()) {
+    if (!design_ || design_->locked()) {
         emit studyWanted(part);
     } else {
-        session_->changePart(part, tr("Import of %1").arg(QString::fromStdString(part.part->name)));
+        design_->changePart(part, tr("Import of %1").arg(QString::fromStdString(part.part->name)));
     }
 }
 
 void PartPage::leave() {
     setBusy({});
     question_->hide();
-    if (!session_) emit pageWanted({});
+    if (!design_) emit pageWanted({});
 }
 
 void PartPage::setBusy(const QString& what) {
@@ -304,23 +309,23 @@ void PartPage::setBusy(const QString& what) {
 }
 
 void PartPage::refresh() {
-    form_->setVisible(session_ != nullptr);
+    form_->setVisible(design_ != nullptr);
     misfit_->hide();
-    if (!session_) {
+    if (!design_) {
         name_->setText(tr("No part yet"));
         size_->setText(tr("Import one, or drop its file here"));
         return;
     }
-    const std::shared_ptr<const part::Part> part = session_->part();
+    const std::shared_ptr<const part::Part> part = design_->part();
     name_->setText(QString::fromStdString(part->name));
     size_->setText(sizeText(geometry::calcBoundingBox(part->mesh).size()));
-    form_->show(session_->settings());
-    form_->setLocked([this](const std::string& key) { return key == kWeights || !session_->locked(); });
-    material_->setEnabled(!session_->locked());
-    unit_->setEnabled(!session_->locked());
+    form_->show(design_->settings());
+    form_->setLocked([this](const std::string& key) { return key == kWeights || !design_->locked(); });
+    material_->setEnabled(!design_->locked());
+    unit_->setEnabled(!design_->locked());
 
     QStringList misfits;
-    for (const std::string& problem : study::findPartProblems(session_->settings(), *part))
+    for (const std::string& problem : study::findPartProblems(design_->settings(), *part))
         misfits << describeProblem(problem).text.toHtmlEscaped();
     misfit_->setVisible(!misfits.isEmpty());
     misfit_->setText(misfits.join("<br>") + "<br><a href=\"track\">" + tr("Go to the track's settings") +
@@ -328,7 +333,7 @@ void PartPage::refresh() {
 
     symmetry_->setText(symmetryText(part->symmetry));
     mass_->show(massFacts(*part));
-    poses_->show(part, session_->dropTest(), study::weightsInForce(*part, session_->settings()));
+    poses_->show(part, design_->dropTest(), study::weightsInForce(*part, design_->settings()));
     drop_->refresh(library_);
     showMaterial();
     showUnits();
@@ -337,13 +342,13 @@ void PartPage::refresh() {
 }
 
 bool PartPage::knowsImport() const {
-    return imported_ && imported_->settings.file == session_->settings().part.file;
+    return imported_ && imported_->settings.file == design_->settings().part.file;
 }
 
 void PartPage::showMesh() {
-    if (session_->part() == shownMesh_) return;
-    shownMesh_ = session_->part();
-    const geometry::TriangleMesh& mesh = session_->storedPart().mesh;
+    if (design_->part() == shownMesh_) return;
+    shownMesh_ = design_->part();
+    const geometry::TriangleMesh& mesh = design_->storedPart().mesh;
     meshCheck_.cancel();
     if (knowsImport()) return tellMesh(imported_->found, mesh.triangles.size(), imported_->notes);
     // A study that was opened does not keep what was found when its part came in.
@@ -352,7 +357,7 @@ void PartPage::showMesh() {
         std::vector<std::string> notes;
         if (auto repaired = geometry::repairMesh(mesh)) notes = std::move(repaired->notes);
         return [this, part, report, notes, triangles = mesh.triangles.size()] {
-            if (session_ && session_->part() == part) tellMesh(report, triangles, notes);
+            if (design_ && design_->part() == part) tellMesh(report, triangles, notes);
         };
     });
 }
@@ -371,8 +376,8 @@ void PartPage::tellMesh(const geometry::MeshReport& report, std::size_t triangle
 
 void PartPage::showUnits() {
     unit_->clear();
-    if (!session_) return;
-    const QString present = QString::fromStdString(session_->settings().part.units);
+    if (!design_) return;
+    const QString present = QString::fromStdString(design_->settings().part.units);
     if (knowsImport()) {
         for (const workflow::UnitCandidate& candidate : imported_->candidates) {
             const QString name = QString::fromStdString(candidate.name);
@@ -386,8 +391,8 @@ void PartPage::showUnits() {
 
 void PartPage::readMaterials() {
     const std::vector<std::string> told = library_.problems;
-    library_ = session_ ? pages::readMaterials(*session_) : part::readMaterials();
-    if (session_ && library_.problems != told) {
+    library_ = design_ ? pages::readMaterials(*design_) : part::readMaterials();
+    if (design_ && library_.problems != told) {
         for (const std::string& problem : library_.problems)
             emit failed(tr("A file of materials cannot be read"), QString::fromStdString(problem));
     }
@@ -404,7 +409,7 @@ void PartPage::readMaterials() {
 }
 
 void PartPage::showMaterial() {
-    const part::Material* used = study::findUsedMaterial(library_, session_->settings().part);
+    const part::Material* used = study::findUsedMaterial(library_, design_->settings().part);
     const int other = material_->findData(QString(kOwnDensity));
     if (used != nullptr) {
         if (other >= 0) material_->removeItem(other);
@@ -421,9 +426,9 @@ void PartPage::showMaterial() {
 }
 
 void PartPage::showProposal() {
-    bool open = proposed_ && session_ && !session_->locked();
+    bool open = proposed_ && design_ && !design_->locked();
     if (open) {
-        const trial::ContactParameters& present = session_->settings().simulation.contact;
+        const trial::ContactParameters& present = design_->settings().simulation.contact;
         const trial::ContactParameters wanted = study::contactOf(*proposed_);
         open = present.staticFriction != wanted.staticFriction ||
                present.kineticFriction != wanted.kineticFriction || present.restitution != wanted.restitution;
@@ -437,7 +442,7 @@ void PartPage::showProposal() {
 }
 
 void PartPage::changeUnits(int index) {
-    const study::PartSettings& settings = session_->settings().part;
+    const study::PartSettings& settings = design_->settings().part;
     if (unit_->itemData(index).toString().toStdString() == settings.units) return;
     workflow::PartRequest request;
     request.part = settings.file;
@@ -453,7 +458,7 @@ void PartPage::changeMaterial(int index) {
     const part::Material* material =
         part::findMaterial(library_, material_->itemData(index).toString().toStdString());
     if (material == nullptr) return;
-    study::Settings settings = session_->settings();
+    study::Settings settings = design_->settings();
     if (const auto* used = study::findUsedMaterial(library_, settings.part); used == material) return;
     const part::MaterialPair* pair =
         study::suggestPair(library_, material->name, study::findUsedPair(library_, settings));
@@ -465,42 +470,42 @@ void PartPage::changeMaterial(int index) {
 }
 
 void PartPage::showLibrary() {
-    if (!session_) return;
-    const part::Material* used = study::findUsedMaterial(library_, session_->settings().part);
-    auto* dialog = new MaterialsDialog(session_->ownMaterials(),
+    if (!design_) return;
+    const part::Material* used = study::findUsedMaterial(library_, design_->settings().part);
+    auto* dialog = new MaterialsDialog(design_->ownMaterials(),
                                        used != nullptr ? QString::fromStdString(used->name) : QString(),
-                                       !session_->locked(), this);
+                                       !design_->locked(), this);
     connect(dialog, &MaterialsDialog::pairWanted, this, [this](const part::MaterialPair& pair) {
-        if (session_) usePair(*session_, pair);
+        if (design_) usePair(*design_, pair);
     });
     connect(dialog, &MaterialsDialog::libraryChanged, this, [this] {
         readMaterials();
-        if (session_) refresh();
+        if (design_) refresh();
     });
     dialog->open();
 }
 
 void PartPage::edit(const study::Settings& settings, const QString& what) {
     study::PartSettings same = settings.part;
-    study::takePoseWeights(same, session_->settings().part);
-    if (settings.part.poseWeights != session_->settings().part.poseWeights)
-        return session_->countPosesBy(settings.part.poseWeights);
-    if (same == session_->settings().part) return session_->changeSettings(settings, what);
+    study::takePoseWeights(same, design_->settings().part);
+    if (settings.part.poseWeights != design_->settings().part.poseWeights)
+        return design_->countPosesBy(settings.part.poseWeights);
+    if (same == design_->settings().part) return design_->changeSettings(settings, what);
     // The part is built anew of these.
-    store::StoredPart stored = session_->storedPart();
+    store::StoredPart stored = design_->storedPart();
     stored.options.density = settings.part.density;
     stored.options.symmetryTolerance = settings.part.symmetryTolerance;
     stored.options.symmetry = settings.part.symmetry;
-    session_->changePart(stored, settings.part, what);
+    design_->changePart(stored, settings.part, what);
 }
 
 void PartPage::showScene() {
     if (scene_ == nullptr) return;
-    if (session_) {
+    if (design_) {
         std::vector<double> shares;
-        for (const part::PoseGroup& group : study::weighPoseGroups(*session_->part(), session_->settings()))
+        for (const part::PoseGroup& group : study::weighPoseGroups(*design_->part(), design_->settings()))
             shares.push_back(group.probability);
-        scene_->showStablePoses(session_->part(), std::move(shares));
+        scene_->showStablePoses(design_->part(), std::move(shares));
     } else {
         scene_->clear();
     }

@@ -6,13 +6,18 @@
 
 #include "core/part/materials.h"
 #include "ui/pages/page.h"
-#include "ui/session/newest_task.h"
 #include "ui/session/part_import.h"
+#include "ui/session/work_thread.h"
 
 class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
+
+namespace trapwright::session {
+class StudyDesign;
+class StudyRuns;
+}  // namespace trapwright::session
 
 namespace trapwright::pages {
 
@@ -61,7 +66,8 @@ class PartPage : public Page {
     void edit(const study::Settings& settings, const QString& what);
     void showScene();
 
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyDesign> design_;
+    QPointer<const session::StudyRuns> runs_;
     scene::SceneView* scene_ = nullptr;  // while the page is shown
     session::PartImport import_;
     QString importing_;  // the file's name

@@ -16,13 +16,16 @@
 #include "ui/pages/replay_files.h"
 #include "ui/pages/result_table.h"
 #include "ui/pages/track_choice.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
 
 using models::ValidationModel;
+using session::StudyDesign;
+using session::StudyRuns;
 using session::StudySession;
-using trial::Verdict;
 
 namespace {
 
@@ -105,29 +108,30 @@ QWidget* ReviewPage::sceneBar() {
 }
 
 void ReviewPage::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
+    if (session_) session_->leave(this);
     session_ = session;
-    review_.setSession(session);
-    judging_->setSession(session);
-    choice_->setSession(session);
+    review_.setReplays(session != nullptr ? &session->replays() : nullptr);
+    judging_->setRuns(session != nullptr ? &session->runs() : nullptr);
+    choice_->setRuns(session != nullptr ? &session->runs() : nullptr);
     showSelection();
     if (!session_) return;
-    connect(session_, &StudySession::generationSaved, this, [this] {
+    connect(session_, &StudySession::failed, this, [this] { review_.endWaiting(); });
+    connect(&session_->runs(), &StudyRuns::generationSaved, this, [this] {
         if (isVisible()) choice_->refresh();  // otherwise when the page is activated
     });
-    connect(session_, &StudySession::selectionSaved, this, [this] {
+    connect(&session_->runs(), &StudyRuns::selectionSaved, this, [this] {
         choice_->refresh();
         showSelection();
         review_.refreshSources();
         // The best of them is what one wants to see now.
-        const study::SelectionRecord& last = session_->selections().back();
+        const study::SelectionRecord& last = session_->runs().selections().back();
         if (!last.entries.empty())
             choice_->setWinner(last.entries.front().generation, last.entries.front().individual);
         emit panelWanted("comparison");
     });
     // What totals are weighted by.
-    connect(session_, &StudySession::settingsChanged, this, &ReviewPage::showValidation);
-    connect(session_, &StudySession::validationSaved, this, [this] {
+    connect(&session_->design(), &StudyDesign::settingsChanged, this, &ReviewPage::showValidation);
+    connect(&session_->runs(), &StudyRuns::validationSaved, this, [this] {
         choice_->refresh();
         showValidation();
         review_.refreshSources();
@@ -170,14 +174,14 @@ void ReviewPage::showWinner() {
 void ReviewPage::showSelection() {
     if (!shownSelection_) return;
     shownSelection_->setEmptyText(
-        session_ && !session_->winners().empty()
+        session_ && !session_->runs().winners().empty()
             ? tr("The winners were not compared yet. Compare them to find the best one.")
             : tr("Learn a track first: then the winners can be compared."));
-    if (!session_ || session_->selections().empty()) {
+    if (!session_ || session_->runs().selections().empty()) {
         shownSelection_->setHead({});
         return selection_.clear();
     }
-    const study::SelectionRecord& last = session_->selections().back();
+    const study::SelectionRecord& last = session_->runs().selections().back();
     shownSelection_->setHead(
         tr("Simulated by %1. Choose a row to look at its track.").arg(fromText(last.engine)));
     selection_.setSelection(last);
@@ -191,7 +195,7 @@ void ReviewPage::showValidation() {
                : tr("Learn a track first: then it can be validated."));
     const study::ValidationRecord* found = nullptr;
     if (session_ && winner) {
-        for (const study::ValidationRecord& record : session_->validations())
+        for (const study::ValidationRecord& record : session_->runs().validations())
             if (isSameIndividual(record, *winner)) found = &record;
     }
     if (found == nullptr) {
@@ -202,8 +206,8 @@ void ReviewPage::showValidation() {
         tr("Simulated by %1, success within %2°. Choose a number of failures to see them; a row of several "
            "poses that look the same opens to each of them.")
             .arg(fromText(found->engine), look::numberText(found->tolerance / base::kDegree)));
-    const study::ValidationTable table =
-        study::tabulate(*found, study::weighPoseGroups(*session_->part(), session_->settings()));
+    const study::ValidationTable table = study::tabulate(
+        *found, study::weighPoseGroups(*session_->design().part(), session_->design().settings()));
     validation_.setValidation(table);
     shownValidation_->setPinned(validation_.totals());
 }

@@ -41,7 +41,7 @@ class ReviewPage : public Page {
     void showValidation();
     void goToFailures(const QModelIndex& cell);
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudySession> session_;
     TrialReview review_;
     models::SelectionModel selection_;
     models::ValidationModel validation_;

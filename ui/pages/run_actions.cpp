@@ -4,7 +4,8 @@
 
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
@@ -39,11 +40,11 @@ RunActions::RunActions(QObject* parent)
       stopNow_(makeAction(this, "run.stopNow", "stop", tr("Stop &now"), Qt::SHIFT | Qt::Key_F7,
                           tr("Stop at once; what is not complete is dropped"))) {
     connect(start_, &QAction::triggered, this, [this] {
-        if (!session_) return;
-        if (session_->state() == RunState::paused) {
-            session_->resume();
+        if (!runs_) return;
+        if (runs_->state() == RunState::paused) {
+            runs_->resume();
         } else {
-            session_->startLearning();
+            runs_->startLearning();
             emit started();
         }
     });
@@ -51,55 +52,57 @@ RunActions::RunActions(QObject* parent)
     estimateDelay_->setSingleShot(true);
     estimateDelay_->setInterval(kEstimateDelay);
     connect(estimateDelay_, &QTimer::timeout, this, [this] {
-        if (session_ && session_->state() == RunState::idle) session_->requestEstimate();
+        if (runs_ && runs_->state() == RunState::idle) runs_->requestEstimate();
     });
     connect(pause_, &QAction::triggered, this, [this] {
-        if (session_) session_->pause();
+        if (runs_) runs_->pause();
     });
     connect(stopAfterGeneration_, &QAction::triggered, this, [this] {
-        if (session_) session_->stopAfterGeneration();
+        if (runs_) runs_->stopAfterGeneration();
     });
     connect(stopNow_, &QAction::triggered, this, [this] {
-        if (session_) session_->stopNow();
+        if (runs_) runs_->stopNow();
     });
     update();
 }
 
-void RunActions::setSession(session::StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    if (session_) {
-        connect(session_, &session::StudySession::stateChanged, this, &RunActions::update);
-        connect(session_, &session::StudySession::settingsChanged, this, &RunActions::update);
-        connect(session_, &session::StudySession::partChanged, this, &RunActions::update);
-        connect(session_, &session::StudySession::generationSaved, this, &RunActions::update);
-        connect(session_, &session::StudySession::estimated, this, &RunActions::update);
+void RunActions::setStudy(session::StudyDesign* design, session::StudyRuns* runs) {
+    if (design_) design_->disconnect(this);
+    if (runs_) runs_->disconnect(this);
+    design_ = design;
+    runs_ = runs;
+    if (runs_) {
+        connect(runs_, &session::StudyRuns::stateChanged, this, &RunActions::update);
+        connect(design_, &session::StudyDesign::settingsChanged, this, &RunActions::update);
+        connect(design_, &session::StudyDesign::partChanged, this, &RunActions::update);
+        connect(runs_, &session::StudyRuns::generationSaved, this, &RunActions::update);
+        connect(runs_, &session::StudyRuns::estimated, this, &RunActions::update);
     }
     update();
 }
 
 void RunActions::startDraft() {
-    const auto draft = session_ ? session_->draft() : std::nullopt;
+    const auto draft = runs_ ? runs_->draft() : std::nullopt;
     if (!draft) return;
-    study::Settings settings = session_->settings();
+    study::Settings settings = design_->settings();
     settings.evolution = draft->evolution;
-    session_->changeSettings(settings, tr("Draft in 10 minutes"));
-    session_->startLearning();
+    design_->changeSettings(settings, tr("Draft in 10 minutes"));
+    runs_->startLearning();
     emit started();
 }
 
 void RunActions::update() {
-    const RunState state = session_ ? session_->state() : RunState::idle;
+    const RunState state = runs_ ? runs_->state() : RunState::idle;
     const bool paused = state == RunState::paused;
     const bool idle = state == RunState::idle || state == RunState::simulating;
-    const auto generations = session_ ? session_->summaries().size() : 0;
+    const auto generations = runs_ ? runs_->summaries().size() : 0;
     const bool complete =
-        session_ && generations >= static_cast<std::size_t>(session_->settings().evolution.generations);
+        runs_ && generations >= static_cast<std::size_t>(design_->settings().evolution.generations);
 
     QString obstacle;
-    if (!session_) {
+    if (!runs_) {
         obstacle = tr("Import a part or open a study first");
-    } else if (!session_->problems().empty()) {
+    } else if (!design_->problems().empty()) {
         obstacle = tr("Correct what is marked on the Track page first");
     } else if (idle && complete) {
         obstacle = tr("All generations are learned; raise their number to continue");
@@ -109,8 +112,8 @@ void RunActions::update() {
                                       : tr("&Start learning"));
     start_->setToolTip(obstacle.isEmpty() ? tr("Continue from the last saved generation") : obstacle);
     start_->setEnabled(paused || (idle && obstacle.isEmpty()));
-    const auto draft = session_ ? session_->draft() : std::nullopt;
-    const bool timed = session_ && session_->estimatedSeconds() > 0.0;
+    const auto draft = runs_ ? runs_->draft() : std::nullopt;
+    const bool timed = runs_ && runs_->estimatedSeconds() > 0.0;
     draft_->setEnabled(idle && obstacle.isEmpty() && draft.has_value());
     if (!obstacle.isEmpty()) {
         draft_->setToolTip(obstacle);
@@ -126,7 +129,7 @@ void RunActions::update() {
         draft_->setToolTip(timed ? tr("Trials of this part take too long for a draft on this machine")
                                  : tr("Trials are being timed on this machine"));
     }
-    if (state == RunState::idle && session_ && !timed && obstacle.isEmpty()) estimateDelay_->start();
+    if (state == RunState::idle && runs_ && !timed && obstacle.isEmpty()) estimateDelay_->start();
     pause_->setEnabled(state == RunState::learning);
     stopAfterGeneration_->setEnabled(state == RunState::learning || paused);
     stopNow_->setEnabled(!idle && state != RunState::stopping);

@@ -7,8 +7,9 @@
 class QTimer;
 
 namespace trapwright::session {
-class StudySession;
-}
+class StudyDesign;
+class StudyRuns;
+}  // namespace trapwright::session
 
 namespace trapwright::pages {
 
@@ -20,7 +21,8 @@ class RunActions : public QObject {
  public:
     explicit RunActions(QObject* parent = nullptr);
 
-    void setSession(session::StudySession* session);
+    /// Null, both of them: no study is open.
+    void setStudy(session::StudyDesign* design, session::StudyRuns* runs);
 
     /// Starts learning, or goes on with it when it is paused.
     QAction* start() { return start_; }
@@ -38,7 +40,8 @@ class RunActions : public QObject {
     void update();
     void startDraft();
 
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyDesign> design_;
+    QPointer<session::StudyRuns> runs_;
     QTimer* estimateDelay_;
     QAction* start_;
     QAction* draft_;

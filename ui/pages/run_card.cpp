@@ -13,7 +13,8 @@
 #include "ui/look/theme.h"
 #include "ui/pages/run_actions.h"
 #include "ui/pages/success_card.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
@@ -92,17 +93,21 @@ QWidget* RunCard::makeButton(QAction* action, const QString& name) {
     return button;
 }
 
-void RunCard::setSession(session::StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    if (session_) {
-        using session::StudySession;
-        connect(session_, &StudySession::stateChanged, this, &RunCard::announce);
-        connect(session_, &StudySession::progressed, this, &RunCard::update);
-        connect(session_, &StudySession::estimated, this, &RunCard::update);
-        connect(session_, &StudySession::settingsChanged, this, &RunCard::update);
-        connect(session_, &StudySession::partChanged, this, &RunCard::update);
-        connect(session_, &StudySession::generationSaved, this, &RunCard::update);
+void RunCard::setRuns(const session::StudyRuns* runs) {
+    if (runs_) {
+        runs_->disconnect(this);
+        runs_->design().disconnect(this);
+    }
+    runs_ = runs;
+    if (runs_) {
+        using session::StudyDesign;
+        using session::StudyRuns;
+        connect(runs_, &StudyRuns::stateChanged, this, &RunCard::announce);
+        connect(runs_, &StudyRuns::progressed, this, &RunCard::update);
+        connect(runs_, &StudyRuns::estimated, this, &RunCard::update);
+        connect(&runs_->design(), &StudyDesign::settingsChanged, this, &RunCard::update);
+        connect(&runs_->design(), &StudyDesign::partChanged, this, &RunCard::update);
+        connect(runs_, &StudyRuns::generationSaved, this, &RunCard::update);
     }
     update();
 }
@@ -115,13 +120,13 @@ void RunCard::announce() {
 }
 
 void RunCard::update() {
-    const RunState state = session_ ? session_->state() : RunState::idle;
+    const RunState state = runs_ ? runs_->state() : RunState::idle;
     const bool idle = state == RunState::idle || state == RunState::simulating;
-    draft_->setVisible(idle && session_ && session_->summaries().empty() && session_->problems().empty());
+    draft_->setVisible(idle && runs_ && runs_->summaries().empty() && runs_->design().problems().empty());
     bar_->setVisible(!idle);
     speed_->setVisible(!idle);
     showSuccess();
-    if (!session_) return;
+    if (!runs_) return;
     if (idle) {
         showIdle();
     } else {
@@ -130,7 +135,7 @@ void RunCard::update() {
 }
 
 void RunCard::showSuccess() {
-    const study::Individual* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
+    const study::Individual* best = runs_ ? study::findBestWinner(runs_->winners()) : nullptr;
     success_->setVisible(best != nullptr);
     if (best == nullptr) return;
     const auto success = best->record.success();
@@ -142,8 +147,8 @@ void RunCard::showSuccess() {
 }
 
 QString RunCard::workText() const {
-    const study::EvolutionSettings& evolution = session_->settings().evolution;
-    const int left = evolution.generations - static_cast<int>(session_->summaries().size());
+    const study::EvolutionSettings& evolution = runs_->design().settings().evolution;
+    const int left = evolution.generations - static_cast<int>(runs_->summaries().size());
     const QString what =
         left == 1 ? tr("1 generation of %1 × %2 trials") : tr("%3 generations of %1 × %2 trials");
     const QString each = what.arg(evolution.populationSize).arg(evolution.trialsPerEvaluation);
@@ -156,9 +161,9 @@ void RunCard::showDraft() {
 }
 
 void RunCard::showIdle() {
-    const int known = static_cast<int>(session_->summaries().size());
-    const int wanted = session_->settings().evolution.generations;
-    if (!session_->problems().empty()) {
+    const int known = static_cast<int>(runs_->summaries().size());
+    const int wanted = runs_->design().settings().evolution.generations;
+    if (!runs_->design().problems().empty()) {
         title_->setText(tr("Not ready to learn"));
         detail_->setText(tr("Correct what is marked on the <a href=\"track\">Track page</a> first."));
         return;
@@ -170,7 +175,7 @@ void RunCard::showIdle() {
     }
     title_->setText(known == 0 ? tr("Ready to learn")
                                : tr("%1 of %2 generations learned").arg(known).arg(wanted));
-    const double seconds = session_->estimatedSeconds();
+    const double seconds = runs_->estimatedSeconds();
     const QString work = workText();
     if (seconds <= 0.0) {
         detail_->setText(known == 0 ? tr("%1 in all. How long that takes here is being measured.").arg(work)
@@ -182,7 +187,7 @@ void RunCard::showIdle() {
 }
 
 void RunCard::showRun(RunState state) {
-    const RunProgress progress = session_->progress();
+    const RunProgress progress = runs_->progress();
     const bool checking = progress.generations > 0 && progress.generation >= progress.generations;
     const double done = progress.trials > 0
                             ? static_cast<double>(progress.trialsDone) / static_cast<double>(progress.trials)

@@ -7,7 +7,7 @@ class QLabel;
 class QProgressBar;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 enum class RunState;
 }  // namespace trapwright::session
 
@@ -23,7 +23,7 @@ class RunCard : public QWidget {
  public:
     RunCard(RunActions& run, QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
 
  signals:
     /// The settings have to be mended first.
@@ -39,7 +39,7 @@ class RunCard : public QWidget {
     void showRun(session::RunState state);
     [[nodiscard]] QString workText() const;
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     SuccessCard* success_;
     QLabel* title_;
     QLabel* detail_;

@@ -14,11 +14,11 @@
 #include "ui/models/numbers.h"
 #include "ui/pages/fact_list.h"
 #include "ui/pages/success_card.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
-using session::StudySession;
+using session::StudyRuns;
 
 namespace {
 
@@ -82,13 +82,13 @@ TrackChoice::TrackChoice(QWidget* parent)
     column->addWidget(take_);
 }
 
-void TrackChoice::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+void TrackChoice::setRuns(StudyRuns* runs) {
+    if (runs_) runs_->disconnect(this);
+    runs_ = runs;
     winner_.reset();
-    if (session_) {
-        connect(session_, &StudySession::chosenChanged, this, &TrackChoice::showFinal);
-        winner_ = session_->chosen();
+    if (runs_) {
+        connect(runs_, &StudyRuns::chosenChanged, this, &TrackChoice::showFinal);
+        winner_ = runs_->chosen();
     }
     listWinners();
     showFacts();
@@ -96,9 +96,8 @@ void TrackChoice::setSession(StudySession* session) {
 }
 
 void TrackChoice::setWinner(int generation, int individual) {
-    if (!session_ || (winner_ && winner_->generation == generation && winner_->individual == individual))
-        return;
-    const auto winner = session_->loadWinner(generation, individual);
+    if (!runs_ || (winner_ && winner_->generation == generation && winner_->individual == individual)) return;
+    const auto winner = runs_->loadWinner(generation, individual);
     if (!winner) {
         emit failed(tr("The track cannot be shown"), QString::fromStdString(winner.error().message));
         return;
@@ -110,8 +109,8 @@ void TrackChoice::setWinner(int generation, int individual) {
 }
 
 void TrackChoice::refresh() {
-    if (session_ && !winner_) {
-        winner_ = session_->chosen();
+    if (runs_ && !winner_) {
+        winner_ = runs_->chosen();
         if (winner_) emit winnerChanged();
     }
     listWinners();
@@ -121,9 +120,9 @@ void TrackChoice::refresh() {
 void TrackChoice::listWinners() {
     const QSignalBlocker blocker(list_);
     list_->clear();
-    if (!session_) return;
+    if (!runs_) return;
     const auto add = [this](const study::Individual& winner) {
-        const Success success = session_->findSuccess(winner);
+        const Success success = runs_->findSuccess(winner);
         list_->addItem(
             tr("%1: %2").arg(nameOf(winner.generation, winner.individual),
                              models::successWord(success ? std::optional(success->rate) : std::nullopt)),
@@ -132,7 +131,7 @@ void TrackChoice::listWinners() {
         if (winner_ && isSameIndividual(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
     };
     list_->setCurrentIndex(-1);
-    const std::vector<study::Individual>& winners = session_->winners();
+    const std::vector<study::Individual>& winners = runs_->winners();
     std::for_each(winners.rbegin(), winners.rend(), add);
     if (winner_ && list_->currentIndex() < 0) add(*winner_);
 }
@@ -146,13 +145,13 @@ void TrackChoice::showFacts() {
     Facts facts = {{tr("While learning"), models::shareText(record.success())},
                    {tr("Finished"), tr("%1 of %2").arg(record.finished).arg(record.trials)}};
     const study::SelectionEntry* compared = nullptr;
-    for (const study::SelectionRecord& selection : session_->selections())
+    for (const study::SelectionRecord& selection : runs_->selections())
         for (const study::SelectionEntry& entry : selection.entries)
             if (isSameIndividual(entry, *winner_)) compared = &entry;
     if (compared != nullptr)
         facts.emplace_back(tr("Comparison"),
                            models::shareText(stats::Count{compared->oriented, compared->trials}));
-    const Success success = session_->findSuccess(*winner_);
+    const Success success = runs_->findSuccess(*winner_);
     if (success && success->source == study::TrackSuccess::Source::validation) {
         success_->showWeighted({success->rate, success->calcInterval()},
                                tr("validation, weighted by how often parts land so"));
@@ -169,8 +168,8 @@ void TrackChoice::showFacts() {
 }
 
 void TrackChoice::askAndChoose() {
-    if (!session_ || !winner_) return;
-    const QString objection = findObjection(session_->findSuccess(*winner_), winner_->record);
+    if (!runs_ || !winner_) return;
+    const QString objection = findObjection(runs_->findSuccess(*winner_), winner_->record);
     if (objection.isEmpty()) return choose();
     auto* box = new QMessageBox(QMessageBox::Warning, tr("Trapwright"),
                                 tr("Make the track of %1 the final one?")
@@ -190,18 +189,18 @@ void TrackChoice::askAndChoose() {
 }
 
 void TrackChoice::choose() {
-    if (session_ && winner_) session_->choose(*winner_);
+    if (runs_ && winner_) runs_->choose(*winner_);
 }
 
 bool TrackChoice::isFinal() const {
-    const auto chosen = session_ ? session_->chosen() : std::nullopt;
+    const auto chosen = runs_ ? runs_->chosen() : std::nullopt;
     return chosen && winner_ && isSameIndividual(*chosen, *winner_);
 }
 
 void TrackChoice::showFinal() {
     take_->setVisible(winner_.has_value() && !isFinal());
     if (!winner_) return final_->setText(tr("No track has been learned yet."));
-    const auto chosen = session_ ? session_->chosen() : std::nullopt;
+    const auto chosen = runs_ ? runs_->chosen() : std::nullopt;
     if (!chosen) return final_->clear();
     final_->setText(isFinal() ? tr("<b>This is the final track.</b> It is the one that is exported.")
                               : tr("Final track: %1").arg(nameOf(chosen->generation, chosen->individual)));

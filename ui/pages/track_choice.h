@@ -11,7 +11,7 @@ class QLabel;
 class QPushButton;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::pages {
@@ -26,7 +26,7 @@ class TrackChoice : public QWidget {
  public:
     explicit TrackChoice(QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setRuns(session::StudyRuns* runs);
     [[nodiscard]] const std::optional<study::Individual>& winner() const { return winner_; }
     /// Any individual of the study.
     void setWinner(int generation, int individual);
@@ -45,7 +45,7 @@ class TrackChoice : public QWidget {
     void showFinal();
     [[nodiscard]] bool isFinal() const;
 
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyRuns> runs_;
     std::optional<study::Individual> winner_;
     QComboBox* list_;
     SuccessCard* success_;

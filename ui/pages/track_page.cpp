@@ -23,6 +23,8 @@
 #include "ui/pages/run_actions.h"
 #include "ui/pages/settings_form.h"
 #include "ui/pages/track_in_scene.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::pages {
@@ -188,12 +190,12 @@ QWidget* TrackPage::makeStart(QWidget* parent) {
 }
 
 void TrackPage::showTime() {
-    const auto draft = session_ ? session_->draft() : std::nullopt;
+    const auto draft = design_ ? runs_->draft() : std::nullopt;
     draftPreset_->setEnabled(draft.has_value());
-    const double seconds = session_ ? session_->estimatedSeconds() : 0.0;
-    const bool isLeft = session_ && static_cast<int>(session_->summaries().size()) <
-                                        session_->settings().evolution.generations;
-    time_->setVisible(isLeft && session_->problems().empty() && session_->state() == session::RunState::idle);
+    const double seconds = design_ ? runs_->estimatedSeconds() : 0.0;
+    const bool isLeft =
+        design_ && static_cast<int>(runs_->summaries().size()) < design_->settings().evolution.generations;
+    time_->setVisible(isLeft && design_->problems().empty() && runs_->state() == session::RunState::idle);
     if (seconds <= 0.0) {
         time_->setText(tr("How long learning takes on this machine is being measured."));
     } else if (draft) {
@@ -210,8 +212,8 @@ void TrackPage::addContactChoice() {
     contact_->setAccessibleName(tr("Pair of materials"));
     connect(contact_, &QComboBox::activated, this, [this](int index) {
         const auto* pair = part::findPair(library_, contact_->itemData(index).toString().toStdString());
-        if (pair == nullptr || !session_) return showContact();
-        study::Settings settings = session_->settings();
+        if (pair == nullptr || !design_) return showContact();
+        study::Settings settings = design_->settings();
         settings.simulation.contact = study::contactOf(*pair);
         settings.simulation.surface = pair->surface;
         edit(settings, tr("Pair of materials"));
@@ -231,7 +233,7 @@ void TrackPage::addContactChoice() {
 
 void TrackPage::listPairs() {
     contact_->clear();
-    const part::Material* material = study::findUsedMaterial(library_, session_->settings().part);
+    const part::Material* material = study::findUsedMaterial(library_, design_->settings().part);
     for (const part::MaterialPair& pair : library_.pairs) {
         if (material != nullptr && pair.material != material->name) continue;
         contact_->addItem(QString::fromStdString(part::pairTitle(pair)), QString::fromStdString(pair.name));
@@ -242,38 +244,41 @@ void TrackPage::listPairs() {
 }
 
 void TrackPage::showLibrary() {
-    if (!session_) return;
-    const part::Material* used = study::findUsedMaterial(library_, session_->settings().part);
-    auto* dialog = new MaterialsDialog(session_->ownMaterials(),
+    if (!design_) return;
+    const part::Material* used = study::findUsedMaterial(library_, design_->settings().part);
+    auto* dialog = new MaterialsDialog(design_->ownMaterials(),
                                        used != nullptr ? QString::fromStdString(used->name) : QString(),
-                                       !session_->locked(), this);
+                                       !design_->locked(), this);
     connect(dialog, &MaterialsDialog::pairWanted, this, [this](const part::MaterialPair& pair) {
-        if (session_) usePair(*session_, pair);
+        if (design_) usePair(*design_, pair);
     });
     connect(dialog, &MaterialsDialog::libraryChanged, this, [this] {
-        if (!session_) return;
-        library_ = readMaterials(*session_);
+        if (!design_) return;
+        library_ = readMaterials(*design_);
         showContact();
     });
     dialog->open();
 }
 
 void TrackPage::setSession(session::StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+    if (design_) design_->disconnect(this);
+    if (runs_) runs_->disconnect(this);
+    design_ = session != nullptr ? &session->design() : nullptr;
+    runs_ = session != nullptr ? &session->runs() : nullptr;
     built_.reset();
     track_.reset();
     build_.cancel();
-    if (session_) {
-        form_->offer("simulation.engine", engineChoices(session_->engines()));
-        library_ = readMaterials(*session_);
-        using session::StudySession;
-        connect(session_, &StudySession::settingsChanged, this, &TrackPage::refresh);
-        connect(session_, &StudySession::partChanged, this, &TrackPage::refresh);
-        connect(session_, &StudySession::stateChanged, this, &TrackPage::refresh);
-        connect(session_, &StudySession::estimated, this, &TrackPage::showTime);
-        connect(session_, &StudySession::generationSaved, this, [this] {
-            if (locked_->isHidden() == session_->locked()) refresh();
+    if (design_) {
+        form_->offer("simulation.engine", engineChoices(design_->engines()));
+        library_ = readMaterials(*design_);
+        using session::StudyDesign;
+        using session::StudyRuns;
+        connect(design_, &StudyDesign::settingsChanged, this, &TrackPage::refresh);
+        connect(design_, &StudyDesign::partChanged, this, &TrackPage::refresh);
+        connect(runs_, &StudyRuns::stateChanged, this, &TrackPage::refresh);
+        connect(runs_, &StudyRuns::estimated, this, &TrackPage::showTime);
+        connect(runs_, &StudyRuns::generationSaved, this, [this] {
+            if (locked_->isHidden() == design_->locked()) refresh();
         });
     }
     refresh();
@@ -282,8 +287,8 @@ void TrackPage::setSession(session::StudySession* session) {
 void TrackPage::activate(scene::SceneView& scene) {
     scene_ = &scene;
     // Other pages change the library, too.
-    if (session_) {
-        library_ = readMaterials(*session_);
+    if (design_) {
+        library_ = readMaterials(*design_);
         showContact();
     }
     showTrack();
@@ -294,14 +299,14 @@ void TrackPage::deactivate() {
 }
 
 void TrackPage::refresh() {
-    form_->QWidget::setVisible(session_ != nullptr);
-    locked_->setVisible(session_ && session_->locked());
+    form_->QWidget::setVisible(design_ != nullptr);
+    locked_->setVisible(design_ && design_->locked());
     problems_->hide();
     showTime();
     help_->setText(tr("Point at a field to read what it means."));
-    if (!session_) return;
+    if (!design_) return;
 
-    const study::Settings& settings = session_->settings();
+    const study::Settings& settings = design_->settings();
     form_->show(settings);
     const bool bowl = settings.track.shape.type == track::FeederType::bowl;
     form_->setVisible("track.bowlRadius_mm", bowl);
@@ -313,7 +318,7 @@ void TrackPage::refresh() {
     for (const char* key : {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
                             "evolution.smoothingLimit"})
         form_->setVisible(key, genetic);
-    const bool locked = session_->locked();
+    const bool locked = design_->locked();
     form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });
     contact_->setEnabled(!locked);
     showTitle();
@@ -329,12 +334,12 @@ void TrackPage::refresh() {
 
 void TrackPage::changeEvent(QEvent* event) {
     Page::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange && session_) showProblems();
+    if (event->type() == QEvent::PaletteChange && design_) showProblems();
 }
 
 void TrackPage::showProblems() {
-    const std::vector<std::string>& problems = session_->problems();
-    form_->setProblems(problems, session_->recommendations());
+    const std::vector<std::string>& problems = design_->problems();
+    form_->setProblems(problems, design_->recommendations());
     problems_->setVisible(!problems.empty());
     if (problems.empty()) return;
     const QColor colour = look::toneColour(look::Tone::bad, palette());
@@ -347,46 +352,46 @@ void TrackPage::showProblems() {
 
 void TrackPage::showContact() {
     listPairs();
-    const part::MaterialPair* used = study::findUsedPair(library_, session_->settings());
+    const part::MaterialPair* used = study::findUsedPair(library_, design_->settings());
     const int index = used != nullptr ? contact_->findData(QString::fromStdString(used->name)) : -1;
     contact_->setCurrentIndex(index >= 0 ? index : contact_->count() - 1);
     contact_->setToolTip(used != nullptr ? QString::fromStdString(part::describeSources(*used)) : QString());
 }
 
 void TrackPage::edit(const study::Settings& settings, const QString& what) {
-    if (session_) session_->changeSettings(settings, what);
+    if (design_) design_->changeSettings(settings, what);
 }
 
 void TrackPage::usePreset(const QString& name, const QString& title) {
-    if (!session_) return;
+    if (!design_) return;
     auto settings = study::presetSettings(name.toStdString());
     if (!settings) return emit failed(title, QString::fromStdString(settings.error().message));
-    settings->part = session_->settings().part;
-    settings->feeder = session_->settings().feeder;
+    settings->part = design_->settings().part;
+    settings->feeder = design_->settings().feeder;
     edit(*settings, title);
 }
 
 void TrackPage::useDraft() {
-    const auto draft = session_ ? session_->draft() : std::nullopt;
+    const auto draft = design_ ? runs_->draft() : std::nullopt;
     if (!draft) return;
-    study::Settings settings = session_->settings();
+    study::Settings settings = design_->settings();
     settings.evolution = draft->evolution;
     edit(settings, tr("Draft in 10 minutes"));
 }
 
 void TrackPage::useFullLearning() {
-    if (!session_) return;
-    study::Settings settings = session_->settings();
+    if (!design_) return;
+    study::Settings settings = design_->settings();
     settings.evolution = workflow::fullEvolution(settings.evolution);
     edit(settings, tr("Full learning"));
 }
 
 void TrackPage::usePaperMode() {
-    if (session_) edit(study::paperMode(session_->settings()), tr("The paper's own choices"));
+    if (design_) edit(study::paperMode(design_->settings()), tr("The paper's own choices"));
 }
 
 void TrackPage::showTitle() {
-    const bool bowl = session_ && session_->settings().track.shape.type == track::FeederType::bowl;
+    const bool bowl = design_ && design_->settings().track.shape.type == track::FeederType::bowl;
     title_->setText(bowl ? tr("Bowl track") : tr("Linear track"));
     size_->clear();
     if (!track_) return;
@@ -396,7 +401,7 @@ void TrackPage::showTitle() {
 
 void TrackPage::showTrack() {
     if (scene_ == nullptr) return;
-    showTrackWithPart(*scene_, track_, session_ ? session_->part() : nullptr);
+    showTrackWithPart(*scene_, track_, design_ ? design_->part() : nullptr);
 }
 
 }  // namespace trapwright::pages

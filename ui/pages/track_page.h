@@ -13,6 +13,11 @@
 class QComboBox;
 class QLabel;
 
+namespace trapwright::session {
+class StudyDesign;
+class StudyRuns;
+}  // namespace trapwright::session
+
 namespace trapwright::pages {
 
 class DriveCard;
@@ -51,7 +56,8 @@ class TrackPage : public Page {
     void showTitle();
 
     RunActions& run_;
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyDesign> design_;
+    QPointer<const session::StudyRuns> runs_;
     scene::SceneView* scene_ = nullptr;  // while the page is shown
     session::TrackBuild build_;
     std::optional<study::TrackSettings> built_;  // what is shown, or being built

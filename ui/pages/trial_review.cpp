@@ -8,11 +8,13 @@
 #include "ui/charts/orientation_chart.h"
 #include "ui/models/numbers.h"
 #include "ui/pages/playback_bar.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
 using session::ListedTrials;
-using session::StudySession;
+using session::StudyReplays;
 using workflow::TrialKind;
 
 namespace {
@@ -53,7 +55,7 @@ TrialReview::TrialReview(QObject* parent)
       orientation_(new charts::OrientationChart) {
     connect(list_, &TrialList::sourceChosen, this, &TrialReview::setSource);
     connect(list_, &TrialList::stopWanted, this, [this] {
-        if (session_) session_->cancelSimulations();
+        if (study_) study_->cancelSimulations();
         requested_.clear();
         list_->setTrials(list_->trials().rows(), 0);
     });
@@ -95,17 +97,19 @@ charts::OrientationChart* TrialReview::orientation() const {
     return orientation_;
 }
 
-void TrialReview::setSession(StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
+void TrialReview::setReplays(StudyReplays* study) {
+    if (study_) study_->disconnect(this);
+    study_ = study;
     setWinner(std::nullopt);
-    if (!session_) return;
-    bar_->setFrequency(session_->settings().simulation.drive.frequency);
-    connect(session_, &StudySession::trialsArrived, this, &TrialReview::takeTrials);
-    connect(session_, &StudySession::trialsListed, this, &TrialReview::takeTrials);
-    connect(session_, &StudySession::replayed, this, &TrialReview::takeReplay);
-    // The window tells why.
-    connect(session_, &StudySession::failed, this, [this] { list_->setTrials(list_->trials().rows(), 0); });
+    if (!study_) return;
+    bar_->setFrequency(study_->design().settings().simulation.drive.frequency);
+    connect(study_, &StudyReplays::trialsArrived, this, &TrialReview::takeTrials);
+    connect(study_, &StudyReplays::trialsListed, this, &TrialReview::takeTrials);
+    connect(study_, &StudyReplays::replayed, this, &TrialReview::takeReplay);
+}
+
+void TrialReview::endWaiting() {
+    list_->setTrials(list_->trials().rows(), 0);
 }
 
 void TrialReview::setWinner(const std::optional<study::Individual>& winner) {
@@ -121,7 +125,7 @@ void TrialReview::setWinner(const std::optional<study::Individual>& winner) {
                             : tr("Learn a track first: its trials are listed here."));
     bar_->setHint(winner ? tr("Choose a trial to replay it") : QString());
     if (!winner_) return;
-    build_.buildIndividual(session_->settings().track, winner_->record.design);
+    build_.buildIndividual(study_->design().settings().track, winner_->record.design);
     wantTrials();
 }
 
@@ -162,27 +166,27 @@ void TrialReview::goToTrials(const std::vector<int>& poses, const std::set<trial
 }
 
 void TrialReview::showTrack() {
-    scene_.setTrack(track_, session_ && track_ ? session_->part() : nullptr);
+    scene_.setTrack(track_, study_ && track_ ? study_->design().part() : nullptr);
     player_.setDuration(scene_.duration());
 }
 
 void TrialReview::makeSources() {
     sources_.clear();
-    if (session_ && winner_) {
+    if (study_ && winner_) {
         const auto isWinner = [this](const auto& record) { return isSameIndividual(record, *winner_); };
         if (winner_->record.trials > 0)
             sources_.push_back({tr("Learning"), {TrialKind::learning, *winner_}, winner_->record.trials});
         int selected = 0;
-        for (const study::SelectionRecord& selection : session_->selections())
+        for (const study::SelectionRecord& selection : study_->runs().selections())
             for (const study::SelectionEntry& entry : selection.entries)
                 if (isWinner(entry)) selected = entry.trials;
         if (selected > 0) sources_.push_back({tr("Comparison"), {TrialKind::selection, *winner_}, selected});
         const study::ValidationRecord* last = nullptr;
-        for (const study::ValidationRecord& validation : session_->validations())
+        for (const study::ValidationRecord& validation : study_->runs().validations())
             if (isWinner(validation)) last = &validation;
         if (last != nullptr) {
-            const study::ValidationTable table =
-                study::tabulate(*last, study::weighPoseGroups(*session_->part(), session_->settings()));
+            const study::ValidationTable table = study::tabulate(
+                *last, study::weighPoseGroups(*study_->design().part(), study_->design().settings()));
             for (const study::ValidationGroup& group : table.groups) {
                 std::vector<int> poses;
                 for (const study::ValidationRow& row : group.rows)
@@ -204,7 +208,7 @@ void TrialReview::setSource(int source) {
 }
 
 void TrialReview::forgetTrials() {
-    if (listed_ && session_) session_->cancelSimulations();
+    if (listed_ && study_) study_->cancelSimulations();
     listed_ = false;
     playWanted_ = false;
     counting_.cancel();
@@ -219,13 +223,13 @@ void TrialReview::forgetTrials() {
 }
 
 void TrialReview::wantTrials() {
-    if (listed_ || !visible_ || !session_ || source_ < 0 || source_ >= static_cast<int>(sources_.size()))
+    if (listed_ || !visible_ || !study_ || source_ < 0 || source_ >= static_cast<int>(sources_.size()))
         return;
     listed_ = true;
     const TrialSource& source = sources_[static_cast<std::size_t>(source_)];
     list_->setEmptyText(tr("The trials are on their way."));
     list_->setTrials({}, source.count);
-    session_->requestTrials(source.request);
+    study_->requestTrials(source.request);
 }
 
 bool TrialReview::isShown(const workflow::TrialsRequest& request) const {
@@ -235,15 +239,16 @@ bool TrialReview::isShown(const workflow::TrialsRequest& request) const {
 void TrialReview::takeTrials(const ListedTrials& trials) {
     if (!isShown(trials.request)) return;
     showOrigin(trials);
-    const double tolerance = session_->settings().validation.tolerance;
-    counting_.start([this, trials, tolerance, part = session_->part()]() -> session::NewestTask::Deliver {
-        auto rows = makeRows(trials, part->symmetry);
-        auto shares = study::calcOrientationShares(*part, trials.outcomes, trials.judged.expected);
-        return [this, rows = std::move(rows), shares = std::move(shares), tolerance,
-                wanted = trials.wanted]() mutable {
-            showTrials(std::move(rows), wanted, std::move(shares), tolerance);
-        };
-    });
+    const double tolerance = study_->design().settings().validation.tolerance;
+    counting_.start(
+        [this, trials, tolerance, part = study_->design().part()]() -> session::NewestTask::Deliver {
+            auto rows = makeRows(trials, part->symmetry);
+            auto shares = study::calcOrientationShares(*part, trials.outcomes, trials.judged.expected);
+            return [this, rows = std::move(rows), shares = std::move(shares), tolerance,
+                    wanted = trials.wanted]() mutable {
+                showTrials(std::move(rows), wanted, std::move(shares), tolerance);
+            };
+        });
 }
 
 void TrialReview::showOrigin(const ListedTrials& trials) {
@@ -284,7 +289,7 @@ void TrialReview::wantReplays() {
                                        [&](const ReplayedTrial& replay) { return replay.trial == trial; });
         if (there || std::find(requested_.begin(), requested_.end(), trial) != requested_.end()) continue;
         requested_.push_back(trial);
-        session_->replay(sources_[static_cast<std::size_t>(source_)].request, trial, kInterval);
+        study_->replay(sources_[static_cast<std::size_t>(source_)].request, trial, kInterval);
     }
     showReplays();
 }

@@ -12,9 +12,9 @@
 #include "ui/pages/replay_player.h"
 #include "ui/pages/replay_scene.h"
 #include "ui/pages/trial_list.h"
-#include "ui/session/newest_task.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_replays.h"
 #include "ui/session/track_build.h"
+#include "ui/session/work_thread.h"
 
 namespace trapwright::charts {
 class OrientationChart;
@@ -39,7 +39,9 @@ class TrialReview : public QObject {
     [[nodiscard]] ReplayPlayer& player() { return player_; }
     [[nodiscard]] const ReplayScene& scene() const { return scene_; }
 
-    void setSession(session::StudySession* session);
+    void setReplays(session::StudyReplays* study);
+    /// What was asked for of the study does not come: the window tells why.
+    void endWaiting();
     void setWinner(const std::optional<study::Individual>& winner);
     /// Lists its trials anew, after a selection or validation added some.
     void refreshSources();
@@ -73,7 +75,7 @@ class TrialReview : public QObject {
     void forgetTrials();
     [[nodiscard]] bool isShown(const workflow::TrialsRequest& request) const;
 
-    QPointer<session::StudySession> session_;
+    QPointer<session::StudyReplays> study_;
     std::optional<study::Individual> winner_;
     std::vector<TrialSource> sources_;
     int source_ = 0;

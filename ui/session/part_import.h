@@ -5,7 +5,7 @@
 
 #include "core/base/run_control.h"
 #include "core/workflow/part_source.h"
-#include "ui/session/newest_task.h"
+#include "ui/session/work_thread.h"
 
 namespace trapwright::session {
 

@@ -15,7 +15,7 @@
 #include "core/track/print_pieces.h"
 #include "core/track/track_file.h"
 #include "core/workflow/track_export.h"
-#include "ui/session/newest_task.h"
+#include "ui/session/work_thread.h"
 
 namespace trapwright::session {
 

@@ -1,8 +1,76 @@
 #include "ui/session/study_opening.h"
 
-#include "ui/session/opened_study.h"
+#include <utility>
 
 namespace trapwright::session {
+
+namespace {
+
+base::Result<std::optional<study::Individual>> readChosen(const store::StudyFile& file) {
+    const auto place = file.loadChosenWinner();
+    if (!place) return place.error();
+    if (!*place) return std::optional<study::Individual>();
+    auto record = file.loadIndividual(**place);
+    if (!record) return record.error();
+    return std::optional(study::Individual{**place, std::move(*record)});
+}
+
+}  // namespace
+
+base::Result<OpenedStudy> readStudy(store::StudyFile file) {
+    auto design = workflow::loadDesign(file);
+    if (!design) return design.error();
+    auto summaries = file.loadSummaries();
+    if (!summaries) return summaries.error();
+    auto winners = file.loadWinners();
+    if (!winners) return winners.error();
+    auto checks = file.loadChecks();
+    if (!checks) return checks.error();
+    auto selections = file.loadSelections();
+    if (!selections) return selections.error();
+    auto validations = file.loadValidations();
+    if (!validations) return validations.error();
+    auto physical = file.loadPhysicalValidations();
+    if (!physical) return physical.error();
+    auto calibrations = file.loadCalibrations();
+    if (!calibrations) return calibrations.error();
+    auto dropTests = file.loadDropTests();
+    if (!dropTests) return dropTests.error();
+    auto chosen = readChosen(file);
+    if (!chosen) return chosen.error();
+    auto study = readNewStudy(std::move(file), std::move(*design));
+    if (!study) return study;
+    study->summaries = std::move(*summaries);
+    study->winners = std::move(*winners);
+    study->checks = std::move(*checks);
+    study->selections = std::move(*selections);
+    study->validations = std::move(*validations);
+    study->physicalValidations = std::move(*physical);
+    study->calibrations = std::move(*calibrations);
+    study->dropTests = std::move(*dropTests);
+    study->chosen = std::move(*chosen);
+    return study;
+}
+
+base::Result<OpenedStudy> readNewStudy(store::StudyFile file, workflow::StudyDesign design) {
+    auto reader = store::StudyFile::openReadOnly(file.path());
+    if (!reader) return reader.error();
+    auto ledger = file.openBeside();
+    if (!ledger) return ledger.error();
+    return OpenedStudy{std::move(file),
+                       std::move(*reader),
+                       std::move(*ledger),
+                       std::move(design),
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {},
+                       {}};
+}
 
 void StudyOpening::start(const std::filesystem::path& path, const Environment& environment, Opened opened) {
     task_.start([=, opened = std::move(opened)]() -> NewestTask::Deliver {

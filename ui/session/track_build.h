@@ -9,7 +9,7 @@
 #include "core/search/design_space.h"
 #include "core/study/settings.h"
 #include "core/track/track.h"
-#include "ui/session/newest_task.h"
+#include "ui/session/work_thread.h"
 
 namespace trapwright::session {
 

@@ -17,6 +17,8 @@
 #include "ui/look/text.h"
 #include "ui/pages/page.h"
 #include "ui/session/part_import.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/window/farewell.h"
 #include "ui/window/help_place.h"
 #include "ui/window/page_docks.h"
@@ -188,8 +190,9 @@ void MainWindow::setSession(session::StudySession* session) {
     if (desk_.session() != nullptr) leaveSession(*desk_.session());
     for (pages::Page* page : pages_)
         page->setSession(session);
-    run_.setSession(session);
-    status_->setSession(session);
+    run_.setStudy(session != nullptr ? &session->design() : nullptr,
+                  session != nullptr ? &session->runs() : nullptr);
+    status_->setRuns(session != nullptr ? &session->runs() : nullptr);
     for (QUndoStack* stack : undo_->stacks())
         undo_->removeStack(stack);
     for (QAction* action : studyActions_)
@@ -202,12 +205,12 @@ void MainWindow::setSession(session::StudySession* session) {
         page_ = 0;
     } else {
         connect(session, &session::StudySession::failed, this, &MainWindow::failSession);
-        connect(session, &session::StudySession::partChanged, this, [this] {
+        connect(&session->design(), &session::StudyDesign::partChanged, this, [this] {
             clearPageMessage();
             updateTitle();
         });
-        undo_->addStack(session->undoStack());
-        undo_->setActiveStack(session->undoStack());
+        undo_->addStack(session->design().undoStack());
+        undo_->setActiveStack(session->design().undoStack());
         frame_->messages().clear();
         setPage(findPlace(desk_.recent().page(session->path())).value_or(page_));
     }
@@ -219,7 +222,7 @@ void MainWindow::setSession(session::StudySession* session) {
 
 /// Before another study takes its place, or none does.
 void MainWindow::leaveSession(session::StudySession& session) {
-    session.disconnect(this);
+    session.leave(this);
     // What a page still builds must not appear in the scene of the page that comes next.
     pages_[page_]->deactivate();
     if (!desk_.isDiscarded()) desk_.recent().setPage(session.path(), pages_[page_]->face().name);
@@ -296,7 +299,7 @@ void MainWindow::fail(const QString& what, const QString& message) {
 /// A run belongs to the study, and what ends it is told on every page; what else was tried was tried on this
 /// one.
 void MainWindow::failSession(const QString& what, const QString& message) {
-    const RunState state = desk_.session()->state();
+    const RunState state = desk_.session()->runs().state();
     if (!desk_.session()->isInPlace()) {
         frame_->messages().show(look::MessageKind::error, what, message,
                                 {{tr("Save a copy..."), [this] { askForSaveAs([] {}); }}});

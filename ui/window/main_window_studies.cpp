@@ -9,6 +9,8 @@
 #include "ui/pages/part_files.h"
 #include "ui/session/part_import.h"
 #include "ui/session/recovery_note.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/window/farewell.h"
 #include "ui/window/main_window.h"
 #include "ui/window/scene_frame.h"
@@ -112,7 +114,7 @@ void MainWindow::openStudy(const std::filesystem::path& file, bool learn) {
             report(tr("The study cannot be opened"), opened);
             if (!opened || !learn) return;
             showPage("evolve");
-            desk_.session()->startLearning();
+            desk_.session()->runs().startLearning();
         });
     });
 }
@@ -132,13 +134,13 @@ void MainWindow::openExample(const QString& name, bool learn, const std::functio
                     report(tr("The example cannot be opened"), created);
                     if (!created) return;
                     if (!learn) return afterwards();
-                    study::Settings settings = desk_.session()->settings();
+                    study::Settings settings = desk_.session()->design().settings();
                     settings.evolution.populationSize = kExamplePopulation;
                     settings.evolution.trialsPerEvaluation = kExampleTrials;
                     settings.evolution.generations = kExampleGenerations;
-                    desk_.session()->changeSettings(settings, tr("Example"));
+                    desk_.session()->design().changeSettings(settings, tr("Example"));
                     showPage("evolve");
-                    desk_.session()->startLearning();
+                    desk_.session()->runs().startLearning();
                 });
         import->start(pages::partRequest(name.toStdString()));
     });
@@ -160,7 +162,7 @@ void MainWindow::offerRecovery() {
 
 void MainWindow::whenClosable(const std::function<void()>& afterwards) {
     const session::StudySession* session = desk_.session();
-    const RunState state = session == nullptr ? RunState::idle : session->state();
+    const RunState state = session == nullptr ? RunState::idle : session->runs().state();
     if (state == RunState::idle || state == RunState::simulating) {
         return whenSaved([this, afterwards] { farewell_->whenReleased(afterwards); });
     }
@@ -174,12 +176,12 @@ void MainWindow::whenClosable(const std::function<void()>& afterwards) {
     if (learns) {
         addAnswer(box, "answer.stopAfter", tr("Stop after this generation"), QMessageBox::AcceptRole, this,
                   [this, afterwards] {
-                      desk_.session()->stopAfterGeneration();
+                      desk_.session()->runs().stopAfterGeneration();
                       whenIdle([this, afterwards] { whenClosable(afterwards); });
                   });
     }
     addAnswer(box, "answer.stopNow", tr("Stop now"), QMessageBox::DestructiveRole, this, [this, afterwards] {
-        desk_.session()->stopNow();
+        desk_.session()->runs().stopNow();
         whenIdle([this, afterwards] { whenClosable(afterwards); });
     });
     box->setDefaultButton(
@@ -189,9 +191,9 @@ void MainWindow::whenClosable(const std::function<void()>& afterwards) {
 
 void MainWindow::whenIdle(const std::function<void()>& afterwards) {
     // While the question was open the run may have ended by itself.
-    if (desk_.session()->state() == RunState::idle) return afterwards();
+    if (desk_.session()->runs().state() == RunState::idle) return afterwards();
     auto* waiting = new QObject(this);
-    connect(desk_.session(), &session::StudySession::stateChanged, waiting,
+    connect(&desk_.session()->runs(), &session::StudyRuns::stateChanged, waiting,
             [this, waiting, afterwards](RunState now) {
                 if (now != RunState::idle) return;
                 waiting->deleteLater();
@@ -203,13 +205,15 @@ void MainWindow::whenSaved(const std::function<void()>& afterwards) {
     if (!desk_.isDraft()) return afterwards();
     // What was only looked at asks no question.
     session::StudySession& session = *desk_.session();
-    if (session.summaries().empty() && session.state() == RunState::idle && session.undoStack()->isClean()) {
+    if (session.runs().summaries().empty() && session.runs().state() == RunState::idle &&
+        session.design().undoStack()->isClean()) {
         desk_.discardLater();
         return afterwards();
     }
-    QMessageBox* box = question(this, "dialog.draft",
-                                tr("Save the study of %1?").arg(QString::fromStdString(session.part()->name)),
-                                tr("It has no file of its own yet."));
+    QMessageBox* box =
+        question(this, "dialog.draft",
+                 tr("Save the study of %1?").arg(QString::fromStdString(session.design().part()->name)),
+                 tr("It has no file of its own yet."));
     box->setDefaultButton(addAnswer(box, "answer.save", tr("Save as..."), QMessageBox::AcceptRole, this,
                                     [this, afterwards] { askForSaveAs(afterwards); }));
     addAnswer(box, "answer.discard", tr("Discard it"), QMessageBox::DestructiveRole, this,

@@ -11,7 +11,8 @@
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/models/numbers.h"
-#include "ui/session/study_session.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::window {
 
@@ -97,23 +98,27 @@ QLabel* StatusLine::addField(const QString& name, const QString& meaning) {
     return label;
 }
 
-void StatusLine::setSession(session::StudySession* session) {
-    if (session_) session_->disconnect(this);
-    session_ = session;
-    if (session_) {
-        using session::StudySession;
-        connect(session_, &StudySession::stateChanged, this, &StatusLine::update);
-        connect(session_, &StudySession::progressed, this, &StatusLine::update);
-        connect(session_, &StudySession::settingsChanged, this, &StatusLine::update);
-        connect(session_, &StudySession::partChanged, this, &StatusLine::update);
-        connect(session_, &StudySession::generationSaved, this, &StatusLine::update);
-        connect(session_, &StudySession::generationSaved, this, &StatusLine::updateEngines);
-        connect(session_, &StudySession::generationSaved, this, &StatusLine::updateSuccess);
-        connect(session_, &StudySession::selectionSaved, this, &StatusLine::updateSuccess);
-        connect(session_, &StudySession::validationSaved, this, &StatusLine::updateSuccess);
-        connect(session_, &StudySession::chosenChanged, this, &StatusLine::updateSuccess);
-        connect(session_, &StudySession::settingsChanged, this, &StatusLine::updateEngines);
-        connect(session_, &StudySession::checkSaved, this, &StatusLine::updateEngines);
+void StatusLine::setRuns(const session::StudyRuns* runs) {
+    if (runs_) {
+        runs_->disconnect(this);
+        runs_->design().disconnect(this);
+    }
+    runs_ = runs;
+    if (runs_) {
+        using session::StudyDesign;
+        using session::StudyRuns;
+        connect(runs_, &StudyRuns::stateChanged, this, &StatusLine::update);
+        connect(runs_, &StudyRuns::progressed, this, &StatusLine::update);
+        connect(&runs_->design(), &StudyDesign::settingsChanged, this, &StatusLine::update);
+        connect(&runs_->design(), &StudyDesign::partChanged, this, &StatusLine::update);
+        connect(runs_, &StudyRuns::generationSaved, this, &StatusLine::update);
+        connect(runs_, &StudyRuns::generationSaved, this, &StatusLine::updateEngines);
+        connect(runs_, &StudyRuns::generationSaved, this, &StatusLine::updateSuccess);
+        connect(runs_, &StudyRuns::selectionSaved, this, &StatusLine::updateSuccess);
+        connect(runs_, &StudyRuns::validationSaved, this, &StatusLine::updateSuccess);
+        connect(runs_, &StudyRuns::chosenChanged, this, &StatusLine::updateSuccess);
+        connect(&runs_->design(), &StudyDesign::settingsChanged, this, &StatusLine::updateEngines);
+        connect(runs_, &StudyRuns::checkSaved, this, &StatusLine::updateEngines);
     }
     update();
     updateSuccess();
@@ -126,15 +131,15 @@ void StatusLine::changeEvent(QEvent* event) {
 }
 
 void StatusLine::update() {
-    const RunState runState = session_ ? session_->state() : RunState::idle;
-    const bool problems = session_ && !session_->problems().empty();
+    const RunState runState = runs_ ? runs_->state() : RunState::idle;
+    const bool problems = runs_ && !runs_->design().problems().empty();
     const StateFace face = faceOf(runState, problems);
     for (QWidget* widget : std::initializer_list<QWidget*>{sign_, state_})
-        widget->setVisible(session_ != nullptr);
+        widget->setVisible(runs_ != nullptr);
     for (QWidget* widget : std::initializer_list<QWidget*>{bar_, individual_, speed_, left_})
         widget->setVisible(face.active);
-    generation_->setVisible(session_ && !session_->summaries().empty());
-    if (!session_) return;
+    generation_->setVisible(runs_ && !runs_->summaries().empty());
+    if (!runs_) return;
 
     const QColor colour = problems      ? look::toneColour(look::Tone::warning, QPalette())
                           : face.active ? QPalette().color(QPalette::Highlight)
@@ -142,12 +147,12 @@ void StatusLine::update() {
     sign_->setPixmap(look::signPixmap(face.icon, colour, kSign, devicePixelRatioF()));
     state_->setText(face.text);
 
-    const int known = static_cast<int>(session_->summaries().size());
-    const int generations = session_->settings().evolution.generations;
+    const int known = static_cast<int>(runs_->summaries().size());
+    const int generations = runs_->design().settings().evolution.generations;
     generation_->setText(tr("%1 of %2 generations").arg(known).arg(generations));
     if (!face.active) return;
 
-    const RunProgress progress = session_->progress();
+    const RunProgress progress = runs_->progress();
     if (progress.generations > 0) {
         generation_->setVisible(true);
         generation_->setText(tr("%1 of %2 generations").arg(progress.generation).arg(progress.generations));
@@ -168,10 +173,10 @@ void StatusLine::update() {
 
 /// Of the final track: until one is chosen that is the best winner.
 void StatusLine::updateSuccess() {
-    const study::Individual* best = session_ ? study::findBestWinner(session_->winners()) : nullptr;
-    const auto chosen = session_ ? session_->chosen() : std::nullopt;
+    const study::Individual* best = runs_ ? study::findBestWinner(runs_->winners()) : nullptr;
+    const auto chosen = runs_ ? runs_->chosen() : std::nullopt;
     const study::Individual* shown = chosen ? &*chosen : best;
-    const auto success = shown != nullptr ? session_->findSuccess(*shown) : std::nullopt;
+    const auto success = shown != nullptr ? runs_->findSuccess(*shown) : std::nullopt;
     success_->setVisible(success.has_value());
     if (!success) return;
     const bool other =
@@ -191,11 +196,12 @@ void StatusLine::updateSuccess() {
 void StatusLine::updateEngines() {
     engines_->clear();
     engines_->setToolTip({});
-    if (!session_) return;
-    if (session_->checks().empty()) {
+    if (!runs_) return;
+    if (runs_->checks().empty()) {
         // Only this engine has its winners checked.
-        const auto* reference = session_->engines().referenceFor(session_->settings().simulation.engine);
-        if (reference == nullptr || session_->summaries().empty()) return;
+        const auto* reference =
+            runs_->design().engines().referenceFor(runs_->design().settings().simulation.engine);
+        if (reference == nullptr || runs_->summaries().empty()) return;
         const QString title = QString::fromStdString(reference->title);
         engines_->setText(tr("%1: not checked yet").arg(title));
         engines_->setToolTip(
@@ -203,7 +209,7 @@ void StatusLine::updateEngines() {
                 .arg(title));
         return;
     }
-    const study::CheckRecord& check = session_->checks().back();
+    const study::CheckRecord& check = runs_->checks().back();
     if (check.trials <= 0) return;
     const int learned = check.learning.oriented;
     const int checked = check.reference.oriented;
@@ -214,7 +220,7 @@ void StatusLine::updateEngines() {
     const QString text = !alike ? tr("%1 differs: %2 % and %3 %")
                          : near ? tr("%1 agrees: %2 % and %3 %")
                                 : tr("%1: %2 % and %3 %, too few trials to tell");
-    engines_->setText(text.arg(engineTitle(session_->engines(), check.reference.engine),
+    engines_->setText(text.arg(engineTitle(runs_->design().engines(), check.reference.engine),
                                models::percent(learned, check.trials),
                                models::percent(checked, check.trials)));
     engines_->setToolTip(
@@ -224,9 +230,9 @@ void StatusLine::updateEngines() {
             .arg(check.trials)
             .arg(check.generation)
             .arg(learned)
-            .arg(engineTitle(session_->engines(), check.learning.engine))
+            .arg(engineTitle(runs_->design().engines(), check.learning.engine))
             .arg(checked)
-            .arg(engineTitle(session_->engines(), check.reference.engine)));
+            .arg(engineTitle(runs_->design().engines(), check.reference.engine)));
 }
 
 }  // namespace trapwright::window

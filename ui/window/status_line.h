@@ -7,7 +7,7 @@ class QLabel;
 class QProgressBar;
 
 namespace trapwright::session {
-class StudySession;
+class StudyRuns;
 }
 
 namespace trapwright::window {
@@ -20,7 +20,7 @@ class StatusLine : public QStatusBar {
  public:
     explicit StatusLine(QWidget* parent);
 
-    void setSession(session::StudySession* session);
+    void setRuns(const session::StudyRuns* runs);
 
  protected:
     void changeEvent(QEvent* event) override;
@@ -31,7 +31,7 @@ class StatusLine : public QStatusBar {
     void updateSuccess();
     void updateEngines();
 
-    QPointer<session::StudySession> session_;
+    QPointer<const session::StudyRuns> runs_;
     QLabel* sign_;
     QLabel* state_;
     QProgressBar* bar_;

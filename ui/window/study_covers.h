@@ -12,8 +12,8 @@
 #include "core/base/result.h"
 #include "core/stats/binomial.h"
 #include "core/store/study_file.h"
-#include "ui/session/newest_task.h"
 #include "ui/session/track_build.h"
+#include "ui/session/work_thread.h"
 
 namespace trapwright::scene {
 class PictureMaker;

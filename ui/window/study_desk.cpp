@@ -7,6 +7,7 @@
 #include "core/store/replaced_study.h"
 #include "core/study/presets.h"
 #include "ui/look/text.h"
+#include "ui/session/study_design.h"
 
 namespace trapwright::window {
 
@@ -51,7 +52,8 @@ bool StudyDesk::isDraft() const {
 
 QString StudyDesk::name() const {
     if (!session_) return {};
-    if (isDraft()) return tr("%1 (not saved yet)").arg(QString::fromStdString(session_->part()->name));
+    if (isDraft())
+        return tr("%1 (not saved yet)").arg(QString::fromStdString(session_->design().part()->name));
     return look::toText(session_->path().filename());
 }
 
@@ -59,7 +61,7 @@ QString StudyDesk::publicPath() const {
     if (!session_) return {};
     if (!isDraft()) return look::toText(session_->path());
     return QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + '/' +
-           QString::fromStdString(session_->part()->name) + ".trap";
+           QString::fromStdString(session_->design().part()->name) + ".trap";
 }
 
 QStringList StudyDesk::forgottenDrafts() const {
@@ -84,7 +86,7 @@ base::Status StudyDesk::createDraft(const workflow::LoadedPart& part) {
 }
 
 base::Status StudyDesk::forkToDraft() {
-    const auto path = newDraftPath(session_->part()->name);
+    const auto path = newDraftPath(session_->design().part()->name);
     if (!path) return path.error();
     auto forked = session_->fork(*path);
     if (!forked) return forked.error();

@@ -8,7 +8,6 @@
 using namespace trapwright;
 using study::PhysicalValidation;
 using study::ValidationRecord;
-using trial::Verdict;
 
 namespace {
 

@@ -7,7 +7,6 @@
 #include "tests/core/workflow/workflow_fixture.h"
 
 using namespace trapwright;
-using trial::Verdict;
 using workflow::TrialKind;
 
 /// The trials behind a score or a table, made again.

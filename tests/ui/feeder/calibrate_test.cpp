@@ -3,6 +3,9 @@
 #include <optional>
 
 #include "tests/ui/feeder/operator.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::feeder;
@@ -25,15 +28,16 @@ class CalibrateTest : public QObject {
         Operator user(bench, file);
         read(user, 0, {{20.0}, {20.0}, {20.0}});
         QVERIFY(user.text("calibrate.result").startsWith("Static friction: 0.364"));
-        const study::Settings before = user.session()->settings();
+        const study::Settings before = user.session()->design().settings();
         user.click("calibrate.keep");
-        QVERIFY(user.session()->settings() == before);
-        QCOMPARE(user.session()->calibrations().size(), std::size_t(1));
+        QVERIFY(user.session()->design().settings() == before);
+        QCOMPARE(user.session()->feeder().calibrations().size(), std::size_t(1));
         QVERIFY(user.text("calibrate.changes").contains("0.364"));
         user.click("calibrate.apply");
-        QVERIFY(std::abs(user.session()->settings().simulation.contact.staticFriction - 0.36397) < 1e-5);
+        QVERIFY(std::abs(user.session()->design().settings().simulation.contact.staticFriction - 0.36397) <
+                1e-5);
         user.find<QAction>("edit.undo")->trigger();
-        QVERIFY(user.session()->settings() == before);
+        QVERIFY(user.session()->design().settings() == before);
     }
 
     void aStudyWithScoresIsForked() {
@@ -47,8 +51,8 @@ class CalibrateTest : public QObject {
         const auto path = user.session()->path();
         QTest::mouseClick(apply, Qt::LeftButton);
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr && user.session()->path() != path, kPatience);
-        QVERIFY(user.session()->summaries().empty());
-        QTRY_COMPARE(user.session()->settings().simulation.contact.restitution, 0.5);
+        QVERIFY(user.session()->runs().summaries().empty());
+        QTRY_COMPARE(user.session()->design().settings().simulation.contact.restitution, 0.5);
     }
 
     // Speeds of a feeder whose half-stroke is 0.9 mm at full set-point, by the study's own simulation.
@@ -56,7 +60,7 @@ class CalibrateTest : public QObject {
         Bench bench;
         Operator user(bench, study_.copy());
         std::optional<calibration::SpeedTable> table;
-        connect(user.session(), &session::StudySession::speedTableReady, this,
+        connect(&user.session()->feeder(), &session::StudyFeeder::speedTableReady, this,
                 [&](const calibration::SpeedTable& ready) { table = ready; });
         user.find<QComboBox>("calibrate.method")->setCurrentIndex(4);
         QTRY_VERIFY_WITH_TIMEOUT(table.has_value(), kPatience);
@@ -70,8 +74,8 @@ class CalibrateTest : public QObject {
         QVERIFY2(user.text("calibrate.result").startsWith("Half-stroke at full set-point: 0.9"),
                  qPrintable(user.text("calibrate.result") + user.text("calibrate.detail")));
         user.click("calibrate.keep");
-        QCOMPARE(user.session()->calibrations().size(), std::size_t(1));
-        QVERIFY(std::abs(user.session()->calibrations().front().result.value - 0.9e-3) < 0.005e-3);
+        QCOMPARE(user.session()->feeder().calibrations().size(), std::size_t(1));
+        QVERIFY(std::abs(user.session()->feeder().calibrations().front().result.value - 0.9e-3) < 0.005e-3);
     }
 
     void aReadingIsRemoved() {

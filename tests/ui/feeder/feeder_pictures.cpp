@@ -7,6 +7,7 @@
 
 #include "tests/ui/feeder/operator.h"
 #include "ui/feeder/report_card.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::feeder;
@@ -61,9 +62,9 @@ int main(int argc, char** argv) {
     user.click("plan.new");
     camera.take(user.window, "validate-plan");
     user.click("plan.cancel");
-    const auto winner = user.session()->chosen();
-    user.session()->startValidation(*winner);
-    (void)QTest::qWaitFor([&] { return !user.session()->validations().empty(); }, kPatience);
+    const auto winner = user.session()->runs().chosen();
+    user.session()->runs().startValidation(*winner);
+    (void)QTest::qWaitFor([&] { return !user.session()->runs().validations().empty(); }, kPatience);
     if (!user.reach()) return 1;
     user.setSetPoint(60);
     user.plan(10, true);

@@ -10,6 +10,7 @@
 #include "app/transports/virtual_feeder.h"
 #include "tests/ui/pages/review_user.h"
 #include "ui/feeder/validate_page.h"
+#include "ui/session/study_feeder.h"
 
 namespace trapwright::feeder {
 
@@ -71,7 +72,7 @@ struct Operator : tests::WindowUser {
         click("plan.begin");
     }
     [[nodiscard]] const std::vector<study::PhysicalTrial>& trials() {
-        return session()->physicalValidations().back().trials;
+        return session()->feeder().physicalValidations().back().trials;
     }
 };
 

@@ -8,6 +8,7 @@
 
 #include "tests/ui/feeder/operator.h"
 #include "tests/ui/session/event_loop_probe.h"
+#include "ui/session/study_feeder.h"
 #include "ui/window/end_signals.h"
 
 using namespace trapwright;
@@ -196,7 +197,7 @@ class StoppingTest : public QObject {
 
         QVERIFY(user.open(study.toStdString(), "validate"));
         QTRY_COMPARE(QString::fromStdString(user.session()->path().string()), study);
-        const auto log = user.session()->loadDriveLog(0.0, 1e12);
+        const auto log = user.session()->feeder().loadDriveLog(0.0, 1e12);
         QVERIFY(log.ok());
         const auto tells = [&](const std::string& text) {
             return std::ranges::any_of(*log, [&](const drive::LogEntry& entry) {

@@ -8,6 +8,9 @@
 #include "tests/ui/scene/scene_samples.h"
 #include "ui/feeder/expected_pose.h"
 #include "ui/feeder/report_card.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::feeder;
@@ -106,7 +109,7 @@ class ValidatePageTest : public QObject {
         const base::Pose first = scene.parts.front().pose;
         // At the start, lying: the pose's own up stays up.
         QVERIFY((scene.track->shape.toTrack(first.position, 0.0).x() - scene.track->start) < 1e-9);
-        const base::Quaternion lying = user.session()->part()->stablePoses.front().rotation;
+        const base::Quaternion lying = user.session()->design().part()->stablePoses.front().rotation;
         const base::Vec3 up = (first.rotation * lying.conjugate()) * base::Vec3::UnitZ();
         QVERIFY(up.z() > 1.0 - 1e-9);
         user.press(Qt::Key_Space);
@@ -127,9 +130,9 @@ class ValidatePageTest : public QObject {
         // Nothing is made up.
         QVERIFY(!card.shown().known());
         QVERIFY(user.text("guide.expected.text").contains("validated in simulation"));
-        user.session()->startValidation(*user.session()->chosen());
+        user.session()->runs().startValidation(*user.session()->runs().chosen());
         QTRY_VERIFY_WITH_TIMEOUT(!card.picture().isNull(), kPatience);
-        const study::ValidationRecord& simulated = user.session()->validations().back();
+        const study::ValidationRecord& simulated = user.session()->runs().validations().back();
         QVERIFY(card.shown().orientation->coeffs() == simulated.expectedOrientation.coeffs());
         QVERIFY2(card.picture().deviceIndependentSize().width() >= 200 &&
                      card.picture().deviceIndependentSize().height() >= 96,
@@ -144,7 +147,7 @@ class ValidatePageTest : public QObject {
     void aDriveThatDiffersFromTheStudyIsTold() {
         Bench bench;
         Operator user(bench, study_.copy());
-        QCOMPARE(user.session()->settings().simulation.drive.halfStroke, 0.8e-3);
+        QCOMPARE(user.session()->design().settings().simulation.drive.halfStroke, 0.8e-3);
         QVERIFY(user.reach());
         const auto* warning = user.find<QFrame>("feeder.match.warning");
         user.setSetPoint(82);
@@ -210,7 +213,7 @@ class ValidatePageTest : public QObject {
         {
             Operator user(bench, file);
             user.find<QDoubleSpinBox>("feeder.highest")->setValue(40);
-            QCOMPARE(user.session()->settings().feeder.highestSetPoint, 0.4);
+            QCOMPARE(user.session()->design().settings().feeder.highestSetPoint, 0.4);
             QVERIFY(user.reach());
             user.setSetPoint(90);
             QCOMPARE(user.page().link().target(), 0.4);
@@ -220,7 +223,7 @@ class ValidatePageTest : public QObject {
             QCOMPARE(bench.feeder->command().setPoint, 0.4);
         }
         Operator user(bench, file);
-        QCOMPARE(user.session()->settings().feeder.highestSetPoint, 0.4);
+        QCOMPARE(user.session()->design().settings().feeder.highestSetPoint, 0.4);
     }
 
     void theLogIsInTheStudy() {
@@ -235,7 +238,7 @@ class ValidatePageTest : public QObject {
         QVERIFY(bench.rests());
         user.click("feeder.connect");
         std::vector<drive::LogEntry> log;
-        QTRY_VERIFY_WITH_TIMEOUT((log = user.session()->loadDriveLog(0.0, 1e12).value(),
+        QTRY_VERIFY_WITH_TIMEOUT((log = user.session()->feeder().loadDriveLog(0.0, 1e12).value(),
                                   std::any_of(log.begin(), log.end(),
                                               [](const drive::LogEntry& entry) {
                                                   return entry.kind == drive::LogKind::disconnected;

@@ -9,7 +9,6 @@
 using namespace trapwright;
 using models::TrialFilter;
 using models::TrialModel;
-using trial::Verdict;
 
 namespace {
 

@@ -25,6 +25,8 @@
 #include "ui/models/individual_model.h"
 #include "ui/models/roles.h"
 #include "ui/pages/learning_charts.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using session::RunState;
@@ -39,8 +41,8 @@ constexpr int kIndividuals = 8;
 struct User : tests::WindowUser {
     explicit User(const session::SessionFixture& studies) : WindowUser(studies.environment()) {}
 
-    RunState state() { return session()->state(); }
-    int saved() { return static_cast<int>(session()->summaries().size()); }
+    RunState state() { return session()->runs().state(); }
+    int saved() { return static_cast<int>(session()->runs().summaries().size()); }
     std::shared_ptr<const track::Track> track() { return scene().track; }
     QAbstractItemModel* rows(const QString& table) { return find<QTableView>(table + ".table")->model(); }
     int winners() { return find<QListView>("filmStrip.list")->model()->rowCount(); }
@@ -138,7 +140,7 @@ class EvolvePageTest : public QObject {
         // The newest is on top.
         QCOMPARE(user.rows("generations")->index(0, 0).data(models::ValueRole).toInt(), kGenerations - 1);
         QCOMPARE(user.winners(), kGenerations);
-        const study::Individual best = *study::findBestWinner(user.session()->winners());
+        const study::Individual best = *study::findBestWinner(user.session()->runs().winners());
         QCOMPARE(user.text("filmStrip.caption"), QString("Generation %1, best so far").arg(best.generation));
         QVERIFY(waitUntil([&] { return heightSum(*user.track()) != flat; }));
         // Its success is the number of the page, in the largest letters.
@@ -226,7 +228,7 @@ class EvolvePageTest : public QObject {
         QVERIFY(user.open(studies.path("a.trap")));
         QVERIFY(waitUntil([&] { return user.track() != nullptr; }));
         const auto newest = user.track();
-        const int best = study::findBestWinner(user.session()->winners())->generation;
+        const int best = study::findBestWinner(user.session()->runs().winners())->generation;
         user.show("individuals");
         auto* table = user.find<QTableView>("individuals.table");
         QVERIFY(waitUntil([&] { return table->model()->rowCount() == kIndividuals; }));
@@ -280,7 +282,7 @@ class EvolvePageTest : public QObject {
         QVERIFY(waitUntil([&] {
             return user.text("filmStrip.caption") ==
                    QString("Generation %1, best so far")
-                       .arg(study::findBestWinner(user.session()->winners())->generation);
+                       .arg(study::findBestWinner(user.session()->runs().winners())->generation);
         }));
     }
 
@@ -293,11 +295,11 @@ class EvolvePageTest : public QObject {
         User user(studies);
         QVERIFY(user.open(studies.path("a.trap")));
         QStringList shown;
-        QObject::connect(user.session(), &session::StudySession::generationSaved, &user.window,
+        QObject::connect(&user.session()->runs(), &session::StudyRuns::generationSaved, &user.window,
                          [&] { shown.append(user.text("filmStrip.caption")); });
         user.click("evolve.start");
         QVERIFY(user.waitForGenerations(kGenerations) && user.waitFor(RunState::idle));
-        const std::vector<study::Individual>& winners = user.session()->winners();
+        const std::vector<study::Individual>& winners = user.session()->runs().winners();
         QCOMPARE(shown.size(), kGenerations);
         bool stayed = false;
         for (int last = 0; last < kGenerations; ++last) {
@@ -400,7 +402,7 @@ class EvolvePageTest : public QObject {
         user.click("evolve.change");
         QVERIFY(waitUntil([&] { return user.saved() == 0; }));
         QVERIFY(user.find<pages::Page>("page.track")->isVisible());
-        QCOMPARE(user.session()->settings().evolution.populationSize, kIndividuals);
+        QCOMPARE(user.session()->design().settings().evolution.populationSize, kIndividuals);
     }
 
     void everyControlHasANameAndTakesKeys() {

@@ -25,6 +25,8 @@
 #include "ui/look/message_bar.h"
 #include "ui/look/text.h"
 #include "ui/pages/value_edit.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 
@@ -74,11 +76,12 @@ struct User : tests::WindowUser {
     /// What core makes of the individual that was chosen, or else of that which the last selection puts
     /// first.
     geometry::TriangleMesh buildSelected(const track::PrintOptions& options) {
-        const study::SelectionEntry& first = session()->selections().back().entries.front();
-        const auto chosen = session()->chosen();
-        const auto winner = chosen ? session()->loadWinner(chosen->generation, chosen->individual)
-                                   : session()->loadWinner(first.generation, first.individual);
-        const auto track = study::decodeTrack(session()->settings().track, winner.value().record.design);
+        const study::SelectionEntry& first = session()->runs().selections().back().entries.front();
+        const auto chosen = session()->runs().chosen();
+        const auto winner = chosen ? session()->runs().loadWinner(chosen->generation, chosen->individual)
+                                   : session()->runs().loadWinner(first.generation, first.individual);
+        const auto track =
+            study::decodeTrack(session()->design().settings().track, winner.value().record.design);
         return track::buildPrintSolid(track.value(), options).value();
     }
 };
@@ -99,9 +102,9 @@ class ExportPageTest : public QObject {
 
         const auto learned = studies_.create("learned.trap", session::smallSettings());
         QVERIFY(learned && session::learnToTheEnd(*learned));
-        learned->startSelection();
+        learned->runs().startSelection();
         QVERIFY(session::waitForState(*learned, session::RunState::idle));
-        QCOMPARE(learned->selections().size(), 1U);
+        QCOMPARE(learned->runs().selections().size(), 1U);
 
         study::Settings settings = session::smallSettings(1);
         settings.track.shape.type = track::FeederType::bowl;
@@ -236,7 +239,7 @@ class ExportPageTest : public QObject {
         QSettings().setValue("print/leastSuccess", 1.0);
         User user(studies_, "learned.trap");
         QVERIFY(user.waitForSolid());
-        const study::SelectionEntry& first = user.session()->selections().back().entries.front();
+        const study::SelectionEntry& first = user.session()->runs().selections().back().entries.front();
         QVERIFY(first.oriented < first.trials);
         const QString percent = look::numberText(100.0 * first.oriented / first.trials) + " %";
         QVERIFY(user.text("print.check.success").contains(percent));

@@ -25,6 +25,7 @@
 #include "ui/pages/materials_dialog.h"
 #include "ui/pages/run_actions.h"
 #include "ui/pages/track_page.h"
+#include "ui/session/study_design.h"
 #include "ui/session/study_session.h"
 
 using namespace trapwright;
@@ -74,7 +75,7 @@ struct Designer {
         emit combo->activated(combo->currentIndex());
     }
     void press(const QString& button) { find<QPushButton>(button)->click(); }
-    const trial::ContactParameters& contact() { return study->settings().simulation.contact; }
+    const trial::ContactParameters& contact() { return study->design().settings().simulation.contact; }
     pages::MaterialsDialog* library(const QString& button) {
         press(button);
         return find<pages::MaterialsDialog>("materials");
@@ -104,7 +105,7 @@ class PartPageTest : public QObject {
         auto* proposal = user.find<QWidget>("part.proposal");
         QVERIFY(proposal->isHidden());
         user.choose("part.material", "steel");
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 7850.0, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().part()->density, 7850.0, kPatience);
         QTRY_VERIFY(!proposal->isHidden());
         QVERIFY(user.text("part.proposal.text").startsWith("steel on printed plastic: friction 0.35 static"));
         QCOMPARE(user.contact().staticFriction, 0.5);
@@ -115,16 +116,16 @@ class PartPageTest : public QObject {
         QCOMPARE(user.contact().staticFriction, 0.5);
 
         user.choose("part.material", "POM");
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 1410.0, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().part()->density, 1410.0, kPatience);
         QTRY_VERIFY(!proposal->isHidden());
         user.press("part.proposal.take");
         QVERIFY(proposal->isHidden());
         QCOMPARE(user.contact().staticFriction, 0.3);
-        QCOMPARE(user.session()->settings().simulation.surface, std::string("printed plastic"));
-        user.session()->undoStack()->undo();
+        QCOMPARE(user.session()->design().settings().simulation.surface, std::string("printed plastic"));
+        user.session()->design().undoStack()->undo();
         QCOMPARE(user.contact().staticFriction, 0.5);
-        user.session()->undoStack()->undo();
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 7850.0, kPatience);
+        user.session()->design().undoStack()->undo();
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().part()->density, 7850.0, kPatience);
         QCOMPARE(user.find<QComboBox>("part.material")->currentText(), QString("steel"));
     }
 
@@ -176,7 +177,7 @@ class PartPageTest : public QObject {
         // As when the page is shown again.
         user.track.setSession(user.session());
         QCOMPARE(user.contact().kineticFriction, 0.22);
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->density, 2700.0, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().part()->density, 2700.0, kPatience);
         QCOMPARE(user.find<QComboBox>("track.contact")->currentText(),
                  QString("aluminium on our anodised plate"));
 
@@ -221,18 +222,18 @@ class PartPageTest : public QObject {
             QCOMPARE(user.find<QDoubleSpinBox>("drop.static")->value(), 0.4);
             user.find<QSpinBox>("drop.drops")->setValue(100000);
             user.press("drop.start");
-            QVERIFY(user.session()->drops().has_value());
+            QVERIFY(user.session()->design().drops().has_value());
             QTRY_VERIFY_WITH_TIMEOUT(user.find<QProgressBar>("drop.bar")->value() > 0, kPatience);
             user.press("drop.cancel");
-            QVERIFY(!user.session()->drops() && !user.session()->dropTest());
+            QVERIFY(!user.session()->design().drops() && !user.session()->design().dropTest());
             QCOMPARE(user.text("drop.last"), QString("Not dropped yet."));
 
             user.find<QSpinBox>("drop.drops")->setValue(24);
             user.find<QDoubleSpinBox>("drop.height")->setValue(12.0);
             user.find<QSpinBox>("drop.seed")->setValue(5);
             user.press("drop.start");
-            QTRY_VERIFY_WITH_TIMEOUT(user.session()->dropTest().has_value(), 3 * kPatience);
-            dropped = *user.session()->dropTest();
+            QTRY_VERIFY_WITH_TIMEOUT(user.session()->design().dropTest().has_value(), 3 * kPatience);
+            dropped = *user.session()->design().dropTest();
             QCOMPARE(dropped.result.drops(), 24);
             QCOMPARE(dropped.settings.height, 12e-3);
             QCOMPARE(dropped.settings.contact.staticFriction, 0.4);
@@ -241,18 +242,18 @@ class PartPageTest : public QObject {
             QVERIFY(user.text("drop.last").startsWith("24 dropped from 12 mm; friction 0.4 static"));
             QVERIFY(!user.find<QLabel>("pose.dropped")->font().bold());
             user.choose("field.part.poseWeights", "Drop test");
-            QVERIFY(user.session()->settings().part.poseWeights == study::PoseWeights::dropped);
+            QVERIFY(user.session()->design().settings().part.poseWeights == study::PoseWeights::dropped);
             QTRY_VERIFY(user.find<QLabel>("pose.dropped")->font().bold());
-            user.session()->undoStack()->undo();
-            QVERIFY(user.session()->settings().part.poseWeights == study::PoseWeights::quasiStatic);
-            user.session()->undoStack()->redo();
+            user.session()->design().undoStack()->undo();
+            QVERIFY(user.session()->design().settings().part.poseWeights == study::PoseWeights::quasiStatic);
+            user.session()->design().undoStack()->redo();
             QTest::qWait(200);
         }
         auto opened = session::StudySession::open(path, environment(own_));
         QVERIFY(opened.ok());
         Designer user(std::move(opened).value());
-        QVERIFY(user.session()->dropTest() == dropped);
-        QVERIFY(user.session()->settings().part.poseWeights == study::PoseWeights::dropped);
+        QVERIFY(user.session()->design().dropTest() == dropped);
+        QVERIFY(user.session()->design().settings().part.poseWeights == study::PoseWeights::dropped);
         QCOMPARE(user.find<QSpinBox>("drop.seed")->value(), 5);
         QTRY_COMPARE(user.part.findChildren<QLabel*>("pose.dropped").size(), 3);
     }

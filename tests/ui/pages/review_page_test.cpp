@@ -15,11 +15,12 @@
 #include "ui/models/selection_model.h"
 #include "ui/models/trial_model.h"
 #include "ui/models/validation_model.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::pages;
 using models::ValidationModel;
-using trial::Verdict;
 
 class ReviewPageTest : public QObject {
     Q_OBJECT
@@ -215,21 +216,21 @@ class ReviewPageTest : public QObject {
         QVERIFY(!user.find<QAction>("review.compare")->isEnabled());
         QTRY_COMPARE_WITH_TIMEOUT(user.comparison().model()->rowCount(), 2, kPatience);
         // The best is looked at by itself, and counts until the user says otherwise.
-        const auto best = user.session()->selections().back().entries.front();
-        QCOMPARE(user.session()->chosen()->generation, best.generation);
-        QTRY_VERIFY(user.session()->state() == session::RunState::idle || user.waitForReplay());
+        const auto best = user.session()->runs().selections().back().entries.front();
+        QCOMPARE(user.session()->runs().chosen()->generation, best.generation);
+        QTRY_VERIFY(user.session()->runs().state() == session::RunState::idle || user.waitForReplay());
         // What was waited for is in front.
         QTRY_VERIFY(user.comparison().isVisible());
         user.click(user.comparison(), 1, models::SelectionModel::Generation);
-        const auto second = user.session()->selections().back().entries.back();
+        const auto second = user.session()->runs().selections().back().entries.back();
         QTRY_VERIFY(
             user.find<QComboBox>("review.track")
                 ->currentText()
                 .contains(
                     QString("Generation %1, individual %2").arg(second.generation).arg(second.individual)));
         user.find<QPushButton>("review.makeFinal")->click();
-        QCOMPARE(user.session()->chosen()->generation, second.generation);
-        QCOMPARE(user.session()->chosen()->individual, second.individual);
+        QCOMPARE(user.session()->runs().chosen()->generation, second.generation);
+        QCOMPARE(user.session()->runs().chosen()->individual, second.individual);
         QVERIFY(!user.find<QPushButton>("review.makeFinal")->isVisible());
         // It is the one that is exported.
         user.window.showPage("export");
@@ -242,7 +243,7 @@ class ReviewPageTest : public QObject {
 
     void successOfATrackIsItsNumber() {
         ReviewUser user(study_);
-        const study::Individual winner = *user.session()->chosen();
+        const study::Individual winner = *user.session()->runs().chosen();
         const stats::Count learned = winner.record.success().value();
         QCOMPARE(user.text("review.success"), QString("%1 %").arg(100.0 * learned.share(), 0, 'f', 1));
         QVERIFY(user.text("review.successSource").contains("while learning"));
@@ -251,9 +252,9 @@ class ReviewPageTest : public QObject {
             QVERIFY2(list->itemText(row).endsWith('%'), qPrintable(list->itemText(row)));
         // A validation tells more.
         QVERIFY(user.validate());
-        const study::ValidationTable table =
-            study::tabulate(user.session()->validations().back(),
-                            study::weighPoseGroups(*user.session()->part(), user.session()->settings()));
+        const study::ValidationTable table = study::tabulate(
+            user.session()->runs().validations().back(),
+            study::weighPoseGroups(*user.session()->design().part(), user.session()->design().settings()));
         QVERIFY(table.weighted.rate.has_value());
         QTRY_COMPARE(user.text("review.success"),
                      QString("%1 %").arg(100.0 * *table.weighted.rate, 0, 'f', 1));
@@ -277,7 +278,7 @@ class ReviewPageTest : public QObject {
             }
         }
         ReviewUser user(bad);
-        const study::Individual before = *user.session()->chosen();
+        const study::Individual before = *user.session()->runs().chosen();
         QCOMPARE(before.generation, 1);
         auto* list = user.find<QComboBox>("review.track");
         const int row = list->findText("Generation 0,", Qt::MatchStartsWith);
@@ -294,25 +295,25 @@ class ReviewPageTest : public QObject {
                  qPrintable(box->informativeText()));
         for (const QAbstractButton* button : box->buttons())
             QVERIFY(button->text() != "OK" && button->text() != "Yes" && button->text() != "No");
-        QCOMPARE(user.session()->chosen()->generation, 1);
+        QCOMPARE(user.session()->runs().chosen()->generation, 1);
         box->findChild<QPushButton*>("answer.chooseAnother")->click();
         QTRY_VERIFY(box == nullptr);
-        QCOMPARE(user.session()->chosen()->generation, 1);
+        QCOMPARE(user.session()->runs().chosen()->generation, 1);
         box = ask();
         box->findChild<QPushButton*>("answer.makeFinal")->click();
-        QTRY_COMPARE(user.session()->chosen()->generation, 0);
+        QTRY_COMPARE(user.session()->runs().chosen()->generation, 0);
         // A track that is good is not asked about.
         list->setCurrentIndex(list->findText("Generation 1,", Qt::MatchStartsWith));
         emit list->activated(list->currentIndex());
         QTRY_VERIFY(box == nullptr);
         QVERIFY(ask() == nullptr);
-        QCOMPARE(user.session()->chosen()->generation, 1);
+        QCOMPARE(user.session()->runs().chosen()->generation, 1);
     }
 
     void aFailedRowLeadsToItsReplay() {
         ReviewUser user(study_);
         QVERIFY(user.validate());
-        const study::ValidationRecord& table = user.session()->validations().back();
+        const study::ValidationRecord& table = user.session()->runs().validations().back();
         // Three kinds of poses, and two totals that are in sight below them.
         const auto& model = static_cast<ValidationModel&>(*user.validation().model());
         QCOMPARE(model.rowCount(), 5);

@@ -10,6 +10,7 @@
 #include "tests/ui/window/window_user.h"
 #include "ui/pages/replay_files.h"
 #include "ui/pages/replay_player.h"
+#include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
 
@@ -78,7 +79,7 @@ class LearnedStudy {
     [[nodiscard]] bool learn() const {
         auto made = session::StudySession::create(file("learned.trap").toStdString(), lowHills(),
                                                   session::cuboid(), nativeEnvironment());
-        return made.ok() && session::learnToTheEnd(**made) && (*made)->winners().size() == 2;
+        return made.ok() && session::learnToTheEnd(**made) && (*made)->runs().winners().size() == 2;
     }
     /// With the program's settings as they are at first.
     QString copy() {

@@ -6,6 +6,7 @@
 #include "sim/engines/registry.h"
 #include "tests/ui/session/event_loop_probe.h"
 #include "tests/ui/session/session_fixture.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::session;
@@ -40,24 +41,25 @@ class EventLoopTest : public QObject {
         VERIFY_OK(made);
         StudySession& session = **made;
         // What a window does with every generation.
-        connect(&session, &StudySession::generationSaved, this,
-                [&](int generation) { QVERIFY(session.loadGeneration(generation).ok()); });
+        connect(&session.runs(), &StudyRuns::generationSaved, this,
+                [&](int generation) { QVERIFY(session.runs().loadGeneration(generation).ok()); });
         const EventDelays before = watchEvents(2000);
         qInfo("idle: worst %.1f ms, 99.9 %% %.1f ms", before.worst, before.most);
 
-        session.startLearning();
-        QVERIFY(waitUntil([&] { return !session.summaries().empty(); }));
+        session.runs().startLearning();
+        QVERIFY(waitUntil([&] { return !session.runs().summaries().empty(); }));
         // What other programs do to this thread's group is not ours: the best of a few looks counts.
         double best = 1e9;
-        const std::size_t generations = session.summaries().size();
-        for (int look = 0; look < 4 && (best > kBound || session.summaries().size() == generations); ++look) {
+        const std::size_t generations = session.runs().summaries().size();
+        for (int look = 0; look < 4 && (best > kBound || session.runs().summaries().size() == generations);
+             ++look) {
             const EventDelays learning = watchEvents(5000);
             best = std::min(best, learning.worst);
             qInfo("learning: worst %.1f ms, 99.9 %% %.1f ms, %d events, %zu generations", learning.worst,
-                  learning.most, learning.events, session.summaries().size());
+                  learning.most, learning.events, session.runs().summaries().size());
         }
-        QCOMPARE(session.state(), RunState::learning);
-        QVERIFY(session.summaries().size() > generations);
+        QCOMPARE(session.runs().state(), RunState::learning);
+        QVERIFY(session.runs().summaries().size() > generations);
         QElapsedTimer clock;
         clock.start();
         made.value().reset();

@@ -10,6 +10,7 @@
 
 #include "core/workflow/part_source.h"
 #include "tests/core/study/fake_engine.h"
+#include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
 
 namespace trapwright::session {
@@ -79,12 +80,12 @@ bool waitUntil(Condition condition) {
 }
 
 inline bool waitForState(const StudySession& session, RunState state) {
-    return waitUntil([&] { return session.state() == state; });
+    return waitUntil([&] { return session.runs().state() == state; });
 }
 
 inline bool learnToTheEnd(StudySession& session) {
-    session.startLearning();
-    return session.state() == RunState::learning && waitForState(session, RunState::idle);
+    session.runs().startLearning();
+    return session.runs().state() == RunState::learning && waitForState(session, RunState::idle);
 }
 
 }  // namespace trapwright::session

@@ -6,6 +6,9 @@
 #include "sim/native/native_engine.h"
 #include "tests/core/store/stored_outcomes.h"
 #include "tests/ui/session/session_fixture.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_replays.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::session;
@@ -42,9 +45,9 @@ class StoredTrialsTest : public QObject {
             StudySession::create(fixture_->path("learned.trap"), smallSettings(2), cuboid(), environment());
         VERIFY_OK(made);
         QVERIFY(learnToTheEnd(**made));
-        (*made)->startSelection();
+        (*made)->runs().startSelection();
         QVERIFY(waitForState(**made, RunState::idle));
-        (*made)->startValidation((*made)->winners().back());
+        (*made)->runs().startValidation((*made)->runs().winners().back());
         QVERIFY(waitForState(**made, RunState::idle));
     }
 
@@ -55,7 +58,7 @@ class StoredTrialsTest : public QObject {
 
     void whatIsStoredNeedsNoEngine() {
         const auto session = open();
-        const study::Individual& winner = session->winners().back();
+        const study::Individual& winner = session->runs().winners().back();
         runs_ = 0;
         for (const workflow::TrialsRequest& request :
              std::vector<workflow::TrialsRequest>{{TrialKind::learning, winner},
@@ -73,7 +76,7 @@ class StoredTrialsTest : public QObject {
         }
         QCOMPARE(runs_.load(), 0);
         // The tallies of the table.
-        const study::ValidationRow& row = session->validations().front().rows.front();
+        const study::ValidationRow& row = session->runs().validations().front().rows.front();
         const auto trials = list(*session, {TrialKind::validation, winner, {row.pose}});
         const auto& verdicts = trials->judged.verdicts;
         QCOMPARE(std::count(verdicts.begin(), verdicts.end(), trial::Verdict::success), row.tally.success);
@@ -89,7 +92,7 @@ class StoredTrialsTest : public QObject {
     }
 
     void aReplayThatEndsOtherwiseIsTold() {
-        const auto winner = static_cast<std::size_t>(open()->winners().back().individual);
+        const auto winner = static_cast<std::size_t>(open()->runs().winners().back().individual);
         const trial::OutcomeMaker other{"trapwright 0.0-other", "native", "AVX9"};
         sample::changeMaker(study_, other);
         sample::changeOutcomes(study_, 1, [&](std::size_t trial, trial::PartOutcome& outcome) {
@@ -99,7 +102,7 @@ class StoredTrialsTest : public QObject {
             if (trial == 4 * winner + 2) outcome = {trial::Ending::timedOut, {}, {}, 9.5};
         });
         const auto session = open();
-        const auto listed = list(*session, {TrialKind::learning, session->winners().back()});
+        const auto listed = list(*session, {TrialKind::learning, session->runs().winners().back()});
         QVERIFY(listed && listed->stored);
         QVERIFY(listed->maker == other);
         QCOMPARE(listed->outcomes[2].parts[0].time, 9.5);
@@ -143,12 +146,12 @@ class StoredTrialsTest : public QObject {
     void whatIsNotStoredIsSimulatedAgain() {
         const auto before = [&] {
             const auto session = open();
-            return *list(*session, {TrialKind::learning, session->winners().back()});
+            return *list(*session, {TrialKind::learning, session->runs().winners().back()});
         }();
         sample::dropOutcomes(study_);
         const auto session = open();
         runs_ = 0;
-        const auto again = list(*session, {TrialKind::learning, session->winners().back()});
+        const auto again = list(*session, {TrialKind::learning, session->runs().winners().back()});
         QVERIFY(again);
         QVERIFY(!again->stored);
         QVERIFY(runs_.load() > 0);
@@ -164,7 +167,7 @@ class StoredTrialsTest : public QObject {
         sample::alter(study_, "UPDATE outcomes SET trials = substr(trials, 1, 50)");
         const auto session = open();
         QSignalSpy failed(session.get(), &StudySession::failed);
-        session->requestTrials({TrialKind::learning, session->winners().back()});
+        session->replays().requestTrials({TrialKind::learning, session->runs().winners().back()});
         QTRY_COMPARE(failed.count(), 1);
         QVERIFY(failed[0][1].toString().contains("is damaged"));
         QVERIFY(waitForState(*session, RunState::idle));
@@ -172,12 +175,12 @@ class StoredTrialsTest : public QObject {
 
     void learningOnStoresMore() {
         const auto session = open();
-        study::Settings settings = session->settings();
+        study::Settings settings = session->design().settings();
         settings.evolution.generations = 3;
-        session->changeSettings(settings, "Generations");
+        session->design().changeSettings(settings, "Generations");
         QVERIFY(learnToTheEnd(*session));
-        QVERIFY(session->loadGeneration(2)->made.outcomes.empty());  // dropped from memory
-        const auto trials = list(*session, {TrialKind::learning, session->winners().back()});
+        QVERIFY(session->runs().loadGeneration(2)->made.outcomes.empty());  // dropped from memory
+        const auto trials = list(*session, {TrialKind::learning, session->runs().winners().back()});
         QVERIFY(trials && trials->stored);
     }
 
@@ -198,9 +201,9 @@ class StoredTrialsTest : public QObject {
     static std::optional<ListedTrials> list(StudySession& session, const workflow::TrialsRequest& request) {
         std::optional<ListedTrials> listed;
         const QObject here;
-        connect(&session, &StudySession::trialsListed, &here,
+        connect(&session.replays(), &StudyReplays::trialsListed, &here,
                 [&](const ListedTrials& trials) { listed = trials; });
-        session.requestTrials(request);
+        session.replays().requestTrials(request);
         (void)waitUntil([&] { return listed.has_value(); });
         return listed;
     }
@@ -210,10 +213,10 @@ class StoredTrialsTest : public QObject {
                                                                             int trial) {
         std::optional<std::optional<workflow::OutcomeDifference>> told;
         const QObject here;
-        connect(&session, &StudySession::replayed, &here,
+        connect(&session.replays(), &StudyReplays::replayed, &here,
                 [&](const workflow::TrialsRequest&, int, const std::shared_ptr<const trial::Trajectory>&,
                     const std::optional<workflow::OutcomeDifference>& difference) { told = difference; });
-        session.replay({TrialKind::learning, session.winners().back()}, trial, 0.01);
+        session.replays().replay({TrialKind::learning, session.runs().winners().back()}, trial, 0.01);
         (void)waitUntil([&] { return told.has_value(); });
         return told;
     }

@@ -6,6 +6,10 @@
 #include "core/verify/conveying.h"
 #include "sim/native/native_engine.h"
 #include "tests/ui/session/session_fixture.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_feeder.h"
+#include "ui/session/study_runs.h"
+#include "ui/session/study_writing.h"
 
 using namespace trapwright;
 using namespace trapwright::session;
@@ -61,15 +65,15 @@ class StudyFeederTest : public QObject {
     void validationGoesOnDaysLater() {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        QSignalSpy changed(session.get(), &StudySession::physicalValidationChanged);
-        QCOMPARE(session->startPhysicalValidation(plan()), 0);
+        QSignalSpy changed(&session->feeder(), &StudyFeeder::physicalValidationChanged);
+        QCOMPARE(session->feeder().startPhysicalValidation(plan()), 0);
         const std::vector<int> order = study::orderOfTrials(plan().plan);
-        session->addPhysicalTrial(0, outcome(trial::Verdict::success));
-        session->addPhysicalTrial(0, outcome(trial::Verdict::stuck));
-        session->undoPhysicalTrial(0);
-        session->addPhysicalTrial(0, outcome(trial::Verdict::fellOff));
+        session->feeder().addPhysicalTrial(0, outcome(trial::Verdict::success));
+        session->feeder().addPhysicalTrial(0, outcome(trial::Verdict::stuck));
+        session->feeder().undoPhysicalTrial(0);
+        session->feeder().addPhysicalTrial(0, outcome(trial::Verdict::fellOff));
         QCOMPARE(changed.count(), 5);
-        const study::PhysicalValidation before = session->physicalValidations().at(0);
+        const study::PhysicalValidation before = session->feeder().physicalValidations().at(0);
         QCOMPARE(before.program, kProgram);
         QVERIFY(QDateTime::fromString(QString::fromStdString(before.started), Qt::ISODate).isValid());
         QCOMPARE(before.trials.size(), std::size_t{2});
@@ -84,18 +88,18 @@ class StudyFeederTest : public QObject {
 
         session = fixture_->open("a.trap");
         QVERIFY(session);
-        QCOMPARE(session->physicalValidations().size(), std::size_t{1});
-        QVERIFY(session->physicalValidations()[0] == before);
+        QCOMPARE(session->feeder().physicalValidations().size(), std::size_t{1});
+        QVERIFY(session->feeder().physicalValidations()[0] == before);
         for (int i = 0; i < 5; ++i)
-            session->addPhysicalTrial(0, outcome(trial::Verdict::success));
+            session->feeder().addPhysicalTrial(0, outcome(trial::Verdict::success));
         // The plan has four.
-        QCOMPARE(session->physicalValidations()[0].trials.size(), order.size());
-        QCOMPARE(session->startPhysicalValidation(plan()), 1);
-        session->undoPhysicalTrial(1);
+        QCOMPARE(session->feeder().physicalValidations()[0].trials.size(), order.size());
+        QCOMPARE(session->feeder().startPhysicalValidation(plan()), 1);
+        session->feeder().undoPhysicalTrial(1);
         session.reset();
         session = fixture_->open("a.trap");
-        QCOMPARE(session->physicalValidations().size(), std::size_t{2});
-        QCOMPARE(session->physicalValidations()[0].trials.size(), order.size());
+        QCOMPARE(session->feeder().physicalValidations().size(), std::size_t{2});
+        QCOMPARE(session->feeder().physicalValidations()[0].trials.size(), order.size());
     }
 
     // A generation may take minutes; whoever stands at the feeder does not wait, and nothing is lost
@@ -104,11 +108,11 @@ class StudyFeederTest : public QObject {
         fixture_->trialTime = std::chrono::milliseconds(500);
         const auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        session->startLearning();
-        session->startPhysicalValidation(plan());
-        session->addPhysicalTrial(0, outcome(trial::Verdict::success));
-        session->appendDriveLog({command(1), command(2)});
-        session->addCalibration(measured(calibration::Method::bounceTime, 0.3));
+        session->runs().startLearning();
+        session->feeder().startPhysicalValidation(plan());
+        session->feeder().addPhysicalTrial(0, outcome(trial::Verdict::success));
+        session->feeder().appendDriveLog({command(1), command(2)});
+        session->feeder().addCalibration(measured(calibration::Method::bounceTime, 0.3));
         QVERIFY(waitUntil([&] {
             const auto file = store::StudyFile::openReadOnly(session->path());
             if (!file) return false;
@@ -118,18 +122,19 @@ class StudyFeederTest : public QObject {
             return validations && validations->size() == 1 && validations->front().trials.size() == 1 &&
                    log && log->size() == 2 && calibrations && calibrations->size() == 1;
         }));
-        QCOMPARE(session->state(), RunState::learning);
-        QVERIFY(session->summaries().empty());
+        QCOMPARE(session->runs().state(), RunState::learning);
+        QVERIFY(session->runs().summaries().empty());
     }
 
     void driveLogIsReadBack() {
         const auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        session->appendDriveLog({});
-        session->appendDriveLog({command(1)});
-        session->appendDriveLog({command(2), command(3)});
-        QVERIFY(waitUntil([&] { return session->loadDriveLog(-kForEver, kForEver).value().size() == 3; }));
-        const auto some = session->loadDriveLog(102.0, 103.0).value();
+        session->feeder().appendDriveLog({});
+        session->feeder().appendDriveLog({command(1)});
+        session->feeder().appendDriveLog({command(2), command(3)});
+        QVERIFY(waitUntil(
+            [&] { return session->feeder().loadDriveLog(-kForEver, kForEver).value().size() == 3; }));
+        const auto some = session->feeder().loadDriveLog(102.0, 103.0).value();
         QCOMPARE(some.size(), std::size_t{1});
         QCOMPARE(some[0].number, 2);
     }
@@ -137,64 +142,64 @@ class StudyFeederTest : public QObject {
     void finalTrackIsKept() {
         auto session = fixture_->create("a.trap", smallSettings(3));
         QVERIFY(session && learnToTheEnd(*session));
-        const study::Individual best = session->chosen().value();
-        study::Individual other = session->winners()[best.generation == 0 ? 1 : 0];
-        other = session->loadWinner(other.generation, (other.individual + 1) % 8).value();
-        session->choose(session->winners()[2]);
-        session->choose(other);
+        const study::Individual best = session->runs().chosen().value();
+        study::Individual other = session->runs().winners()[best.generation == 0 ? 1 : 0];
+        other = session->runs().loadWinner(other.generation, (other.individual + 1) % 8).value();
+        session->runs().choose(session->runs().winners()[2]);
+        session->runs().choose(other);
         session.reset();
         session = fixture_->open("a.trap");
         QVERIFY(session);
-        QCOMPARE(session->chosen()->generation, other.generation);
-        QCOMPARE(session->chosen()->individual, other.individual);
-        QVERIFY(session->chosen()->record == other.record);
+        QCOMPARE(session->runs().chosen()->generation, other.generation);
+        QCOMPARE(session->runs().chosen()->individual, other.individual);
+        QVERIFY(session->runs().chosen()->record == other.record);
         // A new study of the same design has nothing to choose from.
         const auto forked = session->fork(fixture_->path("b.trap"));
         VERIFY_OK(forked);
-        QVERIFY(!(*forked)->chosen());
+        QVERIFY(!(*forked)->runs().chosen());
     }
 
     void measurementsAreApplied() {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        QSignalSpy added(session.get(), &StudySession::calibrationAdded);
-        QVERIFY(session->calibrationChanges(0.5).empty());
-        session->addCalibration(measured(calibration::Method::tiltUntilSliding, 0.42));
-        session->addCalibration(measured(calibration::Method::bounceHeight, 0.31));
-        session->addCalibration(measured(calibration::Method::conveyingSpeed, 1.2e-3));
+        QSignalSpy added(&session->feeder(), &StudyFeeder::calibrationAdded);
+        QVERIFY(session->feeder().calibrationChanges(0.5).empty());
+        session->feeder().addCalibration(measured(calibration::Method::tiltUntilSliding, 0.42));
+        session->feeder().addCalibration(measured(calibration::Method::bounceHeight, 0.31));
+        session->feeder().addCalibration(measured(calibration::Method::conveyingSpeed, 1.2e-3));
         QCOMPARE(added.count(), 3);
-        QCOMPARE(session->calibrations()[2].number, 2);
-        QVERIFY(!session->calibrations()[2].time.empty());
-        const auto changes = session->calibrationChanges(0.5);
-        session->changeSettings(session->calibratedSettings(changes), "Apply measurements");
-        QCOMPARE(session->settings().simulation.contact.staticFriction, 0.42);
-        QCOMPARE(session->settings().simulation.contact.kineticFriction, 0.42);
-        QCOMPARE(session->settings().simulation.contact.restitution, 0.31);
-        QCOMPARE(session->settings().simulation.drive.halfStroke, 0.6e-3);
-        QVERIFY(session->problems().empty());
-        QVERIFY(session->calibrationChanges(0.5).empty());
-        session->undoStack()->undo();
-        QCOMPARE(session->calibrationChanges(0.5).size(), changes.size());
-        const std::vector<calibration::Calibration> before = session->calibrations();
+        QCOMPARE(session->feeder().calibrations()[2].number, 2);
+        QVERIFY(!session->feeder().calibrations()[2].time.empty());
+        const auto changes = session->feeder().calibrationChanges(0.5);
+        session->design().changeSettings(session->feeder().calibratedSettings(changes), "Apply measurements");
+        QCOMPARE(session->design().settings().simulation.contact.staticFriction, 0.42);
+        QCOMPARE(session->design().settings().simulation.contact.kineticFriction, 0.42);
+        QCOMPARE(session->design().settings().simulation.contact.restitution, 0.31);
+        QCOMPARE(session->design().settings().simulation.drive.halfStroke, 0.6e-3);
+        QVERIFY(session->design().problems().empty());
+        QVERIFY(session->feeder().calibrationChanges(0.5).empty());
+        session->design().undoStack()->undo();
+        QCOMPARE(session->feeder().calibrationChanges(0.5).size(), changes.size());
+        const std::vector<calibration::Calibration> before = session->feeder().calibrations();
         session.reset();
         session = fixture_->open("a.trap");
-        QVERIFY(session && session->calibrations() == before);
+        QVERIFY(session && session->feeder().calibrations() == before);
     }
 
     void savingAsTakesItAlong() {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        session->startPhysicalValidation(plan());
-        session->addPhysicalTrial(0, outcome(trial::Verdict::success));
+        session->feeder().startPhysicalValidation(plan());
+        session->feeder().addPhysicalTrial(0, outcome(trial::Verdict::success));
         VERIFY_OK(session->saveAs(fixture_->path("b.trap")));
-        session->addPhysicalTrial(0, outcome(trial::Verdict::stuck));
+        session->feeder().addPhysicalTrial(0, outcome(trial::Verdict::stuck));
         session.reset();
         session = fixture_->open("b.trap");
         QVERIFY(session);
-        QCOMPARE(session->physicalValidations().at(0).trials.size(), std::size_t{2});
+        QCOMPARE(session->feeder().physicalValidations().at(0).trials.size(), std::size_t{2});
         session = fixture_->open("a.trap");
         QVERIFY(session);
-        QCOMPARE(session->physicalValidations().at(0).trials.size(), std::size_t{1});
+        QCOMPARE(session->feeder().physicalValidations().at(0).trials.size(), std::size_t{1});
     }
 
     void whatCannotBeWrittenIsTriedAgain() {
@@ -243,18 +248,18 @@ class StudyFeederTest : public QObject {
         VERIFY_OK(made);
         StudySession& session = **made;
         calibration::SpeedTable table;
-        connect(&session, &StudySession::speedTableReady, this,
+        connect(&session.feeder(), &StudyFeeder::speedTableReady, this,
                 [&](const calibration::SpeedTable& ready) { table = ready; });
-        session.requestSpeedTable();
+        session.feeder().requestSpeedTable();
         QVERIFY(waitUntil([&] { return !table.speeds.empty(); }));
         QVERIFY(table.speeds.size() >= 8);
         QVERIFY(std::is_sorted(table.speeds.begin(), table.speeds.end()));
         QVERIFY(table.halfStrokes.back() > 0.7e-3);
         verify::ConveyingScene scene;
         scene.part = cuboid().part;
-        scene.drive = session.settings().simulation.drive;
+        scene.drive = session.design().settings().simulation.drive;
         scene.drive.halfStroke = 0.5e-3;
-        scene.contact = session.settings().simulation.contact;
+        scene.contact = session.design().settings().simulation.contact;
         const native::NativeEngine engine({1, 0.0});
         const auto speed = verify::measureConveyingSpeed(engine, scene, {});
         VERIFY_OK(speed);

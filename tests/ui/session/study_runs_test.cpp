@@ -6,6 +6,8 @@
 #include "core/study/validation.h"
 #include "tests/ui/session/session_fixture.h"
 #include "ui/session/recovery_note.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::session;
@@ -42,8 +44,8 @@ class StudyRunsTest : public QObject {
     void learningIsToldAndSaved() {
         const auto session = fixture_->create("a.trap", smallSettings(4));
         QVERIFY(session);
-        QSignalSpy saved(session.get(), &StudySession::generationSaved);
-        QSignalSpy states(session.get(), &StudySession::stateChanged);
+        QSignalSpy saved(&session->runs(), &StudyRuns::generationSaved);
+        QSignalSpy states(&session->runs(), &StudyRuns::stateChanged);
         QVERIFY(learnToTheEnd(*session));
         QCOMPARE(saved.count(), 4);
         QCOMPARE(states.count(), 2);
@@ -52,40 +54,40 @@ class StudyRunsTest : public QObject {
         for (int i = 0; i < 4; ++i) {
             const auto at = static_cast<std::size_t>(i);
             QCOMPARE(saved[i][0].toInt(), i);
-            const auto record = session->loadGeneration(i);
+            const auto record = session->runs().loadGeneration(i);
             VERIFY_OK(record);
             QCOMPARE(record->individuals, truth[at].individuals);
-            QCOMPARE(session->summaries()[at].statistics, truth[at].statistics);
-            QCOMPARE(session->winners()[at].individual, truth[at].winner);
-            const auto winner = session->loadWinner(i, truth[at].winner);
+            QCOMPARE(session->runs().summaries()[at].statistics, truth[at].statistics);
+            QCOMPARE(session->runs().winners()[at].individual, truth[at].winner);
+            const auto winner = session->runs().loadWinner(i, truth[at].winner);
             VERIFY_OK(winner);
-            QCOMPARE(winner->record, session->winners()[at].record);
+            QCOMPARE(winner->record, session->runs().winners()[at].record);
         }
-        QVERIFY(session->checks().empty());
-        QVERIFY(!session->loadGeneration(4).ok());
+        QVERIFY(session->runs().checks().empty());
+        QVERIFY(!session->runs().loadGeneration(4).ok());
     }
 
     void pauseStandsStillAndChangesNothing() {
         fixture_->trialTime = std::chrono::milliseconds(3);
         const auto session = fixture_->create("a.trap", smallSettings(3));
         QVERIFY(session);
-        session->setThreads(1);
-        session->startLearning();
-        QVERIFY(waitUntil([&] { return session->progress().trialsDone > 3; }));
-        session->pause();
-        QCOMPARE(session->state(), RunState::paused);
+        session->runs().setThreads(1);
+        session->runs().startLearning();
+        QVERIFY(waitUntil([&] { return session->runs().progress().trialsDone > 3; }));
+        session->runs().pause();
+        QCOMPARE(session->runs().state(), RunState::paused);
         QTest::qWait(50);
-        const RunProgress still = session->progress();
+        const RunProgress still = session->runs().progress();
         QTest::qWait(150);
-        QCOMPARE(session->progress().trialsDone, still.trialsDone);
-        QCOMPARE(session->progress().trialsPerSecond, still.trialsPerSecond);
-        QVERIFY(session->locked());
-        session->resume();
-        QCOMPARE(session->state(), RunState::learning);
+        QCOMPARE(session->runs().progress().trialsDone, still.trialsDone);
+        QCOMPARE(session->runs().progress().trialsPerSecond, still.trialsPerSecond);
+        QVERIFY(session->design().locked());
+        session->runs().resume();
+        QCOMPARE(session->runs().state(), RunState::learning);
         QVERIFY(waitForState(*session, RunState::idle));
         const std::vector<study::GenerationRecord> truth = learnAtOnce(smallSettings(3));
         for (int i = 0; i < 3; ++i)
-            QCOMPARE(session->loadGeneration(i).value().individuals,
+            QCOMPARE(session->runs().loadGeneration(i).value().individuals,
                      truth[static_cast<std::size_t>(i)].individuals);
     }
 
@@ -94,9 +96,9 @@ class StudyRunsTest : public QObject {
         fixture_->trialTime = std::chrono::milliseconds(12);
         const auto session = fixture_->create("a.trap", smallSettings(3));
         QVERIFY(session);
-        session->setThreads(1);
+        session->runs().setThreads(1);
         std::vector<RunProgress> told;
-        connect(session.get(), &StudySession::progressed, this,
+        connect(&session->runs(), &StudyRuns::progressed, this,
                 [&](const RunProgress& progress) { told.push_back(progress); });
         QVERIFY(learnToTheEnd(*session));
         QVERIFY(told.size() >= 2);
@@ -111,35 +113,35 @@ class StudyRunsTest : public QObject {
             return a.trialsPerSecond < b.trialsPerSecond;
         });
         QVERIFY(fastest->trialsPerSecond > 0.0 && fastest->trialsPerSecond <= 250.0);
-        QCOMPARE(session->progress().trials, 0);
+        QCOMPARE(session->runs().progress().trials, 0);
     }
 
     void stopsAfterTheGeneration() {
         fixture_->trialTime = std::chrono::milliseconds(2);
         const auto session = fixture_->create("a.trap", smallSettings(50));
         QVERIFY(session);
-        session->setThreads(1);
-        connect(session.get(), &StudySession::generationSaved, this, [&](int generation) {
-            if (generation == 0) session->stopAfterGeneration();
+        session->runs().setThreads(1);
+        connect(&session->runs(), &StudyRuns::generationSaved, this, [&](int generation) {
+            if (generation == 0) session->runs().stopAfterGeneration();
         });
-        session->startLearning();
+        session->runs().startLearning();
         QVERIFY(waitForState(*session, RunState::stoppingAfterGeneration));
         QVERIFY(waitForState(*session, RunState::idle));
-        QCOMPARE(session->summaries().size(), std::size_t{2});
+        QCOMPARE(session->runs().summaries().size(), std::size_t{2});
     }
 
     void stopsAfterTheGenerationFromAPause() {
         fixture_->trialTime = std::chrono::milliseconds(2);
         const auto session = fixture_->create("a.trap", smallSettings(50));
         QVERIFY(session);
-        session->startLearning();
-        QVERIFY(waitUntil([&] { return session->progress().trialsDone > 2; }));
-        session->pause();
+        session->runs().startLearning();
+        QVERIFY(waitUntil([&] { return session->runs().progress().trialsDone > 2; }));
+        session->runs().pause();
         QTest::qWait(100);
-        const std::size_t before = session->summaries().size();
-        session->stopAfterGeneration();
+        const std::size_t before = session->runs().summaries().size();
+        session->runs().stopAfterGeneration();
         QVERIFY(waitForState(*session, RunState::idle));
-        QCOMPARE(session->summaries().size(), before + 1);
+        QCOMPARE(session->runs().summaries().size(), before + 1);
     }
 
     void stopsAtOnceAndGoesOnAfterReopening() {
@@ -148,14 +150,15 @@ class StudyRunsTest : public QObject {
         auto session = fixture_->create("a.trap", settings);
         QVERIFY(session);
         QSignalSpy failed(session.get(), &StudySession::failed);
-        session->startLearning();
-        QVERIFY(waitUntil(
-            [&] { return session->summaries().size() >= 2 && session->progress().trialsDone > 2; }));
-        session->stopNow();
-        QCOMPARE(session->state(), RunState::stopping);
+        session->runs().startLearning();
+        QVERIFY(waitUntil([&] {
+            return session->runs().summaries().size() >= 2 && session->runs().progress().trialsDone > 2;
+        }));
+        session->runs().stopNow();
+        QCOMPARE(session->runs().state(), RunState::stopping);
         QVERIFY(waitForState(*session, RunState::idle));
         QCOMPARE(failed.count(), 0);
-        const std::size_t kept = session->summaries().size();
+        const std::size_t kept = session->runs().summaries().size();
         QVERIFY(kept < 6);
         session.reset();
         QVERIFY(!std::filesystem::exists(fixture_->path("a.trap-wal")));
@@ -163,42 +166,43 @@ class StudyRunsTest : public QObject {
         fixture_->trialTime = {};
         session = fixture_->open("a.trap");
         QVERIFY(session);
-        QCOMPARE(session->summaries().size(), kept);
-        QCOMPARE(session->winners().size(), kept);
-        QVERIFY(session->locked());
+        QCOMPARE(session->runs().summaries().size(), kept);
+        QCOMPARE(session->runs().winners().size(), kept);
+        QVERIFY(session->design().locked());
         QVERIFY(learnToTheEnd(*session));
         const std::vector<study::GenerationRecord> truth = learnAtOnce(settings);
-        QCOMPARE(session->summaries().size(), truth.size());
+        QCOMPARE(session->runs().summaries().size(), truth.size());
         for (std::size_t i = 0; i < truth.size(); ++i)
-            QCOMPARE(session->loadGeneration(static_cast<int>(i)).value().individuals, truth[i].individuals);
+            QCOMPARE(session->runs().loadGeneration(static_cast<int>(i)).value().individuals,
+                     truth[i].individuals);
     }
 
     void stopBeforeTheFirstGenerationLeavesItFree() {
         fixture_->trialTime = std::chrono::milliseconds(5);
         const auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        session->startLearning();
-        QVERIFY(session->locked());
-        session->stopNow();
+        session->runs().startLearning();
+        QVERIFY(session->design().locked());
+        session->runs().stopNow();
         QVERIFY(waitForState(*session, RunState::idle));
-        QVERIFY(session->summaries().empty() && !session->locked());
+        QVERIFY(session->runs().summaries().empty() && !session->design().locked());
     }
 
     void moreGenerationsHoldForTheRunThatGoesOn() {
         fixture_->trialTime = std::chrono::milliseconds(2);
         auto session = fixture_->create("a.trap", smallSettings(2));
         QVERIFY(session);
-        session->startLearning();
-        QVERIFY(waitUntil([&] { return session->progress().trialsDone > 0; }));
-        study::Settings longer = session->settings();
+        session->runs().startLearning();
+        QVERIFY(waitUntil([&] { return session->runs().progress().trialsDone > 0; }));
+        study::Settings longer = session->design().settings();
         longer.evolution.generations = 4;
-        session->changeSettings(longer, "Generations");
-        QCOMPARE(session->progress().generations, 4);
+        session->design().changeSettings(longer, "Generations");
+        QCOMPARE(session->runs().progress().generations, 4);
         QVERIFY(waitForState(*session, RunState::idle));
-        QCOMPARE(session->summaries().size(), std::size_t{4});
+        QCOMPARE(session->runs().summaries().size(), std::size_t{4});
         session.reset();
         session = fixture_->open("a.trap");
-        QCOMPARE(session->settings().evolution.generations, 4);
+        QCOMPARE(session->design().settings().evolution.generations, 4);
     }
 
     void winnersAreChecked() {
@@ -206,14 +210,14 @@ class StudyRunsTest : public QObject {
         settings.simulation.engine = "hybrid";
         const auto session = fixture_->create("a.trap", settings);
         QVERIFY(session);
-        QSignalSpy checked(session.get(), &StudySession::checkSaved);
+        QSignalSpy checked(&session->runs(), &StudyRuns::checkSaved);
         QVERIFY(learnToTheEnd(*session));
         int simulated = 0;
-        for (const study::Individual& winner : session->winners())
+        for (const study::Individual& winner : session->runs().winners())
             simulated += winner.record.trials > 0 ? 1 : 0;
         QCOMPARE(checked.count(), simulated);
-        QCOMPARE(session->checks().size(), static_cast<std::size_t>(simulated));
-        for (const study::CheckRecord& check : session->checks()) {
+        QCOMPARE(session->runs().checks().size(), static_cast<std::size_t>(simulated));
+        for (const study::CheckRecord& check : session->runs().checks()) {
             QCOMPARE(check.learning.engine, std::string("native"));
             QCOMPARE(check.reference.engine, std::string("simbody"));
             // The same law under two names.
@@ -227,10 +231,10 @@ class StudyRunsTest : public QObject {
         const auto session = fixture_->create("a.trap", settings);
         QVERIFY(session);
         QSignalSpy failed(session.get(), &StudySession::failed);
-        session->startLearning();
+        session->runs().startLearning();
         QTRY_COMPARE(failed.count(), 1);
         QVERIFY(failed[0][1].toString().contains("bullet"));
-        QCOMPARE(session->state(), RunState::idle);
+        QCOMPARE(session->runs().state(), RunState::idle);
     }
 
     void selectionAndValidationAreSaved() {
@@ -238,40 +242,40 @@ class StudyRunsTest : public QObject {
         auto session = fixture_->create("a.trap", settings);
         QVERIFY(session);
         QSignalSpy failed(session.get(), &StudySession::failed);
-        session->startSelection();
+        session->runs().startSelection();
         QTRY_COMPARE(failed.count(), 1);  // nothing was learned yet
         QVERIFY(learnToTheEnd(*session));
-        QSignalSpy selected(session.get(), &StudySession::selectionSaved);
-        session->startSelection();
-        QCOMPARE(session->state(), RunState::selecting);
+        QSignalSpy selected(&session->runs(), &StudyRuns::selectionSaved);
+        session->runs().startSelection();
+        QCOMPARE(session->runs().state(), RunState::selecting);
         QVERIFY(waitUntil([&] { return selected.count() == 1; }));
         QVERIFY(waitForState(*session, RunState::idle));
 
-        study::StudyInputs inputs{session->settings(), session->part(),
+        study::StudyInputs inputs{session->design().settings(), session->design().part(),
                                   std::make_shared<fake::FakeEngine>(fake::waveLaw), 1};
-        const auto truth = study::selectWinners(inputs, session->winners(), {});
+        const auto truth = study::selectWinners(inputs, session->runs().winners(), {});
         VERIFY_OK(truth);
-        const study::SelectionRecord& selection = session->selections().front();
+        const study::SelectionRecord& selection = session->runs().selections().front();
         QCOMPARE(selection.entries.size(), std::size_t{2});
         QCOMPARE(selection.entries[0].finished, truth->entries[0].finished);
         QCOMPARE(selection.entries[0].generation, truth->entries[0].generation);
 
-        QSignalSpy validated(session.get(), &StudySession::validationSaved);
-        const study::Individual winner = session->winners().back();
-        session->startValidation(winner);
-        QCOMPARE(session->state(), RunState::validating);
+        QSignalSpy validated(&session->runs(), &StudyRuns::validationSaved);
+        const study::Individual winner = session->runs().winners().back();
+        session->runs().startValidation(winner);
+        QCOMPARE(session->runs().state(), RunState::validating);
         QVERIFY(waitUntil([&] { return validated.count() == 1; }));
         QVERIFY(waitForState(*session, RunState::idle));
         const auto table = study::validate(inputs, winner, std::nullopt, {});
         VERIFY_OK(table);
-        const study::ValidationRecord& validation = session->validations().front();
-        QCOMPARE(validation.rows.size(), session->part()->stablePoses.size());
+        const study::ValidationRecord& validation = session->runs().validations().front();
+        QCOMPARE(validation.rows.size(), session->design().part()->stablePoses.size());
         for (std::size_t row = 0; row < validation.rows.size(); ++row)
             QCOMPARE(validation.rows[row].tally.failures(), table->rows[row].tally.failures());
         session.reset();
         session = fixture_->open("a.trap");
-        QCOMPARE(session->selections().size(), std::size_t{1});
-        QCOMPARE(session->validations().size(), std::size_t{1});
+        QCOMPARE(session->runs().selections().size(), std::size_t{1});
+        QCOMPARE(session->runs().validations().size(), std::size_t{1});
     }
 
     void validationIsPausedAndStopped() {
@@ -280,39 +284,39 @@ class StudyRunsTest : public QObject {
         session.reset();
         fixture_->trialTime = std::chrono::milliseconds(10);
         session = fixture_->open("a.trap");
-        session->setThreads(1);
-        session->startValidation(session->winners().front());
-        QVERIFY(waitUntil([&] { return session->progress().trialsDone > 2; }));
-        QCOMPARE(session->progress().trials,
-                 static_cast<std::int64_t>(10 * session->part()->stablePoses.size()));
-        session->pause();
+        session->runs().setThreads(1);
+        session->runs().startValidation(session->runs().winners().front());
+        QVERIFY(waitUntil([&] { return session->runs().progress().trialsDone > 2; }));
+        QCOMPARE(session->runs().progress().trials,
+                 static_cast<std::int64_t>(10 * session->design().part()->stablePoses.size()));
+        session->runs().pause();
         QTest::qWait(30);
-        const std::int64_t done = session->progress().trialsDone;
+        const std::int64_t done = session->runs().progress().trialsDone;
         QTest::qWait(100);
-        QCOMPARE(session->progress().trialsDone, done);
-        session->resume();
-        QCOMPARE(session->state(), RunState::validating);
-        session->stopNow();
+        QCOMPARE(session->runs().progress().trialsDone, done);
+        session->runs().resume();
+        QCOMPARE(session->runs().state(), RunState::validating);
+        session->runs().stopNow();
         QVERIFY(waitForState(*session, RunState::idle));
-        QVERIFY(session->validations().empty());
+        QVERIFY(session->runs().validations().empty());
     }
 
     void oneRunAtATime() {
         fixture_->trialTime = std::chrono::milliseconds(2);
         const auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        session->startLearning();
+        session->runs().startLearning();
         QSignalSpy failed(session.get(), &StudySession::failed);
-        session->startLearning();
-        session->startSelection();
+        session->runs().startLearning();
+        session->runs().startSelection();
         QCOMPARE(failed.count(), 2);
         QVERIFY(!session->saveAs(fixture_->path("b.trap")).ok());
-        session->pause();
-        session->pause();
-        session->resume();
-        session->resume();
+        session->runs().pause();
+        session->runs().pause();
+        session->runs().resume();
+        session->runs().resume();
         QVERIFY(waitForState(*session, RunState::idle));
-        QCOMPARE(session->summaries().size(), std::size_t{3});
+        QCOMPARE(session->runs().summaries().size(), std::size_t{3});
     }
 
     void deletingEndsTheWork_data() {
@@ -328,10 +332,11 @@ class StudyRunsTest : public QObject {
         settings.simulation.engine = "hybrid";
         auto session = fixture_->create("a.trap", settings);
         QVERIFY(session);
-        session->startLearning();
-        QVERIFY(waitUntil(
-            [&] { return session->summaries().size() >= 2 && session->progress().trialsDone > 0; }));
-        if (paused) session->pause();
+        session->runs().startLearning();
+        QVERIFY(waitUntil([&] {
+            return session->runs().summaries().size() >= 2 && session->runs().progress().trialsDone > 0;
+        }));
+        if (paused) session->runs().pause();
         QElapsedTimer clock;
         clock.start();
         session.reset();
@@ -339,7 +344,7 @@ class StudyRunsTest : public QObject {
         // It can be opened at once, and nothing is left beside it.
         QVERIFY(!std::filesystem::exists(fixture_->path("a.trap-wal")));
         session = fixture_->open("a.trap");
-        QVERIFY(session && session->summaries().size() >= 2);
+        QVERIFY(session && session->runs().summaries().size() >= 2);
         QVERIFY(takeInterruptedStudies(fixture_->path("state")).empty());
     }
 

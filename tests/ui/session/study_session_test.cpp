@@ -2,7 +2,9 @@
 
 #include "tests/ui/session/session_fixture.h"
 #include "ui/session/study_curves.h"
+#include "ui/session/study_design.h"
 #include "ui/session/study_opening.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::session;
@@ -17,15 +19,16 @@ class StudySessionTest : public QObject {
     void newStudyHoldsWhatItWasMadeOf() {
         const auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        QCOMPARE(session->state(), RunState::idle);
-        QVERIFY(session->settings().part == cuboid().settings);
-        QCOMPARE(session->part()->symmetry.name, std::string("D2"));
-        QVERIFY(session->problems().empty() && !session->locked());
-        QVERIFY(session->summaries().empty() && session->winners().empty());
+        QCOMPARE(session->runs().state(), RunState::idle);
+        QVERIFY(session->design().settings().part == cuboid().settings);
+        QCOMPARE(session->design().part()->symmetry.name, std::string("D2"));
+        QVERIFY(session->design().problems().empty() && !session->design().locked());
+        QVERIFY(session->runs().summaries().empty() && session->runs().winners().empty());
         // For D2 a perfect feeder scores less than for a part without symmetry, whose best is pi / 2 + 2 /
         // pi.
-        QCOMPARE(session->attainable()[2].key, std::string("F_O"));
-        QVERIFY(session->attainable()[2].value > 0.5 && session->attainable()[2].value < 2.3);
+        QCOMPARE(session->design().attainable()[2].key, std::string("F_O"));
+        QVERIFY(session->design().attainable()[2].value > 0.5 &&
+                session->design().attainable()[2].value < 2.3);
     }
 
     void refusesPathsThatCannotBe() {
@@ -49,116 +52,117 @@ class StudySessionTest : public QObject {
     void changesAreUndoneAndSaved() {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        QSignalSpy changed(session.get(), &StudySession::settingsChanged);
-        const study::Settings before = session->settings();
+        QSignalSpy changed(&session->design(), &StudyDesign::settingsChanged);
+        const study::Settings before = session->design().settings();
         study::Settings wide = before;
         wide.track.segmentWidth = 50e-3;
-        session->changeSettings(wide, "Segment width");
+        session->design().changeSettings(wide, "Segment width");
         study::Settings steep = wide;
         steep.simulation.drive.angle = 20.0 * base::kDegree;
-        session->changeSettings(steep, "Vibration angle");
-        session->changeSettings(steep, "Vibration angle");
+        session->design().changeSettings(steep, "Vibration angle");
+        session->design().changeSettings(steep, "Vibration angle");
         QCOMPARE(changed.count(), 2);
-        QCOMPARE(session->undoStack()->count(), 2);
-        QCOMPARE(session->undoStack()->undoText(), QString("Vibration angle"));
-        QVERIFY(session->settings() == steep);
-        session->undoStack()->undo();
-        QVERIFY(session->settings() == wide);
-        session->undoStack()->undo();
-        QVERIFY(session->settings() == before);
-        session->undoStack()->redo();
-        QVERIFY(session->settings() == wide);
+        QCOMPARE(session->design().undoStack()->count(), 2);
+        QCOMPARE(session->design().undoStack()->undoText(), QString("Vibration angle"));
+        QVERIFY(session->design().settings() == steep);
+        session->design().undoStack()->undo();
+        QVERIFY(session->design().settings() == wide);
+        session->design().undoStack()->undo();
+        QVERIFY(session->design().settings() == before);
+        session->design().undoStack()->redo();
+        QVERIFY(session->design().settings() == wide);
         session.reset();
         session = fixture_->open("a.trap");
-        QVERIFY(session && session->settings() == wide);
+        QVERIFY(session && session->design().settings() == wide);
     }
 
     void draggedValueIsOneChange() {
         const auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        const study::Settings before = session->settings();
+        const study::Settings before = session->design().settings();
         for (int step = 1; step <= 5; ++step) {
-            study::Settings settings = session->settings();
+            study::Settings settings = session->design().settings();
             settings.track.segmentHeight += 1e-3;
-            session->changeSettings(settings, "Segment height");
+            session->design().changeSettings(settings, "Segment height");
         }
-        QCOMPARE(session->undoStack()->count(), 1);
-        session->undoStack()->undo();
-        QVERIFY(session->settings() == before);
+        QCOMPARE(session->design().undoStack()->count(), 1);
+        session->design().undoStack()->undo();
+        QVERIFY(session->design().settings() == before);
     }
 
     void badValuesAreProblems() {
         const auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
         QSignalSpy failed(session.get(), &StudySession::failed);
-        study::Settings bad = session->settings();
+        study::Settings bad = session->design().settings();
         bad.track.segmentWidth = 5e-3;  // narrower than the part
-        session->changeSettings(bad, "Segment width");
-        QVERIFY(!session->problems().empty());
-        session->startLearning();
-        QCOMPARE(session->state(), RunState::idle);
+        session->design().changeSettings(bad, "Segment width");
+        QVERIFY(!session->design().problems().empty());
+        session->runs().startLearning();
+        QCOMPARE(session->runs().state(), RunState::idle);
         QCOMPARE(failed.count(), 1);
-        QVERIFY(failed[0][1].toString().contains(QString::fromStdString(session->problems().front())));
-        session->undoStack()->undo();
-        QVERIFY(session->problems().empty());
+        QVERIFY(
+            failed[0][1].toString().contains(QString::fromStdString(session->design().problems().front())));
+        session->design().undoStack()->undo();
+        QVERIFY(session->design().problems().empty());
     }
 
     void partIsReplacedAndUndone() {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session);
-        QSignalSpy changed(session.get(), &StudySession::partChanged);
+        QSignalSpy changed(&session->design(), &StudyDesign::partChanged);
         const ImportedPart cone = workflow::importPart({"cone"}).value();
-        session->changePart(cone, "Import cone");
+        session->design().changePart(cone, "Import cone");
         QCOMPARE(changed.count(), 1);
-        QVERIFY(session->part()->symmetry.continuous);
-        QVERIFY(session->settings().part == cone.settings);
-        session->undoStack()->undo();
-        QCOMPARE(session->part()->symmetry.name, std::string("D2"));
-        QVERIFY(session->settings().part == cuboid().settings);
-        session->undoStack()->redo();
+        QVERIFY(session->design().part()->symmetry.continuous);
+        QVERIFY(session->design().settings().part == cone.settings);
+        session->design().undoStack()->undo();
+        QCOMPARE(session->design().part()->symmetry.name, std::string("D2"));
+        QVERIFY(session->design().settings().part == cuboid().settings);
+        session->design().undoStack()->redo();
 
         // A denser one, which is built in the background.
         store::StoredPart dense = cone.stored;
         study::PartSettings settings = cone.settings;
         dense.options.density = settings.density = 8000.0;
-        session->changePart(dense, settings, "Density");
+        session->design().changePart(dense, settings, "Density");
         QTRY_COMPARE(changed.count(), 4);
-        QCOMPARE(session->part()->density, 8000.0);
+        QCOMPARE(session->design().part()->density, 8000.0);
         dense.options.density = -1.0;
         QSignalSpy failed(session.get(), &StudySession::failed);
-        session->changePart(dense, settings, "Density");
+        session->design().changePart(dense, settings, "Density");
         QTRY_COMPARE(failed.count(), 1);
         QVERIFY(failed[0][1].toString().contains("density"));
-        QCOMPARE(session->part()->density, 8000.0);
+        QCOMPARE(session->design().part()->density, 8000.0);
         session.reset();
         session = fixture_->open("a.trap");
-        QVERIFY(session && session->part()->symmetry.continuous);
-        QCOMPARE(session->part()->density, 8000.0);
-        QCOMPARE(session->settings().part.density, 8000.0);
+        QVERIFY(session && session->design().part()->symmetry.continuous);
+        QCOMPARE(session->design().part()->density, 8000.0);
+        QCOMPARE(session->design().settings().part.density, 8000.0);
     }
 
     void scoresLockWhatTheyWereMadeWith() {
         const auto session = fixture_->create("a.trap", smallSettings(2));
         QVERIFY(session);
-        study::Settings wide = session->settings();
+        study::Settings wide = session->design().settings();
         wide.track.segmentWidth = 50e-3;
-        session->changeSettings(wide, "Segment width");
+        session->design().changeSettings(wide, "Segment width");
         QVERIFY(learnToTheEnd(*session));
-        QVERIFY(session->locked() && !session->undoStack()->canUndo());
+        QVERIFY(session->design().locked() && !session->design().undoStack()->canUndo());
         QSignalSpy failed(session.get(), &StudySession::failed);
-        study::Settings narrow = session->settings();
+        study::Settings narrow = session->design().settings();
         narrow.track.segmentWidth = 40e-3;
-        session->changeSettings(narrow, "Segment width");
-        session->changePart(workflow::importPart({"cone"}).value(), "Import cone");
+        session->design().changeSettings(narrow, "Segment width");
+        session->design().changePart(workflow::importPart({"cone"}).value(), "Import cone");
         QCOMPARE(failed.count(), 2);
-        QVERIFY(session->settings() == wide);
-        study::Settings longer = session->settings();
+        QVERIFY(session->design().settings() == wide);
+        study::Settings longer = session->design().settings();
         longer.evolution.generations = 3;
         longer.validation.trialsPerPose = 12;
-        session->changeSettings(longer, "Generations");
-        QVERIFY(session->settings() == longer);
+        session->design().changeSettings(longer, "Generations");
+        QVERIFY(session->design().settings() == longer);
         QVERIFY(learnToTheEnd(*session));
-        QCOMPARE(session->summaries().size(), std::size_t{3});
+        QCOMPARE(session->runs().summaries().size(), std::size_t{3});
         QCOMPARE(failed.count(), 2);
     }
 
@@ -166,28 +170,28 @@ class StudySessionTest : public QObject {
         auto session = fixture_->create("a.trap", smallSettings(2));
         QVERIFY(session);
         QVERIFY(learnToTheEnd(*session));
-        const study::GenerationRecord last = session->loadGeneration(1).value();
+        const study::GenerationRecord last = session->runs().loadGeneration(1).value();
         QSignalSpy moved(session.get(), &StudySession::pathChanged);
         QVERIFY(!session->saveAs(fixture_->path("a.trap")).ok());
         QVERIFY(!session->saveAs(fixture_->path("none/b.trap")).ok());
-        QCOMPARE(session->loadGeneration(1).value().individuals, last.individuals);
+        QCOMPARE(session->runs().loadGeneration(1).value().individuals, last.individuals);
         VERIFY_OK(session->saveAs(fixture_->path("b.trap")));
         QCOMPARE(moved.count(), 1);
         QCOMPARE(session->path(), fixture_->path("b.trap"));
-        QCOMPARE(session->loadGeneration(1).value().individuals, last.individuals);
-        study::Settings longer = session->settings();
+        QCOMPARE(session->runs().loadGeneration(1).value().individuals, last.individuals);
+        study::Settings longer = session->design().settings();
         longer.evolution.generations = 3;
-        session->changeSettings(longer, "Generations");
+        session->design().changeSettings(longer, "Generations");
         QVERIFY(learnToTheEnd(*session));
         // The old one stays as it was and is free.
         const auto old = fixture_->open("a.trap");
         QVERIFY(old);
-        QCOMPARE(old->summaries().size(), std::size_t{2});
+        QCOMPARE(old->runs().summaries().size(), std::size_t{2});
         session.reset();
         QVERIFY(!std::filesystem::exists(fixture_->path("b.trap-wal")));
         session = fixture_->open("b.trap");
         QVERIFY(session);
-        QCOMPARE(session->summaries().size(), std::size_t{3});
+        QCOMPARE(session->runs().summaries().size(), std::size_t{3});
     }
 
     void forkHasNoGenerations() {
@@ -196,9 +200,9 @@ class StudySessionTest : public QObject {
         QVERIFY(learnToTheEnd(*session));
         const auto forked = session->fork(fixture_->path("b.trap"));
         VERIFY_OK(forked);
-        QVERIFY((*forked)->summaries().empty() && !(*forked)->locked());
-        QVERIFY((*forked)->settings() == session->settings());
-        QVERIFY((*forked)->part()->mesh.vertices == session->part()->mesh.vertices);
+        QVERIFY((*forked)->runs().summaries().empty() && !(*forked)->design().locked());
+        QVERIFY((*forked)->design().settings() == session->design().settings());
+        QVERIFY((*forked)->design().part()->mesh.vertices == session->design().part()->mesh.vertices);
     }
 
     void opensInTheBackground() {
@@ -217,8 +221,8 @@ class StudySessionTest : public QObject {
         opening.start(fixture_->path("a.trap"), fixture_->environment(), take);
         QVERIFY(opening.busy() && !session);
         QTRY_VERIFY(session);
-        QCOMPARE(session->summaries().size(), std::size_t{1});
-        QVERIFY(learnToTheEnd(*session) || session->summaries().size() == 1);
+        QCOMPARE(session->runs().summaries().size(), std::size_t{1});
+        QVERIFY(learnToTheEnd(*session) || session->runs().summaries().size() == 1);
     }
 
     void curvesOfAnotherStudy() {
@@ -228,8 +232,8 @@ class StudySessionTest : public QObject {
         VERIFY_OK(curves);
         QCOMPARE(curves->name, std::string("a"));
         QCOMPARE(curves->summaries.size(), std::size_t{2});
-        QCOMPARE(curves->summaries[1].statistics, session->summaries()[1].statistics);
-        QVERIFY(curves->attainable == session->attainable());
+        QCOMPARE(curves->summaries[1].statistics, session->runs().summaries()[1].statistics);
+        QVERIFY(curves->attainable == session->design().attainable());
         QVERIFY(!loadCurves(fixture_->path("none.trap")).ok());
     }
 

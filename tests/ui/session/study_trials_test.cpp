@@ -4,6 +4,9 @@
 #include "core/study/validation.h"
 #include "sim/native/native_engine.h"
 #include "tests/ui/session/session_fixture.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_replays.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using namespace trapwright::session;
@@ -32,15 +35,15 @@ class StudyTrialsTest : public QObject {
         VERIFY_OK(made);
         session_ = std::move(made).value();
         QVERIFY(learnToTheEnd(*session_));
-        session_->startValidation(session_->winners().back());
+        session_->runs().startValidation(session_->runs().winners().back());
         QVERIFY(waitForState(*session_, RunState::idle));
-        QCOMPARE(session_->validations().size(), std::size_t{1});
+        QCOMPARE(session_->runs().validations().size(), std::size_t{1});
     }
 
     void cleanupTestCase() { session_.reset(); }
 
     void learningTrialsEndAsTheyDid() {
-        const study::Individual& winner = session_->winners().back();
+        const study::Individual& winner = session_->runs().winners().back();
         const std::vector<ListedTrials> told = simulate({workflow::TrialKind::learning, winner});
         QCOMPARE(told.size(), std::size_t{1});
         QCOMPARE(static_cast<int>(told[0].outcomes.size()), winner.record.trials);
@@ -59,10 +62,10 @@ class StudyTrialsTest : public QObject {
     }
 
     void validationTrialsAreThoseOfTheTable() {
-        const study::ValidationRecord& table = session_->validations().front();
+        const study::ValidationRecord& table = session_->runs().validations().front();
         for (const study::ValidationRow& row : table.rows) {
             workflow::TrialsRequest request{
-                workflow::TrialKind::validation, session_->winners().back(), {row.pose}};
+                workflow::TrialKind::validation, session_->runs().winners().back(), {row.pose}};
             const std::vector<ListedTrials> told = simulate(request);
             QCOMPARE(told[0].outcomes.size(), std::size_t{10});
             const auto& verdicts = told[0].judged.verdicts;
@@ -82,7 +85,7 @@ class StudyTrialsTest : public QObject {
 
     // Poses that look the same are listed together: one pose after the other.
     void trialsOfAlikePosesFollowEachOther() {
-        const study::Individual& winner = session_->winners().back();
+        const study::Individual& winner = session_->runs().winners().back();
         const auto of = [&](std::vector<int> poses) {
             return simulate({workflow::TrialKind::validation, winner, std::move(poses)})[0].outcomes;
         };
@@ -97,10 +100,11 @@ class StudyTrialsTest : public QObject {
     }
 
     void replayEndsLikeTheTrial() {
-        const workflow::TrialsRequest request{workflow::TrialKind::learning, session_->winners().back()};
+        const workflow::TrialsRequest request{workflow::TrialKind::learning,
+                                              session_->runs().winners().back()};
         const std::vector<ListedTrials> told = simulate(request);
         std::shared_ptr<const trial::Trajectory> trajectory;
-        const auto connection = connect(session_.get(), &StudySession::replayed, this,
+        const auto connection = connect(&session_->replays(), &StudyReplays::replayed, this,
                                         [&](const workflow::TrialsRequest&, int trial,
                                             const std::shared_ptr<const trial::Trajectory>& replayed,
                                             const std::optional<workflow::OutcomeDifference>& difference) {
@@ -108,8 +112,8 @@ class StudyTrialsTest : public QObject {
                                             QVERIFY(!difference);
                                             trajectory = replayed;
                                         });
-        session_->replay(request, 3, 0.01);
-        QCOMPARE(session_->state(), RunState::simulating);
+        session_->replays().replay(request, 3, 0.01);
+        QCOMPARE(session_->runs().state(), RunState::simulating);
         QTRY_VERIFY(trajectory);
         disconnect(connection);
         QVERIFY(trial::endAlike(trajectory->outcome.parts[0], told[0].outcomes[3].parts[0]));
@@ -120,26 +124,29 @@ class StudyTrialsTest : public QObject {
 
     void whatThereIsNotIsAMessage() {
         QSignalSpy failed(session_.get(), &StudySession::failed);
-        session_->requestTrials({workflow::TrialKind::selection, session_->winners().back()});
+        session_->replays().requestTrials(
+            {workflow::TrialKind::selection, session_->runs().winners().back()});
         QTRY_COMPARE(failed.count(), 1);
-        session_->replay({workflow::TrialKind::learning, session_->winners().back()}, 4, 0.01);
+        session_->replays().replay({workflow::TrialKind::learning, session_->runs().winners().back()}, 4,
+                                   0.01);
         QTRY_COMPARE(failed.count(), 2);
-        study::Individual broken = session_->winners().back();
+        study::Individual broken = session_->runs().winners().back();
         broken.record.design.pop_back();
-        session_->requestTrials({workflow::TrialKind::learning, broken});
+        session_->replays().requestTrials({workflow::TrialKind::learning, broken});
         QTRY_COMPARE(failed.count(), 3);
         QVERIFY(failed[2][1].toString().contains("numbers"));
     }
 
     void cancelledSimulationsAreNotHeardOf() {
-        QSignalSpy told(session_.get(), &StudySession::trialsListed);
+        QSignalSpy told(&session_->replays(), &StudyReplays::trialsListed);
         QSignalSpy failed(session_.get(), &StudySession::failed);
         for (int i = 0; i < 5; ++i)
-            session_->requestTrials({workflow::TrialKind::learning, session_->winners().back(), {0}, 500});
-        session_->cancelSimulations();
+            session_->replays().requestTrials(
+                {workflow::TrialKind::learning, session_->runs().winners().back(), {0}, 500});
+        session_->replays().cancelSimulations();
         QVERIFY(waitForState(*session_, RunState::idle));
         QCOMPARE(told.count() + failed.count(), 0);
-        QCOMPARE(simulate({workflow::TrialKind::learning, session_->winners().back()}).size(),
+        QCOMPARE(simulate({workflow::TrialKind::learning, session_->runs().winners().back()}).size(),
                  std::size_t{1});
     }
 
@@ -151,11 +158,11 @@ class StudyTrialsTest : public QObject {
             StudySession::create(fixture_->path("b.trap"), settings, cuboid(), nativeEnvironment(*fixture_));
         VERIFY_OK(made);
         StudySession& session = **made;
-        QSignalSpy estimated(&session, &StudySession::estimated);
-        QCOMPARE(session.estimatedSeconds(), 0.0);
-        session.requestEstimate();
+        QSignalSpy estimated(&session.runs(), &StudyRuns::estimated);
+        QCOMPARE(session.runs().estimatedSeconds(), 0.0);
+        session.runs().requestEstimate();
         QTRY_COMPARE_WITH_TIMEOUT(estimated.count(), 1, 10000);
-        const double expected = session.estimatedSeconds();
+        const double expected = session.runs().estimatedSeconds();
         QElapsedTimer clock;
         clock.start();
         QVERIFY(learnToTheEnd(session));
@@ -164,11 +171,11 @@ class StudyTrialsTest : public QObject {
         QVERIFY(expected > 0.0);
         // Other work on the machine must not fail this.
         QVERIFY(took < 20.0 * expected && expected < 20.0 * took);
-        settings = session.settings();
+        settings = session.design().settings();
         settings.evolution.generations = 8;
-        session.changeSettings(settings, "Generations");
+        session.design().changeSettings(settings, "Generations");
         // What a trial costs is known by then.
-        QCOMPARE(session.estimatedSeconds(), expected);
+        QCOMPARE(session.runs().estimatedSeconds(), expected);
     }
 
     // The cost of a trial belongs to the settings that it depends on, and to no others.
@@ -201,23 +208,23 @@ class StudyTrialsTest : public QObject {
             StudySession::create(fixture_->path(name), settings, cuboid(), nativeEnvironment(*fixture_));
         VERIFY_OK(made);
         StudySession& session = **made;
-        session.requestEstimate();
-        QTRY_VERIFY_WITH_TIMEOUT(session.estimatedSeconds() > 0.0, 20000);
-        const double before = session.estimatedSeconds();
-        study::Settings next = session.settings();
+        session.runs().requestEstimate();
+        QTRY_VERIFY_WITH_TIMEOUT(session.runs().estimatedSeconds() > 0.0, 20000);
+        const double before = session.runs().estimatedSeconds();
+        study::Settings next = session.design().settings();
         VERIFY_OK(study::setField(next, key.toStdString(), value.toStdString()));
-        session.changeSettings(next, "Change");
-        QCOMPARE(session.estimatedSeconds(), factor * before);
-        QCOMPARE(session.draft().has_value(), factor > 0.0);
-        if (factor > 0.0) QVERIFY(session.draft()->seconds < 600.0);
+        session.design().changeSettings(next, "Change");
+        QCOMPARE(session.runs().estimatedSeconds(), factor * before);
+        QCOMPARE(session.runs().draft().has_value(), factor > 0.0);
+        if (factor > 0.0) QVERIFY(session.runs().draft()->seconds < 600.0);
     }
 
  private:
     std::vector<ListedTrials> simulate(const workflow::TrialsRequest& request) {
         std::vector<ListedTrials> told;
-        const auto connection = connect(session_.get(), &StudySession::trialsListed, this,
+        const auto connection = connect(&session_->replays(), &StudyReplays::trialsListed, this,
                                         [&](const ListedTrials& trials) { told.push_back(trials); });
-        session_->requestTrials(request);
+        session_->replays().requestTrials(request);
         [&] { QTRY_VERIFY_WITH_TIMEOUT(!told.empty(), 20000); }();
         disconnect(connection);
         return told;

@@ -13,6 +13,8 @@
 #include "sim/engines/registry.h"
 #include "tests/ui/window/user.h"
 #include "ui/pages/value_edit.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using session::RunState;
@@ -132,7 +134,7 @@ class BadInputTest : public QObject {
             QVERIFY(QApplication::activeModalWidget() == nullptr);
             QVERIFY(user.session() == before);
         }
-        QCOMPARE(user.session()->part()->name, std::string("pin"));
+        QCOMPARE(user.session()->design().part()->name, std::string("pin"));
     }
 
     void aStudyThatAnotherHasOpen() {
@@ -175,7 +177,7 @@ class BadInputTest : public QObject {
         QFETCH(QString, reason);
         User user;
         QVERIFY(user.import("cuboid") && user.show(page));
-        const study::Settings before = user.session()->settings();
+        const study::Settings before = user.session()->design().settings();
         auto* edit = user.find<pages::ValueEdit>("field." + field);
         QVERIFY(edit != nullptr);
         const QString good = edit->text();
@@ -186,7 +188,7 @@ class BadInputTest : public QObject {
         QVERIFY(!user.action("run.start")->isEnabled());
         user.type(field, good);
         QVERIFY(!edit->isBad());
-        QVERIFY(user.session()->settings() == before);
+        QVERIFY(user.session()->design().settings() == before);
         QVERIFY(user.action("run.start")->isEnabled());
     }
 
@@ -212,7 +214,7 @@ class BadInputTest : public QObject {
         QFETCH(QString, text);
         User user;
         QVERIFY(user.import("cuboid") && user.show("track"));
-        const study::Settings before = user.session()->settings();
+        const study::Settings before = user.session()->design().settings();
         auto* edit = user.find<pages::ValueEdit>("field." + field);
         const QString good = edit->text();
         edit->setFocus();
@@ -223,7 +225,7 @@ class BadInputTest : public QObject {
         QTest::keyClick(edit, Qt::Key_Return);
         QCOMPARE(edit->text(), good);
         QVERIFY(!edit->isBad());
-        QVERIFY(user.session()->settings() == before);
+        QVERIFY(user.session()->design().settings() == before);
     }
 
     void aPartOfNothing() {
@@ -234,7 +236,7 @@ class BadInputTest : public QObject {
             return user.message() + user.find<QLabel>("reason.part.density_kg_m3")->text();
         };
         QTRY_VERIFY2_WITH_TIMEOUT(told().contains("out of range"), qPrintable(told()), kPatience);
-        QVERIFY(user.session()->part()->density > 0.0);
+        QVERIFY(user.session()->design().part()->density > 0.0);
     }
 
     void aStudyWithoutGenerationsHasNothingToJudgeOrExport() {
@@ -275,7 +277,7 @@ class BadInputTest : public QObject {
         QCOMPARE(user.session()->path(), before);
         QVERIFY(user.show("track"));
         user.type("track.segmentWidth_mm", "61");
-        QCOMPARE(user.session()->settings().track.segmentWidth, 61e-3);
+        QCOMPARE(user.session()->design().settings().track.segmentWidth, 61e-3);
         QVERIFY(locked->loadSettings().ok());
     }
 
@@ -305,15 +307,15 @@ class BadInputTest : public QObject {
             const FullDisk full(120000);
             window.findChild<QAction*>("run.start")->trigger();
             QTRY_VERIFY_WITH_TIMEOUT(!message->text().isEmpty(), 60000);
-            QTRY_COMPARE_WITH_TIMEOUT(session.state(), RunState::idle, 60000);
+            QTRY_COMPARE_WITH_TIMEOUT(session.runs().state(), RunState::idle, 60000);
         }
         QVERIFY2(message->text().contains("filled.trap"), qPrintable(message->text()));
-        const std::size_t known = session.summaries().size();
-        session.startLearning();
-        QTRY_VERIFY_WITH_TIMEOUT(session.summaries().size() > known, 60000);
-        session.stopNow();
-        QTRY_COMPARE_WITH_TIMEOUT(session.state(), RunState::idle, 60000);
-        const std::size_t saved = session.summaries().size();
+        const std::size_t known = session.runs().summaries().size();
+        session.runs().startLearning();
+        QTRY_VERIFY_WITH_TIMEOUT(session.runs().summaries().size() > known, 60000);
+        session.runs().stopNow();
+        QTRY_COMPARE_WITH_TIMEOUT(session.runs().state(), RunState::idle, 60000);
+        const std::size_t saved = session.runs().summaries().size();
         window.desk().close(true);
         const auto study = store::StudyFile::openReadOnly(path("filled.trap").toStdString());
         QVERIFY(study.ok());

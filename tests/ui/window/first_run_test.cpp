@@ -11,6 +11,8 @@
 #include "sim/engines/registry.h"
 #include "tests/ui/window/user.h"
 #include "ui/help/help_window.h"
+#include "ui/session/study_design.h"
+#include "ui/session/study_runs.h"
 #include "ui/window/study_card.h"
 #include "ui/window/tour.h"
 
@@ -354,23 +356,23 @@ class FirstRunTest : public QObject {
         user.window.openFile(tests::bundled("cuboid"));
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
         user.window.showPage("track");
-        QTRY_VERIFY_WITH_TIMEOUT(user.session()->draft().has_value(), 3 * kPatience);
-        const session::LearningDraft draft = *user.session()->draft();
+        QTRY_VERIFY_WITH_TIMEOUT(user.session()->runs().draft().has_value(), 3 * kPatience);
+        const session::LearningDraft draft = *user.session()->runs().draft();
         QVERIFY(draft.seconds > 0.0 && draft.seconds < 600.0);
-        QVERIFY(user.session()->estimatedSeconds() > draft.seconds);
+        QVERIFY(user.session()->runs().estimatedSeconds() > draft.seconds);
         for (const char* label : {"track.time", "evolve.draftTime"})
             QVERIFY2(user.text(label).contains("on this machine"), qPrintable(user.text(label)));
-        QCOMPARE(user.session()->state(), RunState::idle);
+        QCOMPARE(user.session()->runs().state(), RunState::idle);
 
         auto* button = user.find<QToolButton>("track.draft");
         QVERIFY(button->isVisible() && button->isEnabled());
         QTest::mouseClick(button, Qt::LeftButton);
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->state(), RunState::learning, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->runs().state(), RunState::learning, kPatience);
         // Learning started on Track is watched on Evolve, with the settings that were told.
         QTRY_VERIFY(user.find<pages::Page>("page.evolve")->isVisible());
-        QVERIFY(user.session()->settings().evolution == draft.evolution);
-        user.session()->stopNow();
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->state(), RunState::idle, kPatience);
+        QVERIFY(user.session()->design().settings().evolution == draft.evolution);
+        user.session()->runs().stopNow();
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->runs().state(), RunState::idle, kPatience);
     }
 
     void startedOnReviewThePageStays() {
@@ -379,15 +381,15 @@ class FirstRunTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
         user.window.showPage("review");
         user.action("run.start")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->state(), RunState::learning, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->runs().state(), RunState::learning, kPatience);
         QVERIFY(user.find<pages::Page>("page.review")->isVisible());
-        user.session()->stopNow();
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->state(), RunState::idle, kPatience);
+        user.session()->runs().stopNow();
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->runs().state(), RunState::idle, kPatience);
         user.window.showPage("track");
         user.action("run.start")->trigger();
         QTRY_VERIFY_WITH_TIMEOUT(user.find<pages::Page>("page.evolve")->isVisible(), kPatience);
-        user.session()->stopNow();
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->state(), RunState::idle, kPatience);
+        user.session()->runs().stopNow();
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->runs().state(), RunState::idle, kPatience);
     }
 
     void theExampleLearnsByOneKey() {
@@ -396,14 +398,14 @@ class FirstRunTest : public QObject {
         QElapsedTimer clock;
         clock.start();
         press(user, Qt::Key_Return);
-        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr && !user.session()->summaries().empty(),
+        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr && !user.session()->runs().summaries().empty(),
                                  6 * kPatience);
         qInfo("the first winner was there after %.1f s", 1e-3 * static_cast<double>(clock.elapsed()));
         QVERIFY(user.find<pages::Page>("page.evolve")->isVisible());
         // A generation of these is a sixth of Table 1's.
-        QCOMPARE(user.session()->settings().evolution.populationSize, 40);
-        user.session()->stopNow();
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->state(), RunState::idle, kPatience);
+        QCOMPARE(user.session()->design().settings().evolution.populationSize, 40);
+        user.session()->runs().stopNow();
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->runs().state(), RunState::idle, kPatience);
     }
 
  private:

@@ -12,6 +12,7 @@
 #include "ui/look/theme.h"
 #include "ui/pages/field_texts.h"
 #include "ui/pages/value_edit.h"
+#include "ui/session/study_design.h"
 #include "ui/window/shortcut_list.h"
 
 using namespace trapwright;
@@ -44,12 +45,12 @@ class MainWindowTest : public QObject {
         User user;
         QVERIFY(user.import("cuboid") && user.show("track"));
         user.type("track.segmentWidth_mm", "70");
-        QCOMPARE(user.session()->settings().track.segmentWidth, 70e-3);
+        QCOMPARE(user.session()->design().settings().track.segmentWidth, 70e-3);
         QTest::keyClick(&user.window, Qt::Key_Z, Qt::ControlModifier);
-        QCOMPARE(user.session()->settings().track.segmentWidth, 60e-3);
+        QCOMPARE(user.session()->design().settings().track.segmentWidth, 60e-3);
         QCOMPARE(user.find<QLineEdit>("field.track.segmentWidth_mm")->text(), QString("60"));
         QTest::keyClick(&user.window, Qt::Key_Y, Qt::ControlModifier);
-        QCOMPARE(user.session()->settings().track.segmentWidth, 70e-3);
+        QCOMPARE(user.session()->design().settings().track.segmentWidth, 70e-3);
     }
 
     // What another search or another trap does not have is not shown; the scene follows.
@@ -61,14 +62,14 @@ class MainWindowTest : public QObject {
         const auto sections = [&] { return scene->contents().track->sections.size(); };
         QCOMPARE(sections(), std::size_t{2 + 5 + 2});
         user.choose("track.traps", "Step");
-        QCOMPARE(user.session()->settings().track.traps, std::string("step"));
+        QCOMPARE(user.session()->design().settings().track.traps, std::string("step"));
         QTRY_COMPARE_WITH_TIMEOUT(sections(), std::size_t{2 + 2 + 2}, kPatience);
         QVERIFY(!user.find<QWidget>("row.track.crossSections")->isVisible());
         user.choose("track.traps", "Step, free form");
         QTRY_COMPARE_WITH_TIMEOUT(sections(), std::size_t{2 + 2 + 5 + 2}, kPatience);
         QVERIFY(user.find<QWidget>("row.track.crossSections")->isVisible());
         user.choose("evolution.search", "Random");
-        QVERIFY(user.session()->settings().evolution.search == search::Method::random);
+        QVERIFY(user.session()->design().settings().evolution.search == search::Method::random);
         QVERIFY(user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
         user.choose("evolution.search", "Genetic");
         QVERIFY(!user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
@@ -81,7 +82,7 @@ class MainWindowTest : public QObject {
         for (const pages::Choice& choice : pages::objectiveChoices()) {
             QVERIFY(objectives::readObjectives(choice.value).ok());
             user.choose("evolution.objectives", choice.label);
-            QCOMPARE(user.session()->settings().evolution.objectives, choice.value);
+            QCOMPARE(user.session()->design().settings().evolution.objectives, choice.value);
         }
         QVERIFY(user.show("evolve"));
         QStringList facts;
@@ -131,14 +132,14 @@ class MainWindowTest : public QObject {
     void presetsAreOneStepToUndo() {
         User user;
         QVERIFY(user.import("cuboid") && user.show("track"));
-        const study::Settings before = user.session()->settings();
+        const study::Settings before = user.session()->design().settings();
         user.action("preset.cone")->trigger();
         // Table 1.
-        QCOMPARE(user.session()->settings().track.minSegmentLength, 22e-3);
-        QCOMPARE(user.session()->settings().evolution.staticMutation, 0.001);
-        QVERIFY(user.session()->settings().part == before.part);
+        QCOMPARE(user.session()->design().settings().track.minSegmentLength, 22e-3);
+        QCOMPARE(user.session()->design().settings().evolution.staticMutation, 0.001);
+        QVERIFY(user.session()->design().settings().part == before.part);
         user.action("edit.undo")->trigger();
-        QVERIFY(user.session()->settings() == before);
+        QVERIFY(user.session()->design().settings() == before);
     }
 
     void savedStudiesAreOpenedAgainFromTheRecentOnes() {
@@ -161,7 +162,7 @@ class MainWindowTest : public QObject {
         QVERIFY(link != nullptr && link->toolTip() == path);
         QTest::mouseClick(link, Qt::LeftButton);
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
-        QCOMPARE(user.session()->settings().track.segmentWidth, 56e-3);
+        QCOMPARE(user.session()->design().settings().track.segmentWidth, 56e-3);
         QVERIFY(user.action("recent." + path) != nullptr);
     }
 

@@ -8,6 +8,7 @@
 
 #include "core/geometry/triangle_mesh.h"
 #include "tests/ui/window/user.h"
+#include "ui/session/study_design.h"
 
 using namespace trapwright;
 using tests::bundled;
@@ -80,8 +81,8 @@ class PartImportTest : public QObject {
         material->setCurrentIndex(material->findText("steel"));
         emit material->activated(material->currentIndex());
         // EN 1991-1-1.
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->settings().part.density, 7850.0, kPatience);
-        QCOMPARE(user.session()->part()->density, 7850.0);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().settings().part.density, 7850.0, kPatience);
+        QCOMPARE(user.session()->design().part()->density, 7850.0);
         QCOMPARE(user.find<QLineEdit>("field.part.density_kg_m3")->text(), QString("7850"));
     }
 
@@ -91,10 +92,12 @@ class PartImportTest : public QObject {
         auto* counts = user.find<QComboBox>("field.part.symmetry");
         counts->setCurrentIndex(counts->findData("none"));
         emit counts->activated(counts->currentIndex());
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->symmetry.name, std::string("C1"), kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().part()->symmetry.name, std::string("C1"),
+                                  kPatience);
         QVERIFY(user.find<QLabel>("part.symmetry")->text().startsWith("C1"));
         user.action("edit.undo")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(user.session()->part()->symmetry.name, std::string("D2"), kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().part()->symmetry.name, std::string("D2"),
+                                  kPatience);
     }
 
     void droppedFilesAreOpened() {
@@ -144,7 +147,7 @@ class PartImportTest : public QObject {
         QVERIFY(user.find<QPushButton>("unit.m")->text().contains("4 × 8 × 12 mm"));
         QTest::mouseClick(user.find<QPushButton>("unit.m"), Qt::LeftButton);
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
-        QCOMPARE(user.session()->settings().part.units, std::string("m"));
+        QCOMPARE(user.session()->design().settings().part.units, std::string("m"));
         QCOMPARE(user.find<QLabel>("part.size")->text(), QString("4 × 8 × 12 mm"));
     }
 
@@ -162,7 +165,7 @@ class PartImportTest : public QObject {
         QTest::mouseClick(user.find<QPushButton>("repair"), Qt::LeftButton);
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
         // Closed, it is the cuboid again: 4 x 8 x 12 mm.
-        QVERIFY(std::abs(user.session()->part()->massProperties.volume - 384e-9) < 1e-12);
+        QVERIFY(std::abs(user.session()->design().part()->massProperties.volume - 384e-9) < 1e-12);
         QTRY_VERIFY_WITH_TIMEOUT(!user.find<QLabel>("part.notes")->text().isEmpty(), kPatience);
     }
 

@@ -21,6 +21,7 @@
 #include "sim/engines/registry.h"
 #include "tests/ui/session/event_loop_probe.h"
 #include "ui/scene/scene_view.h"
+#include "ui/session/study_runs.h"
 #include "ui/window/main_window.h"
 
 namespace {
@@ -108,7 +109,7 @@ void watch(const char* what, int duration, const session::StudySession& session,
         "%-24s worst %6.1f ms, 99.9 %% %6.1f ms, %5d events, scene painted %4.1f times/s, %3zu generations, "
         "%5.0f MiB\n",
         what, delays.worst, delays.most, delays.events, 1e3 * scene.take() / duration,
-        session.summaries().size(), residentMemory());
+        session.runs().summaries().size(), residentMemory());
     std::printf("    longest: %s\n", qPrintable(static_cast<Application*>(qApp)->takeLongest()));
     std::fflush(stdout);
 }
@@ -146,21 +147,21 @@ int main(int argc, char** argv) {
     constexpr int kSettle = 2000;  // [ms]
     QTest::qWait(kSettle);
     watch("idle", kLook / 2, session, paints);
-    const std::size_t before = session.summaries().size();
-    session.startLearning();
+    const std::size_t before = session.runs().summaries().size();
+    session.runs().startLearning();
     QTimer turning;             // the scene, as with the mouse
     constexpr int kMouse = 16;  // [ms]
     turning.setInterval(kMouse);
     QObject::connect(&turning, &QTimer::timeout, scene, [scene] { QTest::keyClick(scene, Qt::Key_Right); });
-    while (session.summaries().size() < before + generations &&
-           session.state() == session::RunState::learning) {
+    while (session.runs().summaries().size() < before + generations &&
+           session.runs().state() == session::RunState::learning) {
         watch("learning", kLook, session, paints);
         turning.start();
         watch("learning, scene turns", kLook, session, paints);
         turning.stop();
     }
-    session.stopNow();
-    (void)QTest::qWaitFor([&] { return session.state() == session::RunState::idle; }, kPatience);
+    session.runs().stopNow();
+    (void)QTest::qWaitFor([&] { return session.runs().state() == session::RunState::idle; }, kPatience);
     watch("idle again", kLook / 2, session, paints);
     return 0;
 }

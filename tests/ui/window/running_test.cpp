@@ -11,6 +11,7 @@
 #include "ui/models/numbers.h"
 #include "ui/session/part_import.h"
 #include "ui/session/recovery_note.h"
+#include "ui/session/study_runs.h"
 
 using namespace trapwright;
 using session::RunState;
@@ -37,23 +38,23 @@ class RunningTest : public QObject {
         auto* session = window.desk().session();
         auto* state = window.findChild<QLabel*>("status.state");
         action(window, "run.start")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::learning, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::learning, kPatience);
         QCOMPARE(state->text(), QString("Learning"));
         QVERIFY(!action(window, "run.start")->isEnabled());
         QTRY_VERIFY_WITH_TIMEOUT(!window.findChild<QLabel*>("status.speed")->text().isEmpty(), kPatience);
 
         action(window, "run.pause")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::paused, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::paused, kPatience);
         QCOMPARE(state->text(), QString("Paused"));
         QVERIFY(action(window, "run.start")->isEnabled() && !action(window, "run.pause")->isEnabled());
         action(window, "run.start")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::learning, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::learning, kPatience);
 
-        QTRY_VERIFY_WITH_TIMEOUT(!session->summaries().empty(), kPatience);
+        QTRY_VERIFY_WITH_TIMEOUT(!session->runs().summaries().empty(), kPatience);
         action(window, "run.stopAfterGeneration")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::idle, kPatience);
         QVERIFY(window.findChild<QLabel*>("status.generation")->text().endsWith("of 100000 generations"));
-        const study::Individual* best = study::findBestWinner(session->winners());
+        const study::Individual* best = study::findBestWinner(session->runs().winners());
         auto* success = window.findChild<QLabel*>("status.success");
         QVERIFY(success->isVisible());
         QCOMPARE(success->text(), "success " + models::successWord(best->record.success()));
@@ -68,27 +69,27 @@ class RunningTest : public QObject {
         window::MainWindow window{{engines::registry(), "trapwright test", state_}};
         open(window);
         auto* session = window.desk().session();
-        const std::size_t before = session->summaries().size();
+        const std::size_t before = session->runs().summaries().size();
         action(window, "run.start")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::learning, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::learning, kPatience);
         // Before its first generation a run has none to wait for.
-        QTRY_VERIFY_WITH_TIMEOUT(session->progress().trials > 0, kPatience);
+        QTRY_VERIFY_WITH_TIMEOUT(session->runs().progress().trials > 0, kPatience);
 
         answer(window, "answer.goOn");
         QTRY_VERIFY(window.findChild<QMessageBox*>("dialog.running") == nullptr);
         QVERIFY(window.isVisible());
-        QCOMPARE(session->state(), RunState::learning);
+        QCOMPARE(session->runs().state(), RunState::learning);
 
         answer(window, "answer.stopAfter");
         QTRY_VERIFY_WITH_TIMEOUT(!window.isVisible(), kPatience);
-        QVERIFY(session->summaries().size() > before);
+        QVERIFY(session->runs().summaries().size() > before);
     }
 
     void stoppingNowClosesAtOnce() {
         window::MainWindow window{{engines::registry(), "trapwright test", state_}};
         open(window);
         action(window, "run.start")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->runs().state(), RunState::learning, kPatience);
         answer(window, "answer.stopNow");
         QTRY_VERIFY_WITH_TIMEOUT(!window.isVisible(), 5000);
     }
@@ -103,15 +104,15 @@ class RunningTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(window.desk().session() != nullptr, kPatience);
         auto* session = window.desk().session();
         action(window, "run.start")->trigger();
-        QTRY_VERIFY_WITH_TIMEOUT(session->summaries().size() >= 2, kPatience);
+        QTRY_VERIFY_WITH_TIMEOUT(session->runs().summaries().size() >= 2, kPatience);
         QVERIFY(QFile::remove(study));
-        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::idle, kPatience);
         QVERIFY(!session->isInPlace());
         auto* message = window.findChild<look::MessageBar*>("messageBar");
         QVERIFY2(message->text().contains("was deleted or moved"), qPrintable(message->text()));
         QPushButton* save = message->findChild<QPushButton*>();
         QCOMPARE(save->text(), QString("Save a copy..."));
-        const std::size_t learned = session->summaries().size();
+        const std::size_t learned = session->runs().summaries().size();
 
         // The old name is still kept for it; another one takes all, and learning goes on there.
         QVERIFY(!window.desk().saveAs(study.toStdString()).ok());
@@ -122,11 +123,11 @@ class RunningTest : public QObject {
         QCOMPARE(store::StudyFile::openReadOnly(copy).value().generationCount().value(),
                  static_cast<int>(learned));
         action(window, "run.start")->trigger();
-        QTRY_VERIFY_WITH_TIMEOUT(session->summaries().size() > learned, kPatience);
+        QTRY_VERIFY_WITH_TIMEOUT(session->runs().summaries().size() > learned, kPatience);
         action(window, "run.stopNow")->trigger();
-        QTRY_COMPARE_WITH_TIMEOUT(session->state(), RunState::idle, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::idle, kPatience);
         QCOMPARE(store::StudyFile::openReadOnly(copy).value().generationCount().value(),
-                 static_cast<int>(session->summaries().size()));
+                 static_cast<int>(session->runs().summaries().size()));
     }
 
     // The note of a program that is gone: its lock is free, its file is there.
@@ -135,7 +136,7 @@ class RunningTest : public QObject {
             window::MainWindow window{{engines::registry(), "trapwright test", state_}};
             open(window);
             action(window, "run.start")->trigger();
-            QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
+            QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->runs().state(), RunState::learning, kPatience);
             QTRY_VERIFY_WITH_TIMEOUT(hasNote(), kPatience);
             std::filesystem::copy(state_, copy_, std::filesystem::copy_options::recursive);
         }
@@ -150,7 +151,7 @@ class RunningTest : public QObject {
         QCOMPARE(goOn->text(), QString("Go on learning"));
         QTest::mouseClick(goOn, Qt::LeftButton);
         QTRY_VERIFY_WITH_TIMEOUT(window.desk().session() != nullptr, kPatience);
-        QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->state(), RunState::learning, kPatience);
+        QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->runs().state(), RunState::learning, kPatience);
     }
 
  private:

@@ -18,6 +18,7 @@
 #include "ui/look/message_bar.h"
 #include "ui/pages/page.h"
 #include "ui/scene/scene_view.h"
+#include "ui/session/study_design.h"
 #include "ui/window/main_window.h"
 
 namespace {
@@ -106,16 +107,16 @@ int main(int argc, char** argv) {
     window.findChild<QAction*>("help.open")->trigger();
     camera.take(*window.findChild<QWidget*>("window.help"), "help");
     window.findChild<QWidget*>("window.help")->close();
-    if (!window.desk().session()->locked()) {
+    if (!window.desk().session()->design().locked()) {
         window.showPage("track");
-        study::Settings settings = window.desk().session()->settings();
+        study::Settings settings = window.desk().session()->design().settings();
         settings.track.crossSections = 0;
         settings.track.shape.type = track::FeederType::bowl;
         settings.track.leadInLength = 70e-3;
-        window.desk().session()->changeSettings(settings, "Mistakes");
+        window.desk().session()->design().changeSettings(settings, "Mistakes");
         camera.take(window, "mistakes");
         settings.track.crossSections = 5;
-        window.desk().session()->changeSettings(settings, "Bowl");
+        window.desk().session()->design().changeSettings(settings, "Bowl");
         window.findChild<QAction*>(arguments[4] == "dark" ? "theme.light" : "theme.dark")->trigger();
         camera.take(window, "bowl");
     }

@@ -19,6 +19,7 @@
 #include "tests/ui/footprint.h"
 #include "ui/look/message_bar.h"
 #include "ui/pages/page.h"
+#include "ui/session/study_runs.h"
 #include "ui/window/main_window.h"
 
 namespace {
@@ -55,17 +56,18 @@ double timed(Do act) {
 int learn(window::MainWindow& window, int generations) {
     session::StudySession& session = *window.desk().session();
     window.showPage("evolve");
-    session.startLearning();
-    print("generations", static_cast<int>(session.summaries().size()));
+    session.runs().startLearning();
+    print("generations", static_cast<int>(session.runs().summaries().size()));
     const int step = std::max(1, generations / 20);
     for (int next = step; next <= generations; next += step) {
-        while (static_cast<int>(session.summaries().size()) < next && session.state() == RunState::learning)
+        while (static_cast<int>(session.runs().summaries().size()) < next &&
+               session.runs().state() == RunState::learning)
             QTest::qWait(20);
-        if (static_cast<int>(session.summaries().size()) < next) return fail("learning ended", window);
-        print("generations", static_cast<int>(session.summaries().size()));
+        if (static_cast<int>(session.runs().summaries().size()) < next) return fail("learning ended", window);
+        print("generations", static_cast<int>(session.runs().summaries().size()));
     }
-    session.stopNow();
-    return QTest::qWaitFor([&] { return session.state() == RunState::idle; }, kPatience) ? 0 : 1;
+    session.runs().stopNow();
+    return QTest::qWaitFor([&] { return session.runs().state() == RunState::idle; }, kPatience) ? 0 : 1;
 }
 
 int restart(window::MainWindow& window, int times) {
@@ -73,12 +75,12 @@ int restart(window::MainWindow& window, int times) {
     window.showPage("evolve");
     print("starts", 0);
     for (int i = 1; i <= times; ++i) {
-        session.startLearning();
-        if (session.state() == RunState::idle) return fail("it did not start", window);
+        session.runs().startLearning();
+        if (session.runs().state() == RunState::idle) return fail("it did not start", window);
         // Now and then in the first moment, now and then some generations later.
         QTest::qWait(i % 10 * 5);
-        session.stopNow();
-        if (!QTest::qWaitFor([&] { return session.state() == RunState::idle; }, kPatience))
+        session.runs().stopNow();
+        if (!QTest::qWaitFor([&] { return session.runs().state() == RunState::idle; }, kPatience))
             return fail("it did not stop", window);
         if (i % std::max(1, times / 20) == 0) print("starts", i);
     }
@@ -146,7 +148,7 @@ int main(int argc, char** argv) {
     std::printf("opened after %.2f s, %.2f s of a processor: %zu generations\n",
                 1e-3 * static_cast<double>(clock.elapsed()),
                 static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
-                window.desk().session()->summaries().size());
+                window.desk().session()->runs().summaries().size());
     const int count = arguments.size() > 3 ? arguments[3].toInt() : 0;
     if (arguments[1] == "learn") return learn(window, count);
     if (arguments[1] == "restart") return restart(window, count);

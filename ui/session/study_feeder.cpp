@@ -1,7 +1,9 @@
+#include "ui/session/study_feeder.h"
+
 #include <QDateTime>
 
 #include "core/verify/speed_table.h"
-#include "ui/session/study_session_state.h"
+#include "ui/session/study_state.h"
 
 namespace trapwright::session {
 
@@ -17,79 +19,72 @@ calibration::Parameters parametersOf(const study::Settings& settings) {
 
 }  // namespace
 
-const std::vector<study::PhysicalValidation>& StudySession::physicalValidations() const {
+StudyFeeder::StudyFeeder(StudyState& state, const StudyRuns& runs) : state_(&state), runs_(runs) {}
+
+const std::vector<study::PhysicalValidation>& StudyFeeder::physicalValidations() const {
     return state_->physicalValidations;
 }
 
-void StudySession::note(StudyLedger::Note note) {
-    state_->ledger->add(std::move(note));
-}
-
-/// Called on the ledger's thread.
-void StudySession::tellNotNoted(const std::string& message) {
-    tell(this, [this, message = QString::fromStdString(message)] {
-        emit failed(tr("What was noted could not be saved"), message);
-    });
-}
-
-int StudySession::startPhysicalValidation(study::PhysicalValidation validation) {
+int StudyFeeder::startPhysicalValidation(study::PhysicalValidation validation) {
     validation.number = static_cast<int>(state_->physicalValidations.size());
     validation.program = state_->environment.program;
     validation.started = currentUtc();
     validation.trials.clear();
-    note([validation](store::StudyFile& file) { return file.addPhysicalValidation(validation); });
+    state_->note([validation](store::StudyFile& file) { return file.addPhysicalValidation(validation); });
     state_->physicalValidations.push_back(validation);
     emit physicalValidationChanged(validation.number);
     return validation.number;
 }
 
-void StudySession::addPhysicalTrial(int validation, study::PhysicalTrial trial) {
+void StudyFeeder::addPhysicalTrial(int validation, study::PhysicalTrial trial) {
     study::PhysicalValidation& whole = state_->physicalValidations.at(static_cast<std::size_t>(validation));
     const auto pose = study::nextPose(whole);
     if (!pose) return;
     trial.number = static_cast<int>(whole.trials.size());
     trial.pose = *pose;
     if (trial.time.empty()) trial.time = currentUtc();
-    note([validation, trial](store::StudyFile& file) { return file.addPhysicalTrial(validation, trial); });
+    state_->note(
+        [validation, trial](store::StudyFile& file) { return file.addPhysicalTrial(validation, trial); });
     whole.trials.push_back(std::move(trial));
     emit physicalValidationChanged(validation);
 }
 
-void StudySession::undoPhysicalTrial(int validation) {
+void StudyFeeder::undoPhysicalTrial(int validation) {
     study::PhysicalValidation& whole = state_->physicalValidations.at(static_cast<std::size_t>(validation));
     if (whole.trials.empty()) return;
-    note([validation](store::StudyFile& file) { return file.removeLastPhysicalTrial(validation); });
+    state_->note([validation](store::StudyFile& file) { return file.removeLastPhysicalTrial(validation); });
     whole.trials.pop_back();
     emit physicalValidationChanged(validation);
 }
 
-void StudySession::appendDriveLog(std::vector<drive::LogEntry> entries) {
+void StudyFeeder::appendDriveLog(std::vector<drive::LogEntry> entries) {
     if (entries.empty()) return;
-    note([entries = std::move(entries)](store::StudyFile& file) { return file.appendDriveLog(entries); });
+    state_->note(
+        [entries = std::move(entries)](store::StudyFile& file) { return file.appendDriveLog(entries); });
 }
 
-base::Result<std::vector<drive::LogEntry>> StudySession::loadDriveLog(double from, double to) const {
+base::Result<std::vector<drive::LogEntry>> StudyFeeder::loadDriveLog(double from, double to) const {
     if (!state_->reader) return state_->cannotRead();
     return state_->reader->loadDriveLog(from, to);
 }
 
-const std::vector<calibration::Calibration>& StudySession::calibrations() const {
+const std::vector<calibration::Calibration>& StudyFeeder::calibrations() const {
     return state_->calibrations;
 }
 
-void StudySession::addCalibration(calibration::Calibration calibration) {
+void StudyFeeder::addCalibration(calibration::Calibration calibration) {
     calibration.number = static_cast<int>(state_->calibrations.size());
     if (calibration.time.empty()) calibration.time = currentUtc();
-    note([calibration](store::StudyFile& file) { return file.addCalibration(calibration); });
+    state_->note([calibration](store::StudyFile& file) { return file.addCalibration(calibration); });
     state_->calibrations.push_back(std::move(calibration));
     emit calibrationAdded(state_->calibrations.back().number);
 }
 
-std::vector<calibration::Change> StudySession::calibrationChanges(double setPoint) const {
+std::vector<calibration::Change> StudyFeeder::calibrationChanges(double setPoint) const {
     return calibration::findChanges(parametersOf(state_->settings), state_->calibrations, setPoint);
 }
 
-study::Settings StudySession::calibratedSettings(std::span<const calibration::Change> changes) const {
+study::Settings StudyFeeder::calibratedSettings(std::span<const calibration::Change> changes) const {
     study::Settings settings = state_->settings;
     const calibration::Parameters after = calibration::applyChanges(parametersOf(settings), changes);
     settings.simulation.contact = after.contact;
@@ -97,10 +92,10 @@ study::Settings StudySession::calibratedSettings(std::span<const calibration::Ch
     return settings;
 }
 
-void StudySession::requestSpeedTable() {
+void StudyFeeder::requestSpeedTable() {
     state_->speedTable.cancel();
     state_->speedTable = base::RunControl();
-    postSimulation(
+    state_->postSimulation(
         tr("The conveying speeds could not be simulated"), state_->speedTable,
         [this, settings = calibratedSettings(calibrationChanges(0.0)), part = state_->part.part,
          control = state_->speedTable]() -> Deliver {

@@ -1,21 +1,22 @@
+#include "ui/session/study_replays.h"
+
 #include <algorithm>
 
-#include "core/workflow/estimate.h"
-#include "ui/session/study_session_state.h"
+#include "core/study/evaluator.h"
+#include "ui/session/study_state.h"
 
 namespace trapwright::session {
 
 namespace {
 
-constexpr double kEstimateBudget = 1.0;  // [s]
-constexpr int kAtOnce = 60;              // trials, before others have their turn
+constexpr int kAtOnce = 60;  // trials, before others have their turn
 
 QString noTrials() {
-    return StudySession::tr("This individual has no such trials. Choose another one, or simulate it first.");
+    return StudyReplays::tr("This individual has no such trials. Choose another one, or simulate it first.");
 }
 
 QString trialsFailed() {
-    return StudySession::tr("The trials could not be simulated");
+    return StudyReplays::tr("The trials could not be simulated");
 }
 
 bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
@@ -31,15 +32,31 @@ void judge(const workflow::StoredTrials& stored, const part::Part& part, const s
 
 }  // namespace
 
+/// Trials that are listed or made again. Values that any thread may read.
+struct StudyReplays::Simulation {
+    study::Settings settings;
+    std::shared_ptr<const part::Part> part;
+    std::shared_ptr<const workflow::StoredTrials> stored;
+    trial::TrialBatch batch;
+    std::optional<trial::MadeOutcomes> kept;  // in the study, of all trials of the batch
+    std::shared_ptr<const trial::Engine> engine;
+    trial::OutcomeMaker maker;  // of what is simulated now
+    base::RunControl control;
+};
+
+StudyReplays::StudyReplays(StudyState& state, const StudyRuns& runs) : state_(&state), runs_(runs) {}
+
 /// What the study holds of these trials. Many of the same are replayed one after the other, and need not be
 /// read each time.
-base::Result<std::shared_ptr<const workflow::StoredTrials>> StudySession::findTrials(
+base::Result<std::shared_ptr<const workflow::StoredTrials>> StudyReplays::findTrials(
     const workflow::TrialsRequest& request) {
     if (state_->found && isSame(state_->found->request, request)) return state_->found->trials;
-    auto stored = workflow::findStoredTrials(*state_->reader, state_->settings, engines(), request);
+    auto stored =
+        workflow::findStoredTrials(*state_->reader, state_->settings, state_->environment.engines, request);
     if (!stored) return stored.error();
     if (stored->engine.empty())
-        stored->engine = engines().nameFor(state_->settings.simulation.engine, trial::EngineUse::judging);
+        stored->engine = state_->environment.engines.nameFor(state_->settings.simulation.engine,
+                                                             trial::EngineUse::judging);
     if (!request.engine.empty()) stored->engine = request.engine;
     auto trials = std::make_shared<const workflow::StoredTrials>(std::move(*stored));
     state_->found = std::make_shared<const FoundTrials>(FoundTrials{request, trials});
@@ -47,18 +64,18 @@ base::Result<std::shared_ptr<const workflow::StoredTrials>> StudySession::findTr
 }
 
 /// Finds the trials and has `simulate` called on the thread that makes them again.
-void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
+void StudyReplays::makeAgain(const QString& what, const workflow::TrialsRequest& request, unsigned threads,
                              Simulate simulate) {
     if (!state_->reader) {
-        emit failed(what, QString::fromStdString(state_->cannotRead().message));
+        state_->fail(what, QString::fromStdString(state_->cannotRead().message));
         return;
     }
     const auto found = findTrials(request);
     if (!found || ((*found)->count == 0 && request.count == 0)) {
-        emit failed(what, found ? noTrials() : QString::fromStdString(found.error().message));
+        state_->fail(what, found ? noTrials() : QString::fromStdString(found.error().message));
         return;
     }
-    postSimulation(
+    state_->postSimulation(
         what, state_->simulated,
         [this, request, threads, stored = *found, simulate = std::move(simulate), settings = state_->settings,
          part = state_->part.part, control = state_->simulated]() -> Deliver {
@@ -76,28 +93,7 @@ void StudySession::makeAgain(const QString& what, const workflow::TrialsRequest&
         });
 }
 
-/// `simulate` works on the thread for it, after what was posted before.
-void StudySession::postSimulation(const QString& what, const base::RunControl& control,
-                                  std::function<Deliver()> simulate) {
-    // Who waits for trials shall not wait for an estimate; it is asked for again.
-    state_->estimate.cancel();
-    countSimulations(1);
-    state_->simulating->post([this, what, control, simulate = std::move(simulate)] {
-        auto deliver = control.cancelled() ? Deliver(std::function<void()>()) : simulate();
-        tell(this, [this, what, control, deliver = std::move(deliver)] {
-            if (!control.cancelled()) {
-                if (deliver) {
-                    (*deliver)();
-                } else {
-                    emit failed(what, QString::fromStdString(deliver.error().message));
-                }
-            }
-            countSimulations(-1);
-        });
-    });
-}
-
-void StudySession::requestTrials(const workflow::TrialsRequest& request) {
+void StudyReplays::requestTrials(const workflow::TrialsRequest& request) {
     makeAgain(trialsFailed(), request, state_->threads,
               [this, request](const std::shared_ptr<const Simulation>& simulation) {
                   ListedTrials trials;
@@ -108,7 +104,7 @@ void StudySession::requestTrials(const workflow::TrialsRequest& request) {
               });
 }
 
-StudySession::Deliver StudySession::listStored(const Simulation& simulation, ListedTrials trials) {
+StudyReplays::Deliver StudyReplays::listStored(const Simulation& simulation, ListedTrials trials) {
     trials.outcomes = simulation.kept->outcomes;
     trials.maker = simulation.kept->maker;
     trials.stored = true;
@@ -117,7 +113,7 @@ StudySession::Deliver StudySession::listStored(const Simulation& simulation, Lis
 }
 
 /// Simulates the next trials after these, and posts those that are left.
-StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Simulation>& simulation,
+StudyReplays::Deliver StudyReplays::simulateSome(const std::shared_ptr<const Simulation>& simulation,
                                                  ListedTrials trials) {
     trial::TrialBatch batch = simulation->batch;
     const auto first = static_cast<std::ptrdiff_t>(trials.outcomes.size());
@@ -137,12 +133,12 @@ StudySession::Deliver StudySession::simulateSome(const std::shared_ptr<const Sim
         emit trialsArrived(trials);
         // Who was told may have had enough.
         if (simulation->control.cancelled()) return;
-        postSimulation(trialsFailed(), simulation->control,
-                       [this, simulation, trials] { return simulateSome(simulation, trials); });
+        state_->postSimulation(trialsFailed(), simulation->control,
+                               [this, simulation, trials] { return simulateSome(simulation, trials); });
     });
 }
 
-void StudySession::replay(const workflow::TrialsRequest& request, int trial, double interval) {
+void StudyReplays::replay(const workflow::TrialsRequest& request, int trial, double interval) {
     makeAgain(
         tr("The trial could not be replayed"), request, 1,
         [this, request, trial, interval](const std::shared_ptr<const Simulation>& simulation) -> Deliver {
@@ -162,48 +158,9 @@ void StudySession::replay(const workflow::TrialsRequest& request, int trial, dou
         });
 }
 
-void StudySession::cancelSimulations() {
+void StudyReplays::cancelSimulations() {
     state_->simulated.cancel();
     state_->simulated = base::RunControl();
-}
-
-void StudySession::countSimulations(int change) {
-    state_->simulations += change;
-    tellState();
-}
-
-void StudySession::requestEstimate() {
-    state_->estimate.cancel();
-    if (state_->run || state_->simulations > 0 || !state_->problems.empty()) return;
-    state_->estimate = base::RunControl();
-    state_->simulating->post([this, control = state_->estimate, settings = state_->settings,
-                              part = state_->part.part, threads = state_->threads] {
-        if (control.cancelled()) return;
-        const auto inputs =
-            State::makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
-        if (!inputs) return;
-        const auto seconds = workflow::timeTrial(*inputs, kEstimateBudget, control);
-        if (!seconds) return;
-        tell(this, [this, control, seconds = *seconds] {
-            if (control.cancelled()) return;
-            state_->secondsPerTrial = seconds;
-            emit estimated(estimatedSeconds());
-        });
-    });
-}
-
-double StudySession::estimatedSeconds() const {
-    const study::EvolutionSettings& evolution = state_->settings.evolution;
-    const int left = evolution.generations - static_cast<int>(state_->summaries.size());
-    return workflow::learningTime(evolution, std::max(left, 0), state_->secondsPerTrial);
-}
-
-std::optional<LearningDraft> StudySession::draft() const {
-    if (state_->secondsPerTrial <= 0.0 || !state_->summaries.empty()) return std::nullopt;
-    const auto evolution = workflow::draftEvolution(state_->settings.evolution, state_->secondsPerTrial);
-    if (!evolution) return std::nullopt;
-    return LearningDraft{*evolution,
-                         workflow::learningTime(*evolution, evolution->generations, state_->secondsPerTrial)};
 }
 
 }  // namespace trapwright::session

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QElapsedTimer>
-#include <QTimer>
 #include <QUndoStack>
 #include <functional>
 #include <memory>
@@ -11,20 +10,27 @@
 #include <vector>
 
 #include "core/base/run_control.h"
-#include "core/study/evaluator.h"
 #include "core/study/learning_control.h"
-#include "ui/session/design_commands.h"
-#include "ui/session/opened_study.h"
-#include "ui/session/study_session.h"
-#include "ui/session/study_writer.h"
+#include "core/workflow/study_trials.h"
+#include "ui/session/environment.h"
+#include "ui/session/study_opening.h"
+#include "ui/session/study_runs.h"
+#include "ui/session/study_writing.h"
 #include "ui/session/work_thread.h"
 
 namespace trapwright::session {
 
 // Inside ui/session only.
 
+/// A part as a study has it.
+struct PartVersion {
+    std::shared_ptr<const store::StoredPart> stored;
+    study::PartSettings settings;
+    std::shared_ptr<const part::Part> part;
+};
+
 /// Learning, selection or validation that goes on. Values without a word belong to the GUI thread.
-struct StudySession::Run {
+struct Run {
     RunState kind = RunState::learning;
     QString what;                     // it is called in messages
     study::LearningControl learning;  // any thread
@@ -45,27 +51,21 @@ struct StudySession::Run {
     }
 };
 
-/// Trials that are listed or made again. Values that any thread may read.
-struct StudySession::Simulation {
-    study::Settings settings;
-    std::shared_ptr<const part::Part> part;
-    std::shared_ptr<const workflow::StoredTrials> stored;
-    trial::TrialBatch batch;
-    std::optional<trial::MadeOutcomes> kept;  // in the study, of all trials of the batch
-    std::shared_ptr<const trial::Engine> engine;
-    trial::OutcomeMaker maker;  // of what is simulated now
-    base::RunControl control;
-};
-
 /// Trials that were asked for, and what the study holds of them.
-struct StudySession::FoundTrials {
+struct FoundTrials {
     workflow::TrialsRequest request;
     std::shared_ptr<const workflow::StoredTrials> trials;
 };
 
-struct StudySession::State {
-    State(OpenedStudy study, const Environment& environmentGiven,
-          std::function<void(const std::string&)> cannotNote);
+/// What happened on another thread, to be called in the GUI thread.
+using Deliver = base::Result<std::function<void()>>;
+
+/// The open study itself, which the session and its four parts share: what it holds, what goes on, its file
+/// and its threads. Values without a word belong to the GUI thread.
+struct StudyState {
+    /// `fail` tells the user (StudySession::failed).
+    StudyState(OpenedStudy study, const Environment& environmentGiven,
+               std::function<void(const QString& what, const QString& message)> failGiven);
 
     Environment environment;
     std::filesystem::path path;
@@ -73,7 +73,6 @@ struct StudySession::State {
     PartVersion part;
     std::vector<study::GenerationSummary> summaries;
     std::vector<study::Individual> winners;
-    std::shared_ptr<const study::GenerationRecord> newest;  // that was saved since the study was opened
     std::vector<study::CheckRecord> checks;
     std::vector<study::SelectionRecord> selections;
     std::vector<study::ValidationRecord> validations;
@@ -87,25 +86,28 @@ struct StudySession::State {
     QUndoStack undo;
     unsigned threads = 0;
 
-    RunState activity = RunState::idle;  // of the thread that writes
-    RunState told = RunState::idle;      // by stateChanged()
-    std::shared_ptr<Run> run;            // null while that thread is idle
-    QTimer tick;
+    std::function<void(const QString& what, const QString& message)> fail;
+    std::function<void()> simulationsChanged;  // more of them, or less
+
+    std::shared_ptr<Run> run;                  // null while the thread that writes is idle
     int simulations = 0;                       // that are not done
     base::RunControl simulated;                // of those that are wanted
     std::shared_ptr<const FoundTrials> found;  // the last; null once something else may hold
     base::RunControl estimate;                 // of the last one
     base::RunControl speedTable;               // likewise
     base::RunControl dropping;                 // likewise
-    std::optional<DropProgress> drops;         // that goes on
     double secondsPerTrial = 0.0;              // while learning; 0: not known for these settings
 
+    QObject receiver;  // of what other threads tell
     StudyWriter writer;
     std::unique_ptr<StudyLedger> ledger;
-    NewestTask partBuilding;
     std::unique_ptr<WorkThread> work;        // the thread that writes
     std::unique_ptr<WorkThread> simulating;  // the one that does not
 
+    /// Ends all that goes on, and waits for it.
+    void end();
+
+    [[nodiscard]] bool locked() const { return !summaries.empty() || run != nullptr; }
     void findProblems();
     /// A trial costs something else from now on, or other work has its turn.
     void forgetCost() {
@@ -114,17 +116,23 @@ struct StudySession::State {
     }
     /// Where the reader could not be opened again.
     [[nodiscard]] base::Error cannotRead() const;
-    /// Called on any thread; throws nothing.
-    [[nodiscard]] static base::Result<study::StudyInputs> makeInputs(const Environment& environment,
-                                                                     const study::Settings& settings,
-                                                                     std::shared_ptr<const part::Part> part,
-                                                                     trial::EngineUse use, unsigned threads);
-};
 
-/// Has the GUI thread call `act`, unless the session is gone by then.
-template <class Act>
-void tell(StudySession* session, Act act) {
-    QMetaObject::invokeMethod(session, std::move(act), Qt::QueuedConnection);
-}
+    /// Has the ledger write this.
+    void note(StudyLedger::Note note) { ledger->add(std::move(note)); }
+    /// Saves the settings and the part that are not saved yet; on the thread that writes.
+    void savePending();
+    /// `simulate` works on the thread for it, after what was posted before. What it gives is called in the
+    /// GUI thread; an error is told as the reason why `what` failed. Neither happens once it is cancelled.
+    void postSimulation(const QString& what, const base::RunControl& control,
+                        std::function<Deliver()> simulate);
+    /// Has the GUI thread call `act`, unless the session is gone by then. For any thread.
+    template <class Act>
+    void tell(Act act) {
+        QMetaObject::invokeMethod(&receiver, std::move(act), Qt::QueuedConnection);
+    }
+
+ private:
+    void countSimulations(int change);
+};
 
 }  // namespace trapwright::session

@@ -1,0 +1,374 @@
+#include "ui/session/study_runs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/study/evaluator.h"
+#include "core/study/pose_weights.h"
+#include "core/workflow/estimate.h"
+#include "core/workflow/judging.h"
+#include "core/workflow/learning.h"
+#include "ui/session/recovery_note.h"
+#include "ui/session/study_state.h"
+
+namespace trapwright::session {
+
+namespace {
+
+constexpr int kTick = 250;               // between two progressed() [ms]
+constexpr double kEstimateBudget = 1.0;  // [s]
+
+using Failed = std::optional<workflow::Failure>;
+
+Failed settingsFailure(const base::Error& error) {
+    return workflow::Failure{workflow::FailureKind::settings, error.message};
+}
+
+base::Result<study::StudyInputs> makeInputs(const Environment& environment, const study::Settings& settings,
+                                            std::shared_ptr<const part::Part> part, trial::EngineUse use,
+                                            unsigned threads) {
+    const unsigned count = threads == 0 ? base::availableThreads() : threads;
+    auto engine =
+        environment.engines.make(environment.engines.nameFor(settings.simulation.engine, use), {count, 0.0});
+    if (!engine) return engine.error();
+    return study::StudyInputs{settings, std::move(part), std::move(*engine), count};
+}
+
+}  // namespace
+
+StudyRuns::StudyRuns(StudyState& state, const StudyDesign& design) : state_(&state), design_(design) {
+    tick_.setInterval(kTick);
+    connect(&tick_, &QTimer::timeout, this, [this] { emit progressed(progress()); });
+    state_->simulationsChanged = [this] { tellState(); };
+}
+
+const std::vector<study::GenerationSummary>& StudyRuns::summaries() const {
+    return state_->summaries;
+}
+
+const std::vector<study::Individual>& StudyRuns::winners() const {
+    return state_->winners;
+}
+
+const std::vector<study::CheckRecord>& StudyRuns::checks() const {
+    return state_->checks;
+}
+
+const std::vector<study::SelectionRecord>& StudyRuns::selections() const {
+    return state_->selections;
+}
+
+const std::vector<study::ValidationRecord>& StudyRuns::validations() const {
+    return state_->validations;
+}
+
+std::optional<study::TrackSuccess> StudyRuns::findSuccess(const study::Individual& individual) const {
+    std::vector<part::PoseGroup> groups;
+    const auto& part = state_->part.part;
+    if (part && !validations().empty()) groups = study::weighPoseGroups(*part, state_->settings);
+    return study::findSuccess(selections(), validations(), individual, groups);
+}
+
+base::Result<study::GenerationRecord> StudyRuns::loadGeneration(int index) const {
+    // Who follows a run asks for this one, and the disk may be busy just then.
+    if (newest_ && newest_->index == index) return *newest_;
+    if (!state_->reader) return state_->cannotRead();
+    return state_->reader->loadGeneration(index);
+}
+
+base::Result<study::Individual> StudyRuns::loadWinner(int generation, int individual) const {
+    if (generation >= 0 && generation < static_cast<int>(state_->winners.size())) {
+        const study::Individual& winner = state_->winners[static_cast<std::size_t>(generation)];
+        if (winner.individual == individual) return winner;
+    }
+    if (!state_->reader) return state_->cannotRead();
+    auto record = state_->reader->loadIndividual({generation, individual});
+    if (!record) return record.error();
+    return study::Individual{{generation, individual}, std::move(*record)};
+}
+
+std::optional<study::Individual> StudyRuns::chosen() const {
+    if (state_->chosen) return state_->chosen;
+    if (!state_->selections.empty() && !state_->selections.back().entries.empty()) {
+        const study::SelectionEntry& best = state_->selections.back().entries.front();
+        if (auto winner = loadWinner(best.generation, best.individual)) return *winner;
+    }
+    if (const study::Individual* best = study::findBestWinner(state_->winners)) return *best;
+    return std::nullopt;
+}
+
+void StudyRuns::choose(const study::Individual& individual) {
+    state_->chosen = individual;
+    const study::IndividualId place = individual;
+    state_->note([place](store::StudyFile& file) { return file.chooseWinner(place); });
+    emit chosenChanged();
+}
+
+RunState StudyRuns::state() const {
+    if (activity_ != RunState::idle) return activity_;
+    return state_->simulations > 0 ? RunState::simulating : RunState::idle;
+}
+
+RunProgress StudyRuns::progress() const {
+    RunProgress progress;
+    const Run* const run = state_->run.get();
+    if (run == nullptr) return progress;
+    const double seconds = run->seconds();
+    if (run->kind == RunState::learning) {
+        progress.generations = state_->settings.evolution.generations;
+        progress.generation = run->plan ? run->plan->generation : static_cast<int>(state_->summaries.size());
+        progress.individuals = state_->settings.evolution.populationSize;
+    }
+    if (run->plan) {
+        const study::GenerationPlan& plan = *run->plan;
+        const std::int64_t done = run->learning.run.done();
+        const study::LearningProgress learned =
+            study::estimateProgress(plan, progress.generations, done, seconds);
+        progress.individualsDone = learned.individualsDone;
+        progress.trialsDone = done - plan.doneBefore;
+        progress.trials = plan.trials;
+        progress.trialsPerSecond = learned.trialsPerSecond;
+        progress.secondsLeft = learned.secondsLeft;
+    } else if (run->total > 0) {
+        progress.trialsDone = run->trials.done();
+        progress.trials = run->total;
+        if (progress.trialsDone > 0 && seconds > 0.0) {
+            progress.trialsPerSecond = static_cast<double>(progress.trialsDone) / seconds;
+            progress.secondsLeft =
+                static_cast<double>(progress.trials - progress.trialsDone) / progress.trialsPerSecond;
+        }
+    }
+    return progress;
+}
+
+void StudyRuns::startRun(RunState kind, const QString& what, std::function<Failed(Run&)> work) {
+    if (state_->run) {
+        state_->fail(what, tr("The study is at work already. Wait for its end, or stop it first."));
+        return;
+    }
+    if (!state_->problems.empty()) {
+        QString message = tr("The settings cannot be used:");
+        for (const std::string& problem : state_->problems)
+            message += "\n" + QString::fromStdString(problem);
+        state_->fail(what, message);
+        return;
+    }
+    state_->estimate.cancel();
+    auto run = std::make_shared<Run>();
+    run->kind = kind;
+    run->what = what;
+    run->clock.start();
+    state_->run = run;
+    setActivity(kind);
+    tick_.start();
+    state_->work->post([this, run, work = std::move(work)] {
+        Failed failure = work(*run);
+        state_->tell([this, failure = std::move(failure)] { endRun(failure); });
+    });
+}
+
+void StudyRuns::endRun(const Failed& failure) {
+    const std::shared_ptr<Run> run = std::exchange(state_->run, nullptr);
+    tick_.stop();
+    // Before the state: that a run failed is told while the study is at work.
+    if (failure && failure->kind != workflow::FailureKind::cancelled)
+        state_->fail(run->what, QString::fromStdString(failure->message));
+    setActivity(RunState::idle);
+}
+
+void StudyRuns::setActivity(RunState activity) {
+    activity_ = activity;
+    tellState();
+}
+
+void StudyRuns::tellState() {
+    const RunState now = state();
+    if (std::exchange(told_, now) != now) emit stateChanged(now);
+}
+
+void StudyRuns::startLearning() {
+    // What was changed before may no longer be undone: the scores to come belong to it.
+    if (!state_->locked() && state_->problems.empty()) state_->undo.clear();
+    startRun(RunState::learning, tr("The study could not learn"),
+             [this, settings = state_->settings, part = state_->part.part,
+              threads = state_->threads](Run& run) { return learn(run, settings, part, threads); });
+}
+
+std::optional<workflow::Failure> StudyRuns::learn(Run& run, const study::Settings& settings,
+                                                  const std::shared_ptr<const part::Part>& part,
+                                                  unsigned threads) {
+    const RecoveryNote note(state_->environment.stateFolder, state_->writer.file().path());
+    const trial::EngineRegistry& engines = state_->environment.engines;
+    const auto inputs = makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
+    if (!inputs) return settingsFailure(inputs.error());
+
+    workflow::LearnEvents events;
+    events.planned = [this](const study::GenerationPlan& plan) {
+        state_->tell([this, plan] { state_->run->plan = plan; });
+    };
+    events.saved = [this](const study::GenerationRecord& record) {
+        const study::GenerationSummary summary = study::summarize(record);
+        const study::Individual winner{{record.index, record.winner},
+                                       record.individuals[static_cast<std::size_t>(record.winner)]};
+        state_->tell([this, summary, winner, kept = std::make_shared<const study::GenerationRecord>(record)] {
+            state_->summaries.push_back(summary);
+            state_->winners.push_back(winner);
+            newest_ = kept;
+            emit generationSaved(summary.index);
+        });
+        state_->savePending();
+    };
+    events.checked = [this](const study::CheckRecord& check) {
+        state_->tell([this, check] {
+            state_->checks.push_back(check);
+            emit checkSaved(check.generation);
+        });
+    };
+    const auto report = workflow::learn(state_->writer.file(), *inputs, engines, events, run.learning);
+    if (!report) return report.error();
+    // Who asked to stop did not ask for the checks that are left.
+    if (report->end != study::LearningEnd::completed || run.learning.stopRequested()) return std::nullopt;
+    state_->tell([this, total = workflow::countCheckTrials(report->unchecked)] {
+        state_->run->plan.reset();
+        state_->run->total = total;
+    });
+    const auto checked = workflow::checkWinners(state_->writer.file(), *inputs, engines, report->unchecked,
+                                                events.checked, run.trials);
+    if (!checked) return checked.error();
+    return std::nullopt;
+}
+
+void StudyRuns::startSelection() {
+    const auto work = [this, settings = state_->settings, part = state_->part.part,
+                       threads = state_->threads](Run& run) -> Failed {
+        const auto inputs =
+            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
+        if (!inputs) return settingsFailure(inputs.error());
+        auto candidates = workflow::findCandidates(state_->writer.file(), *inputs);
+        if (!candidates) return candidates.error();
+        state_->tell([this, count = static_cast<std::int64_t>(candidates->size()),
+                      each = settings.validation.selectionTrials] { state_->run->total = count * each; });
+        auto record =
+            workflow::selectAndSave(state_->writer.file(), *inputs, std::move(*candidates), run.trials);
+        if (!record) return record.error();
+        state_->tell([this, record = std::move(*record)] {
+            state_->selections.push_back(record);
+            state_->found.reset();
+            emit selectionSaved();
+        });
+        return std::nullopt;
+    };
+    startRun(RunState::selecting, tr("The winners could not be compared"), work);
+}
+
+void StudyRuns::startValidation(const study::Individual& winner,
+                                const std::optional<base::Quaternion>& expected) {
+    const auto work = [this, winner, expected, settings = state_->settings, part = state_->part.part,
+                       threads = state_->threads](Run& run) -> Failed {
+        const auto inputs =
+            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
+        if (!inputs) return settingsFailure(inputs.error());
+        state_->tell(
+            [this, total = workflow::countValidationTrials(*inputs)] { state_->run->total = total; });
+        auto record = workflow::validateAndSave(state_->writer.file(), *inputs, winner, expected, run.trials);
+        if (!record) return record.error();
+        state_->tell([this, record = std::move(*record)] {
+            state_->validations.push_back(record);
+            state_->found.reset();
+            emit validationSaved();
+        });
+        return std::nullopt;
+    };
+    startRun(RunState::validating, tr("The track could not be validated"), work);
+}
+
+void StudyRuns::pause() {
+    Run* const run = state_->run.get();
+    if (run == nullptr || run->paused || activity_ != run->kind) return;
+    run->learning.pause();
+    run->trials.pause();
+    run->before += run->clock.elapsed();
+    run->paused = true;
+    tick_.stop();
+    setActivity(RunState::paused);
+}
+
+void StudyRuns::resume() {
+    if (activity_ != RunState::paused) return;
+    goOn();
+    setActivity(state_->run->kind);
+}
+
+void StudyRuns::goOn() {
+    Run& run = *state_->run;
+    if (!run.paused) return;
+    run.paused = false;
+    run.clock.restart();
+    run.learning.resume();
+    run.trials.resume();
+    tick_.start();
+}
+
+void StudyRuns::stopAfterGeneration() {
+    if (!state_->run || activity_ == RunState::stopping) return;
+    // Only generations can be waited for.
+    if (state_->run->kind != RunState::learning || state_->run->total > 0) return stopNow();
+    state_->run->learning.stopAfterGeneration();
+    goOn();
+    setActivity(RunState::stoppingAfterGeneration);
+}
+
+void StudyRuns::stopNow() {
+    if (!state_->run) return;
+    state_->run->cancel();
+    goOn();
+    setActivity(RunState::stopping);
+}
+
+unsigned StudyRuns::threads() const {
+    return state_->threads;
+}
+
+void StudyRuns::setThreads(unsigned threads) {
+    if (state_->threads == threads) return;
+    state_->threads = threads;
+    state_->forgetCost();
+    emit estimated(0.0);
+}
+
+void StudyRuns::requestEstimate() {
+    state_->estimate.cancel();
+    if (state_->run || state_->simulations > 0 || !state_->problems.empty()) return;
+    state_->estimate = base::RunControl();
+    state_->simulating->post([this, control = state_->estimate, settings = state_->settings,
+                              part = state_->part.part, threads = state_->threads] {
+        if (control.cancelled()) return;
+        const auto inputs =
+            makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
+        if (!inputs) return;
+        const auto seconds = workflow::timeTrial(*inputs, kEstimateBudget, control);
+        if (!seconds) return;
+        state_->tell([this, control, seconds = *seconds] {
+            if (control.cancelled()) return;
+            state_->secondsPerTrial = seconds;
+            emit estimated(estimatedSeconds());
+        });
+    });
+}
+
+double StudyRuns::estimatedSeconds() const {
+    const study::EvolutionSettings& evolution = state_->settings.evolution;
+    const int left = evolution.generations - static_cast<int>(state_->summaries.size());
+    return workflow::learningTime(evolution, std::max(left, 0), state_->secondsPerTrial);
+}
+
+std::optional<LearningDraft> StudyRuns::draft() const {
+    if (state_->secondsPerTrial <= 0.0 || !state_->summaries.empty()) return std::nullopt;
+    const auto evolution = workflow::draftEvolution(state_->settings.evolution, state_->secondsPerTrial);
+    if (!evolution) return std::nullopt;
+    return LearningDraft{*evolution,
+                         workflow::learningTime(*evolution, evolution->generations, state_->secondsPerTrial)};
+}
+
+}  // namespace trapwright::session

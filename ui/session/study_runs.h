@@ -1,0 +1,146 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/study/records.h"
+#include "core/study/selection.h"
+#include "core/study/settings.h"
+#include "core/workflow/failure.h"
+
+namespace trapwright::session {
+
+class StudyDesign;
+struct Run;
+struct StudyState;
+
+/// What a study is doing.
+enum class RunState {
+    idle,
+    learning,
+    paused,                   // in the middle of a generation; nothing is lost
+    stoppingAfterGeneration,  // as soon as the present generation is saved
+    stopping,                 // at once; what is not complete is dropped
+    selecting,
+    validating,
+    simulating  // trials or a replay, while nothing else goes on
+};
+
+/// How far learning, selection or validation has come.
+struct RunProgress {
+    int generation = 0;       // the present one, from 0
+    int generations = 0;      // of the whole run; 0 unless it learns
+    int individualsDone = 0;  // of the present generation
+    int individuals = 0;
+    std::int64_t trialsDone = 0;  // of the present generation; of all when it selects or validates
+    std::int64_t trials = 0;
+    double trialsPerSecond = 0.0;  // since the run began, pauses left out
+    double secondsLeft = 0.0;      // 0 while unknown
+};
+
+/// Learning cut down to what a user waits for.
+struct LearningDraft {
+    study::EvolutionSettings evolution;
+    double seconds = 0.0;  // of learning, estimated
+};
+
+/// Learning, selection and validation of the open study, one at a time, and the records that they make. What
+/// cannot be done is told by StudySession::failed().
+class StudyRuns : public QObject {
+    Q_OBJECT
+
+ public:
+    StudyRuns(StudyState& state, const StudyDesign& design);
+
+    /// What is learned by.
+    [[nodiscard]] const StudyDesign& design() const { return design_; }
+
+    /// Of all generations that are saved, in their order.
+    [[nodiscard]] const std::vector<study::GenerationSummary>& summaries() const;
+    [[nodiscard]] const std::vector<study::Individual>& winners() const;
+    /// In the order in which they were made.
+    [[nodiscard]] const std::vector<study::CheckRecord>& checks() const;
+    /// Oldest first.
+    [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
+    [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
+    /// What is known of the success of an individual (study::findSuccess).
+    [[nodiscard]] std::optional<study::TrackSuccess> findSuccess(const study::Individual& individual) const;
+    /// Read from the file, unless it is the newest generation or a winner.
+    [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
+    [[nodiscard]] base::Result<study::Individual> loadWinner(int generation, int individual) const;
+
+    /// The track that is exported and printed in the end: the user's choice, which is kept in the study, else
+    /// the best of the last selection, else the best winner (study::findBestWinner). None without
+    /// generations.
+    [[nodiscard]] std::optional<study::Individual> chosen() const;
+    void choose(const study::Individual& individual);
+
+    [[nodiscard]] RunState state() const;
+    [[nodiscard]] RunProgress progress() const;
+    /// Threads that the next run uses; 0: all processors.
+    [[nodiscard]] unsigned threads() const;
+    void setThreads(unsigned threads);
+
+    /// Learns on from the last generation, and after the last one checks the winners that are left. failed()
+    /// if the study has problems or something else goes on.
+    void startLearning();
+    /// Learning, selection and validation stand still; nothing is lost.
+    void pause();
+    void resume();
+    void stopAfterGeneration();
+    /// Ends learning, selection or validation at once.
+    void stopNow();
+
+    /// The highest winners with many trials each, into selections().
+    void startSelection();
+    /// The table of one individual, into validations(). `expected`: the orientation that counts as success,
+    /// if not the most frequent one.
+    void startValidation(const study::Individual& winner,
+                         const std::optional<base::Quaternion>& expected = std::nullopt);
+
+    /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
+    /// from here. Does nothing while something goes on or the study has problems; what begins meanwhile ends
+    /// it. What is known then holds for any number of individuals, trials and generations.
+    void requestEstimate();
+    /// The last estimate [s]; 0 if there is none for the present settings, or nothing is left.
+    [[nodiscard]] double estimatedSeconds() const;
+    /// What can be learned in less than ten minutes (workflow::draftEvolution). None before the estimate,
+    /// once there are generations, or where nothing useful fits.
+    [[nodiscard]] std::optional<LearningDraft> draft() const;
+
+ signals:
+    void stateChanged(trapwright::session::RunState state);
+    void progressed(const trapwright::session::RunProgress& progress);
+    void generationSaved(int generation);
+    void checkSaved(int generation);
+    void selectionSaved();
+    void validationSaved();
+    void chosenChanged();
+    /// 0: the estimate before does not hold any more.
+    void estimated(double seconds);
+
+ private:
+    void startRun(RunState kind, const QString& what,
+                  std::function<std::optional<workflow::Failure>(Run&)> work);
+    void endRun(const std::optional<workflow::Failure>& failure);
+    std::optional<workflow::Failure> learn(Run& run, const study::Settings& settings,
+                                           const std::shared_ptr<const part::Part>& part, unsigned threads);
+    void goOn();
+    void setActivity(RunState activity);
+    void tellState();
+
+    StudyState* const state_;
+    const StudyDesign& design_;
+    RunState activity_ = RunState::idle;                     // of the thread that writes
+    RunState told_ = RunState::idle;                         // by stateChanged()
+    std::shared_ptr<const study::GenerationRecord> newest_;  // that was saved since the study was opened
+    QTimer tick_;
+};
+
+}  // namespace trapwright::session
