@@ -76,7 +76,7 @@ void PlacingScene::build(const study::IndividualId& printed) {
     track_.reset();
     const study::TrackSettings& settings = runs_->design().settings().track;
     if (printed == kLayout) return build_.buildLayout(settings);
-    const auto winner = runs_->loadWinner(printed.generation, printed.individual);
+    const auto winner = runs_->loadIndividual(printed);
     if (winner) return build_.buildIndividual(settings, winner->record.design);
     emit failed(tr("The track cannot be shown"), QString::fromStdString(winner.error().message));
 }

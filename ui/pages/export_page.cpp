@@ -77,8 +77,7 @@ ExportPage::ExportPage(QWidget* parent)
     tracks_->setToolTip(tr("The first of the last selection, unless another one is picked"));
     tracks_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     connect(tracks_, &QComboBox::activated, this, [this] {
-        const auto winner = session_->runs().loadWinner(tracks_->currentData(kGeneration).toInt(),
-                                                        tracks_->currentData(kIndividual).toInt());
+        const auto winner = session_->runs().loadIndividual(shownTrack());
         if (!winner)
             return emit failed(tr("The track cannot be read"),
                                QString::fromStdString(winner.error().message));
@@ -270,6 +269,10 @@ void ExportPage::fillTracks() {
     }
 }
 
+study::IndividualId ExportPage::shownTrack() const {
+    return {tracks_->currentData(kGeneration).toInt(), tracks_->currentData(kIndividual).toInt()};
+}
+
 void ExportPage::build() {
     printed_.reset();
     enableExport();
@@ -280,16 +283,15 @@ void ExportPage::build() {
         setState({});
         return showScene();
     }
-    const int generation = tracks_->currentData(kGeneration).toInt();
-    const int individual = tracks_->currentData(kIndividual).toInt();
-    const auto winner = session_->runs().loadWinner(generation, individual);
+    const study::IndividualId id = shownTrack();
+    const auto winner = session_->runs().loadIndividual(id);
     if (!winner)
         return emit failed(tr("The track cannot be read"), QString::fromStdString(winner.error().message));
     setState(tr("Building the solid ..."));
     const std::string about = tr("%1, generation %2, individual %3")
                                   .arg(look::toText(session_->path().stem()))
-                                  .arg(generation)
-                                  .arg(individual)
+                                  .arg(id.generation)
+                                  .arg(id.individual)
                                   .toStdString();
     const PrintChoice& choice = form_->choice();
     print_.build({session_->design().settings().track, winner->record.design, about, choice.options,
@@ -315,8 +317,7 @@ void ExportPage::exportWhenBuilt(const QString& format) {
 }
 
 std::optional<study::TrackSuccess> ExportPage::successOfTrack() const {
-    const auto winner = session_->runs().loadWinner(tracks_->currentData(kGeneration).toInt(),
-                                                    tracks_->currentData(kIndividual).toInt());
+    const auto winner = session_->runs().loadIndividual(shownTrack());
     if (!winner) return std::nullopt;
     return session_->runs().findSuccess(*winner);
 }

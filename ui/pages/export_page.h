@@ -37,6 +37,7 @@ class ExportPage : public Page {
     void addExport(const QString& format, const QString& text, const QKeySequence& key);
     void fillTracks();
     void refresh();
+    [[nodiscard]] study::IndividualId shownTrack() const;
     void build();
     void take(const std::shared_ptr<const session::PrintedTrack>& printed);
     void setState(const QString& text);

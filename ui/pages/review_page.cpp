@@ -80,8 +80,8 @@ void ReviewPage::addTables() {
                                       selectionTable_.get());
     selectionTable_->headRow().insertWidget(1, details);
     connect(selectionTable_.get(), &ResultTable::cellChosen, this, [this](const QModelIndex& index) {
-        choice_->setWinner(index.data(models::GenerationRole).toInt(),
-                           index.data(models::IndividualRole).toInt());
+        choice_->setWinner(
+            {index.data(models::GenerationRole).toInt(), index.data(models::IndividualRole).toInt()});
     });
     validationTable_->setLinkColumns({ValidationModel::Failures, ValidationModel::WrongOrientation,
                                       ValidationModel::Stuck, ValidationModel::FellOff});
@@ -125,8 +125,7 @@ void ReviewPage::setSession(StudySession* session) {
         review_.refreshSources();
         // The best of them is what one wants to see now.
         const study::SelectionRecord& last = session_->runs().selections().back();
-        if (!last.entries.empty())
-            choice_->setWinner(last.entries.front().generation, last.entries.front().individual);
+        if (!last.entries.empty()) choice_->setWinner(last.entries.front());
         emit panelWanted("comparison");
     });
     // What totals are weighted by.

@@ -65,7 +65,7 @@ TrackChoice::TrackChoice(QWidget* parent)
     list_->setToolTip(tr("The track that is looked at: the winner of any generation"));
     list_->setMaxVisibleItems(20);
     connect(list_, &QComboBox::activated, this, [this](int index) {
-        setWinner(list_->itemData(index).toInt(), list_->itemData(index, kIndividualRole).toInt());
+        setWinner({list_->itemData(index).toInt(), list_->itemData(index, kIndividualRole).toInt()});
     });
     take_->setObjectName("review.makeFinal");
     take_->setToolTip(tr("Go on with this track when it is exported"));
@@ -95,9 +95,9 @@ void TrackChoice::setRuns(StudyRuns* runs) {
     emit winnerChanged();
 }
 
-void TrackChoice::setWinner(int generation, int individual) {
-    if (!runs_ || (winner_ && winner_->generation == generation && winner_->individual == individual)) return;
-    const auto winner = runs_->loadWinner(generation, individual);
+void TrackChoice::setWinner(const study::IndividualId& id) {
+    if (!runs_ || (winner_ && isSameIndividual(*winner_, id))) return;
+    const auto winner = runs_->loadIndividual(id);
     if (!winner) {
         emit failed(tr("The track cannot be shown"), QString::fromStdString(winner.error().message));
         return;

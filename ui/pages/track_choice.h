@@ -29,7 +29,7 @@ class TrackChoice : public QWidget {
     void setRuns(session::StudyRuns* runs);
     [[nodiscard]] const std::optional<study::Individual>& winner() const { return winner_; }
     /// Any individual of the study.
-    void setWinner(int generation, int individual);
+    void setWinner(const study::IndividualId& id);
     /// What is known of the track may have changed.
     void refresh();
 

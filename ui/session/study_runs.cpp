@@ -77,22 +77,22 @@ base::Result<study::GenerationRecord> StudyRuns::loadGeneration(int index) const
     return state_->reader->loadGeneration(index);
 }
 
-base::Result<study::Individual> StudyRuns::loadWinner(int generation, int individual) const {
-    if (generation >= 0 && generation < static_cast<int>(state_->winners.size())) {
-        const study::Individual& winner = state_->winners[static_cast<std::size_t>(generation)];
-        if (winner.individual == individual) return winner;
+base::Result<study::Individual> StudyRuns::loadIndividual(const study::IndividualId& id) const {
+    if (id.generation >= 0 && id.generation < static_cast<int>(state_->winners.size())) {
+        const study::Individual& winner = state_->winners[static_cast<std::size_t>(id.generation)];
+        if (isSameIndividual(winner, id)) return winner;
     }
     if (!state_->reader) return state_->cannotRead();
-    auto record = state_->reader->loadIndividual({generation, individual});
+    auto record = state_->reader->loadIndividual(id);
     if (!record) return record.error();
-    return study::Individual{{generation, individual}, std::move(*record)};
+    return study::Individual{id, std::move(*record)};
 }
 
 std::optional<study::Individual> StudyRuns::chosen() const {
     if (state_->chosen) return state_->chosen;
     if (!state_->selections.empty() && !state_->selections.back().entries.empty()) {
         const study::SelectionEntry& best = state_->selections.back().entries.front();
-        if (auto winner = loadWinner(best.generation, best.individual)) return *winner;
+        if (auto winner = loadIndividual(best)) return *winner;
     }
     if (const study::Individual* best = study::findBestWinner(state_->winners)) return *best;
     return std::nullopt;

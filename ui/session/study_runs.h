@@ -73,7 +73,7 @@ class StudyRuns : public QObject {
     [[nodiscard]] std::optional<study::TrackSuccess> findSuccess(const study::Individual& individual) const;
     /// Read from the file, unless it is the newest generation or a winner.
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
-    [[nodiscard]] base::Result<study::Individual> loadWinner(int generation, int individual) const;
+    [[nodiscard]] base::Result<study::Individual> loadIndividual(const study::IndividualId& id) const;
 
     /// The track that is exported and printed in the end: the user's choice, which is kept in the study, else
     /// the best of the last selection, else the best winner (study::findBestWinner). None without

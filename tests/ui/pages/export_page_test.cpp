@@ -78,8 +78,8 @@ struct User : tests::WindowUser {
     geometry::TriangleMesh buildSelected(const track::PrintOptions& options) {
         const study::SelectionEntry& first = session()->runs().selections().back().entries.front();
         const auto chosen = session()->runs().chosen();
-        const auto winner = chosen ? session()->runs().loadWinner(chosen->generation, chosen->individual)
-                                   : session()->runs().loadWinner(first.generation, first.individual);
+        const auto winner =
+            chosen ? session()->runs().loadIndividual(*chosen) : session()->runs().loadIndividual(first);
         const auto track =
             study::decodeTrack(session()->design().settings().track, winner.value().record.design);
         return track::buildPrintSolid(track.value(), options).value();

@@ -144,7 +144,7 @@ class StudyFeederTest : public QObject {
         QVERIFY(session && learnToTheEnd(*session));
         const study::Individual best = session->runs().chosen().value();
         study::Individual other = session->runs().winners()[best.generation == 0 ? 1 : 0];
-        other = session->runs().loadWinner(other.generation, (other.individual + 1) % 8).value();
+        other = session->runs().loadIndividual({other.generation, (other.individual + 1) % 8}).value();
         session->runs().choose(session->runs().winners()[2]);
         session->runs().choose(other);
         session.reset();

@@ -59,7 +59,7 @@ class StudyRunsTest : public QObject {
             QCOMPARE(record->individuals, truth[at].individuals);
             QCOMPARE(session->runs().summaries()[at].statistics, truth[at].statistics);
             QCOMPARE(session->runs().winners()[at].individual, truth[at].winner);
-            const auto winner = session->runs().loadWinner(i, truth[at].winner);
+            const auto winner = session->runs().loadIndividual({i, truth[at].winner});
             VERIFY_OK(winner);
             QCOMPARE(winner->record, session->runs().winners()[at].record);
         }
