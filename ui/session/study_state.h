@@ -84,12 +84,12 @@ struct StudyState {
     std::vector<std::string> recommendations;
     std::optional<store::StudyFile> reader;
     QUndoStack undo;
-    unsigned threads = 0;
 
     std::function<void(const QString& what, const QString& message)> fail;
     std::function<void()> simulationsChanged;  // more of them, or less
 
     std::shared_ptr<Run> run;                  // null while the thread that writes is idle
+    unsigned threads = 0;                      // of the next run; 0: all processors
     int simulations = 0;                       // that are not done
     base::RunControl simulated;                // of those that are wanted
     std::shared_ptr<const FoundTrials> found;  // the last; null once something else may hold
