@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "core/base/result.h"
-#include "core/drive/address.h"
 #include "core/drive/drive.h"
 #include "core/drive/profile.h"
+#include "core/drive/transport.h"
 
 namespace trapwright::transports {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/drive/address.h"
 #include "core/drive/feeder_model.h"
 #include "core/drive/profile.h"
+#include "core/drive/transport.h"
 
 namespace trapwright::transports {
 

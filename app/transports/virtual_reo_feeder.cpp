@@ -17,7 +17,7 @@
 #include "app/transports/virtual_feeder.h"
 #include "app/transports/virtual_state.h"
 #include "core/drive/deadline.h"
-#include "core/drive/reo_frame.h"
+#include "core/drive/reo_drive.h"
 
 namespace trapwright::transports {
 

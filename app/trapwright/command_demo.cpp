@@ -13,7 +13,6 @@
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/study_options.h"
-#include "app/trapwright/work_failure.h"
 #include "core/study/pose_weights.h"
 #include "core/study/tables.h"
 #include "core/study/track_design.h"

@@ -10,7 +10,7 @@
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/print_options.h"
 #include "app/trapwright/study_access.h"
-#include "app/trapwright/work_failure.h"
+#include "app/trapwright/study_jobs.h"
 #include "core/study/track_design.h"
 #include "core/workflow/track_export.h"
 

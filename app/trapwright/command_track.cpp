@@ -12,7 +12,7 @@
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
 #include "core/study/evaluator.h"
-#include "core/study/track_trials.h"
+#include "core/study/trial_batches.h"
 #include "core/track/track_file.h"
 #include "sim/engines/registry.h"
 

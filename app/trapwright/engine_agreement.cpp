@@ -12,7 +12,7 @@
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
-#include "core/study/resource_tracks.h"
+#include "core/study/presets.h"
 #include "core/track/track_file.h"
 #include "core/verify/agreement.h"
 #include "sim/engines/registry.h"

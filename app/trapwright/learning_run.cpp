@@ -6,8 +6,8 @@
 #include <chrono>
 #include <mutex>
 
+#include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
-#include "app/trapwright/work_failure.h"
 #include "core/stats/binomial.h"
 #include "core/workflow/learning.h"
 #include "sim/engines/registry.h"

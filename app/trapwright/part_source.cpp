@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
-#include "app/trapwright/work_failure.h"
 #include "core/base/resources.h"
 #include "core/study/presets.h"
 #include "core/workflow/part_process.h"

@@ -3,11 +3,19 @@
 #include <optional>
 
 #include "app/trapwright/console.h"
+#include "app/trapwright/exit_codes.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
 #include "core/study/records.h"
+#include "core/workflow/failure.h"
 
 namespace trapwright::app {
+
+/// The same failure with the status that it ends the program with.
+Failure toFailure(const workflow::Failure& failure);
+/// The same of a failure while this study was worked on. If its file is gone, a copy is made of what it held,
+/// and the message tells where.
+Failure toFailure(const workflow::Failure& failure, const store::StudyFile& file);
 
 /// Selection of a study's winners with progress and Ctrl-C, its result saved in the file.
 Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,

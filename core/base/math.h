@@ -15,6 +15,11 @@ inline constexpr double kDegree = kPi / 180.0;       // [rad]
 inline constexpr double kMillimetre = 1e-3;          // [m]
 inline constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 
+/// A length as people read it.
+constexpr double inMillimetres(double length) {
+    return length / kMillimetre;
+}
+
 /// Where a body is in a frame: a point p of the body is at rotation * p + position. [m]
 struct Pose {
     Quaternion rotation = Quaternion::Identity();

@@ -1,5 +1,7 @@
 #include "core/base/parallel.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -40,6 +42,13 @@ void parallelFor(std::size_t count, unsigned threads,
 
 unsigned availableThreads() {
     return std::max(1U, std::thread::hardware_concurrency());
+}
+
+void lowerPriority(int steps) {
+    // Linux keeps this by thread, whatever POSIX says; 0 is the calling one. Not SCHED_IDLE, by which a
+    // thread may have to wait for seconds on a busy machine before it can even see that it is cancelled.
+    const int present = ::getpriority(PRIO_PROCESS, 0);
+    (void)::setpriority(PRIO_PROCESS, 0, std::min(present + steps, kLowestPriority));
 }
 
 }  // namespace trapwright::base

@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/bench/bench_scenes.h"
-#include "core/study/track_trials.h"
+#include "core/study/trial_batches.h"
 #include "core/trial/costs.h"
 #include "core/trial/engine_registry.h"
 

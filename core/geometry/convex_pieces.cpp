@@ -11,9 +11,8 @@
 #include "core/geometry/convex_hull.h"
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/mesh_check.h"
-#include "core/geometry/piece_merging.h"
 #include "core/geometry/self_overlap.h"
-#include "core/geometry/winding.h"
+#include "core/geometry/triangle_mesh.h"
 
 namespace trapwright::geometry {
 
@@ -208,6 +207,50 @@ double sumVolumes(const std::vector<ConvexPolytope>& pieces) {
     });
 }
 
+constexpr double kLargestGrowth = 0.01;  // of the smaller piece's volume
+
+struct Piece {
+    ConvexPolytope shape;
+    double volume = 0.0;
+    Box box;
+};
+
+struct Merge {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    double added = 0.0;
+    Piece result;
+};
+
+Piece makePiece(ConvexPolytope shape) {
+    Piece piece;
+    piece.volume = calcMassProperties(toMesh(shape), 1.0).volume;
+    for (const base::Vec3& vertex : shape.vertices)
+        piece.box.include(vertex);
+    piece.shape = std::move(shape);
+    return piece;
+}
+
+bool doTouch(const Box& a, const Box& b) {
+    const double margin = 1e-6 * (a.size().norm() + b.size().norm());
+    return (a.low.array() <= b.high.array() + margin).all() &&
+           (b.low.array() <= a.high.array() + margin).all();
+}
+
+std::optional<Merge> tryMerge(const std::vector<Piece>& pieces, std::size_t first, std::size_t second) {
+    const Piece& a = pieces[first];
+    const Piece& b = pieces[second];
+    if (!doTouch(a.box, b.box)) return std::nullopt;
+    std::vector<base::Vec3> points = a.shape.vertices;
+    points.insert(points.end(), b.shape.vertices.begin(), b.shape.vertices.end());
+    auto hull = computeConvexHull(points);
+    if (!hull) return std::nullopt;
+    Merge merge{first, second, 0.0, makePiece(std::move(*hull))};
+    merge.added = merge.result.volume - a.volume - b.volume;
+    if (merge.added > kLargestGrowth * std::min(a.volume, b.volume)) return std::nullopt;
+    return merge;
+}
+
 }  // namespace
 
 base::Result<std::vector<ConvexPolytope>> computeConvexPieces(const TriangleMesh& mesh) {
@@ -249,6 +292,40 @@ base::Result<std::vector<ConvexPolytope>> computeConvexPieces(const TriangleMesh
     return base::Error{
         "No convex pieces: they do not add up to the part's volume to within 1 %. The surface has walls "
         "thinner than 0.01 % of its size or is too finely curved. Export it with a coarser tolerance."};
+}
+
+std::vector<ConvexPolytope> mergePieces(std::vector<ConvexPolytope> pieces, double tolerance) {
+    std::vector<Piece> current;
+    current.reserve(pieces.size());
+    for (ConvexPolytope& shape : pieces)
+        current.push_back(makePiece(std::move(shape)));
+    std::vector<Merge> merges;
+    for (std::size_t i = 0; i < current.size(); ++i)
+        for (std::size_t j = i + 1; j < current.size(); ++j)
+            if (auto merge = tryMerge(current, i, j)) merges.push_back(std::move(*merge));
+
+    std::vector<char> gone(current.size(), 0);
+    double added = 0.0;
+    while (!merges.empty()) {
+        const auto best = std::min_element(merges.begin(), merges.end(),
+                                           [](const Merge& a, const Merge& b) { return a.added < b.added; });
+        if (added + best->added > tolerance) break;
+        added += std::max(best->added, 0.0);
+        const std::size_t first = best->first;
+        const std::size_t second = best->second;
+        gone[first] = gone[second] = 1;
+        current.push_back(std::move(best->result));
+        gone.push_back(0);
+        std::erase_if(merges, [&](const Merge& m) { return gone[m.first] != 0 || gone[m.second] != 0; });
+        for (std::size_t i = 0; i + 1 < current.size(); ++i)
+            if (gone[i] == 0)
+                if (auto merge = tryMerge(current, i, current.size() - 1))
+                    merges.push_back(std::move(*merge));
+    }
+    std::vector<ConvexPolytope> result;
+    for (std::size_t i = 0; i < current.size(); ++i)
+        if (gone[i] == 0) result.push_back(std::move(current[i].shape));
+    return result;
 }
 
 }  // namespace trapwright::geometry

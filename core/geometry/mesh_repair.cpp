@@ -10,7 +10,6 @@
 #include "core/geometry/mesh_edges.h"
 #include "core/geometry/sheet_separation.h"
 #include "core/geometry/shell_nesting.h"
-#include "core/geometry/shell_roles.h"
 #include "core/geometry/shell_union.h"
 #include "core/geometry/surface_closing.h"
 

@@ -1,4 +1,4 @@
-#include "core/geometry/ply_format.h"
+#include "core/geometry/polygon_soup.h"
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -31,5 +32,10 @@ struct PackagedMesh {
 
 /// The same for who must know the unit.
 base::Result<PackagedMesh> read3mfWithUnit(const std::filesystem::path& path);
+
+/// Whether a zip package unpacks to a size that is safe to read: at most 512 MiB in all, and none of its
+/// files to more than it says. Refuses packages made to fill the memory ("zip bombs") before anything is
+/// unpacked into it. Errors are the reason only.
+base::Status checkPackageSize(std::string_view package);
 
 }  // namespace trapwright::geometry

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "core/geometry/surface_files.h"
+#include "core/geometry/mesh_files.h"
 #include "core/geometry/three_mf.h"
 #include "core/part/cad_import.h"
 #include "core/part/gltf_import.h"

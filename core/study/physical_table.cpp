@@ -6,8 +6,7 @@
 #include <iterator>
 
 #include "core/base/csv.h"
-#include "core/stats/family.h"
-#include "core/stats/independent_rates.h"
+#include "core/stats/rates.h"
 #include "core/stats/stratified.h"
 
 namespace trapwright::study {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/study/individual_id.h"
+#include "core/study/records.h"
 #include "core/trial/orientations.h"
 
 namespace trapwright::study {

@@ -31,14 +31,14 @@ constexpr double kSamePose = 1e-6;                    // between two rotations [
 base::Result<track::Track> buildPlane(const part::Part& part, double height) {
     const double size = 40.0 * (height + 2.0 * part.boundingRadius);
     track::TrackParameters parameters;
-    parameters.width = size;
+    parameters.segmentWidth = size;
     parameters.leadInLength = size;
     parameters.startFromLeadInEnd = 0.5 * size;
-    parameters.leadOutSegmentLength = size;
+    parameters.maxSegmentLength = size;
     track::CrossSection section;
     section.x = size;
     for (const double y : {-0.5 * size, 0.5 * size})
-        section.points.emplace_back(y, 0.5 * parameters.height);
+        section.points.emplace_back(y, 0.5 * parameters.segmentHeight);
     return track::buildTrack(parameters, std::vector{section});
 }
 

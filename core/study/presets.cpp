@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/resources.h"
+
 namespace trapwright::study {
 
 namespace {
@@ -122,6 +124,10 @@ const part::MaterialPair* suggestPair(const part::MaterialLibrary& library, std:
         std::find_if(library.pairs.begin(), library.pairs.end(),
                      [&](const part::MaterialPair& pair) { return pair.material == material; });
     return found == library.pairs.end() ? nullptr : &*found;
+}
+
+std::filesystem::path findResourceTrack(std::string_view file) {
+    return base::findResource(std::filesystem::path("tracks") / file);
 }
 
 }  // namespace trapwright::study

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,5 +37,8 @@ const part::MaterialPair* findUsedPair(const part::MaterialLibrary& library, con
 /// not have.
 const part::MaterialPair* suggestPair(const part::MaterialLibrary& library, std::string_view material,
                                       const part::MaterialPair* used);
+
+/// Where a track file that comes with Trapwright is: in the folder tracks/ beside that of the bundled parts.
+std::filesystem::path findResourceTrack(std::string_view file);
 
 }  // namespace trapwright::study

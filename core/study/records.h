@@ -8,11 +8,23 @@
 #include "core/objectives/objectives.h"
 #include "core/search/search.h"
 #include "core/stats/binomial.h"
-#include "core/study/individual_id.h"
 #include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::study {
+
+/// Which individual of a study: by this it is found in the file, and its trials have their streams.
+struct IndividualId {
+    int generation = 0;  // from 0
+    int individual = 0;  // its place in the generation
+
+    friend bool operator==(const IndividualId&, const IndividualId&) = default;
+};
+
+/// Whether two records are about the same individual.
+inline bool isSameIndividual(const IndividualId& a, const IndividualId& b) {
+    return a == b;
+}
 
 /// One evaluated individual of a generation.
 struct IndividualRecord {

@@ -5,7 +5,6 @@
 
 #include "core/base/result.h"
 #include "core/study/evaluator.h"
-#include "core/study/learning_control.h"
 #include "core/study/records.h"
 
 namespace trapwright::study {

@@ -1,7 +1,6 @@
 #include "core/study/settings.h"
 
 #include <algorithm>
-
 #include <tuple>
 
 namespace trapwright::study {

@@ -9,7 +9,6 @@
 #include "core/part/part.h"
 #include "core/part/symmetry.h"
 #include "core/search/methods.h"
-#include "core/track/feeder_shape.h"
 #include "core/traps/trap_kind.h"
 #include "core/trial/batch.h"
 #include "core/trial/start.h"
@@ -18,23 +17,9 @@ namespace trapwright::study {
 
 using PointEncoding = traps::PointEncoding;
 
-/// The track's form (paper, Table 1 and section 3.1; decisions.md#surface-points and what follows). Lengths
-/// in metres.
-struct TrackSettings {
-    track::FeederShape shape;
+/// The track's form.
+struct TrackSettings : traps::TrapParameters {
     std::string traps = "free-form";  // kinds of trap, one after the other (traps::readTraps)
-    int crossSections = 5;            // functional ones of a free-form trap
-    int pointsPerSection = 8;
-    double minSegmentLength = 15e-3;
-    double maxSegmentLength = 36e-3;
-    double segmentWidth = 60e-3;
-    double segmentHeight = 30e-3;
-    double leadInLength = 80e-3;
-    double startFromLeadInEnd =
-        20e-3;  // the start point's distance before the trap; 60 mm of lead-in stay behind it
-    int leadOutSegments = 2;
-    double baseThickness = 3e-3;  // of the solid below z = 0
-    PointEncoding encoding = PointEncoding::strip;
 
     friend bool operator==(const TrackSettings& a, const TrackSettings& b);
 };
@@ -149,5 +134,15 @@ std::string toJson(const Settings& settings);
 /// Reads what toJson writes. Keys that are left out keep the values of `base`; an unknown key or a wrong type
 /// is an error that names it. Ranges are not looked at: findProblems does that.
 base::Result<Settings> settingsFromJson(const std::string& text, const Settings& base);
+
+/// A setting's key ("track.encoding") and the values that it can have, where they are a list of names; empty
+/// for numbers, texts and rotations.
+struct SettingKey {
+    std::string key;
+    std::vector<std::string> values;
+};
+
+/// The keys of all settings, in the order of the file (settings_json.cpp).
+std::vector<SettingKey> listSettingKeys();
 
 }  // namespace trapwright::study

@@ -1,56 +1,26 @@
 #include "core/study/track_design.h"
 
-#include "core/track/track_builder.h"
 #include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
 
 namespace {
 
-/// What the settings say of the traps.
-struct Traps {
-    traps::TrapChain chain;
-    traps::TrapParameters parameters;
-};
-
-base::Result<Traps> trapsOf(const TrackSettings& settings) {
-    auto chain = traps::readTraps(settings.traps);
-    if (!chain) return chain.error();
-    Traps made{std::move(*chain), {}};
-    made.parameters.sections = settings.crossSections;
-    made.parameters.points = settings.pointsPerSection;
-    made.parameters.minLength = settings.minSegmentLength;
-    made.parameters.maxLength = settings.maxSegmentLength;
-    made.parameters.width = settings.segmentWidth;
-    made.parameters.height = settings.segmentHeight;
-    made.parameters.pointEncoding = settings.encoding;
-    if (const auto checked = traps::checkParameters(made.parameters); !checked) return checked.error();
-    return made;
-}
-
-track::TrackParameters parametersOf(const TrackSettings& settings) {
-    track::TrackParameters parameters;
-    parameters.shape = settings.shape;
-    parameters.width = settings.segmentWidth;
-    parameters.height = settings.segmentHeight;
-    parameters.leadInLength = settings.leadInLength;
-    parameters.startFromLeadInEnd = settings.startFromLeadInEnd;
-    parameters.leadOutSegments = settings.leadOutSegments;
-    parameters.leadOutSegmentLength = settings.maxSegmentLength;
-    parameters.baseThickness = settings.baseThickness;
-    return parameters;
+base::Result<traps::TrapChain> trapsOf(const TrackSettings& settings) {
+    if (const auto checked = traps::checkParameters(settings); !checked) return checked.error();
+    return traps::readTraps(settings.traps);
 }
 
 }  // namespace
 
 search::DesignSpace designSpace(const TrackSettings& settings) {
     const auto traps = trapsOf(settings);
-    return traps ? traps::designSpace(traps->chain, traps->parameters) : search::DesignSpace();
+    return traps ? traps::designSpace(*traps, settings) : search::DesignSpace();
 }
 
 double calcLongestTrack(const TrackSettings& settings) {
     const auto traps = trapsOf(settings);
-    const double trap = traps ? traps::calcLongest(traps->chain, traps->parameters) : 0.0;
+    const double trap = traps ? traps::calcLongest(*traps, settings) : 0.0;
     return settings.leadInLength + trap + settings.leadOutSegments * settings.maxSegmentLength;
 }
 
@@ -72,16 +42,16 @@ std::unique_ptr<search::Search> makeSearch(const Settings& settings) {
 base::Result<track::Track> decodeTrack(const TrackSettings& settings, const search::Design& design) {
     const auto traps = trapsOf(settings);
     if (!traps) return traps.error();
-    if (const auto checked = traps::designSpace(traps->chain, traps->parameters).check(design); !checked)
+    if (const auto checked = traps::designSpace(*traps, settings).check(design); !checked)
         return checked.error();
-    return track::buildTrack(parametersOf(settings), traps::build(traps->chain, traps->parameters, design));
+    return track::buildTrack(settings, traps::build(*traps, settings, design));
 }
 
 base::Result<track::Track> buildLayout(const TrackSettings& settings) {
     const auto traps = trapsOf(settings);
     if (!traps) return traps.error();
     std::vector<track::CrossSection> flat;
-    for (const double x : traps::layOut(traps->chain, traps->parameters)) {
+    for (const double x : traps::layOut(*traps, settings)) {
         track::CrossSection section{x, {}};
         for (int point = 0; point < settings.pointsPerSection; ++point)
             section.points.emplace_back(
@@ -89,7 +59,7 @@ base::Result<track::Track> buildLayout(const TrackSettings& settings) {
                 0.5 * settings.segmentHeight);
         flat.push_back(std::move(section));
     }
-    return track::buildTrack(parametersOf(settings), flat);
+    return track::buildTrack(settings, flat);
 }
 
 }  // namespace trapwright::study

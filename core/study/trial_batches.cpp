@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/trial/orientations.h"
 #include "core/trial/start.h"
 
 namespace trapwright::study {
@@ -63,6 +64,26 @@ trial::TrialBatch makeValidationBatch(const TrialScene& scene, const IndividualI
     policy.nearPose = scene.part->stablePoses[static_cast<std::size_t>(pose)].rotation;
     return makeBatch(scene, policy, keyOf(scene, individual, pose * trials, base::Purpose::validation),
                      trials);
+}
+
+trial::TrialBatch makeTrackBatch(std::shared_ptr<const track::Track> track,
+                                 std::shared_ptr<const part::Part> part, const SimulationSettings& simulation,
+                                 std::uint64_t seed, int trials) {
+    return makeLearningBatch({&simulation, std::move(part), std::move(track), seed}, {0, 0}, trials);
+}
+
+TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
+                        const std::optional<base::Quaternion>& expected, double tolerance) {
+    TrialCounts counts;
+    counts.expected =
+        expected ? *expected
+                 : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
+    counts.tally = trial::tally(outcomes, counts.expected, symmetry, tolerance);
+    for (const trial::Outcome& outcome : outcomes) {
+        for (const trial::PartOutcome& part : outcome.parts)
+            counts.simulatedTime += part.time;
+    }
+    return counts;
 }
 
 }  // namespace trapwright::study

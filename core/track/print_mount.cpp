@@ -8,11 +8,9 @@ namespace trapwright::track {
 
 namespace {
 
-constexpr double kLongest = 1.0;  // [m]; what is larger was not meant
+using base::inMillimetres;
 
-double inMillimetres(double length) {
-    return length / base::kMillimetre;
-}
+constexpr double kLongest = 1.0;  // [m]; what is larger was not meant
 
 bool isBowl(const Track& track) {
     return track.shape.type == FeederType::bowl;

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/track/solid_rows.h"
+#include "core/track/track_solid.h"
 
 namespace trapwright::track {
 

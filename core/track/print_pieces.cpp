@@ -11,12 +11,14 @@
 
 #include "core/geometry/solid_cut.h"
 #include "core/geometry/surface_distance.h"
-#include "core/geometry/winding.h"
+#include "core/geometry/triangle_mesh.h"
 #include "core/track/print_mount.h"
 
 namespace trapwright::track {
 
 namespace {
+
+using base::inMillimetres;
 
 using base::Vec3;
 using geometry::TriangleMesh;
@@ -27,10 +29,6 @@ constexpr double kGrid = base::kMillimetre;    // between places that are tried 
 constexpr double kAlong = base::kMillimetre;   // between points of a pin whose distance is measured
 constexpr double kInPlane = 1e-9;              // of a cut; radial ones are rounded [m]
 constexpr double kLongest = 0.1;               // of a pin's diameter and depth; more was not meant [m]
-
-double inMillimetres(double length) {
-    return length / base::kMillimetre;
-}
 
 int lastSectionOf(const Track& track) {
     return static_cast<int>(track.sections.size()) - 1;

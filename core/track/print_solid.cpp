@@ -9,7 +9,7 @@
 #include "core/geometry/solid_cut.h"
 #include "core/track/print_mount.h"
 #include "core/track/print_outline.h"
-#include "core/track/solid_rows.h"
+#include "core/track/track_solid.h"
 
 namespace trapwright::track {
 

@@ -11,39 +11,7 @@ namespace trapwright::track {
 
 namespace {
 
-double inMillimetres(double length) {
-    return length / base::kMillimetre;
-}
-
-base::Status checkParameters(const TrackParameters& parameters) {
-    const struct {
-        const char* name;
-        double value;
-    } lengths[] = {{"segment width", parameters.width},
-                   {"segment height", parameters.height},
-                   {"lead-in length", parameters.leadInLength},
-                   {"lead-out segment length", parameters.leadOutSegmentLength},
-                   {"base thickness", parameters.baseThickness}};
-    for (const auto& [name, value] : lengths) {
-        if (!(value > 0.0 && std::isfinite(value))) {
-            return base::Error{
-                fmt::format("The {} is {:g} mm; it must be greater than 0.", name, inMillimetres(value))};
-        }
-    }
-    if (!(parameters.startFromLeadInEnd >= 0.0 && parameters.startFromLeadInEnd < parameters.leadInLength)) {
-        return base::Error{fmt::format(
-            "The start's distance from the lead-in's end is {:g} mm; it must be at least 0 and less than the "
-            "lead-in "
-            "length ({:g} mm).",
-            inMillimetres(parameters.startFromLeadInEnd), inMillimetres(parameters.leadInLength))};
-    }
-    if (parameters.leadOutSegments < 1) {
-        return base::Error{
-            fmt::format("The number of lead-out segments is {}; the finish line needs at least 1.",
-                        parameters.leadOutSegments)};
-    }
-    return base::success();
-}
+using base::inMillimetres;
 
 base::Status checkTrap(std::span<const CrossSection> trap) {
     if (trap.empty()) return base::Error{"The trap has no cross-section; it needs at least 1."};
@@ -81,6 +49,36 @@ CrossSection makeFlatSection(double x, double width, double z, std::size_t point
 
 }  // namespace
 
+base::Status checkParameters(const TrackParameters& parameters) {
+    const struct {
+        const char* name;
+        double value;
+    } lengths[] = {{"segment width", parameters.segmentWidth},
+                   {"segment height", parameters.segmentHeight},
+                   {"lead-in length", parameters.leadInLength},
+                   {"maximal segment length", parameters.maxSegmentLength},
+                   {"base thickness", parameters.baseThickness}};
+    for (const auto& [name, value] : lengths) {
+        if (!(value > 0.0 && std::isfinite(value))) {
+            return base::Error{
+                fmt::format("The {} is {:g} mm; it must be greater than 0.", name, inMillimetres(value))};
+        }
+    }
+    if (!(parameters.startFromLeadInEnd >= 0.0 && parameters.startFromLeadInEnd < parameters.leadInLength)) {
+        return base::Error{fmt::format(
+            "The start's distance from the lead-in's end is {:g} mm; it must be at least 0 and less than the "
+            "lead-in "
+            "length ({:g} mm).",
+            inMillimetres(parameters.startFromLeadInEnd), inMillimetres(parameters.leadInLength))};
+    }
+    if (parameters.leadOutSegments < 1) {
+        return base::Error{
+            fmt::format("The number of lead-out segments is {}; the finish line needs at least 1.",
+                        parameters.leadOutSegments)};
+    }
+    return base::success();
+}
+
 base::Status checkShape(const FeederShape& shape, double length, double width) {
     if (shape.type == FeederType::linear) return base::success();
     if (!(shape.bowlRadius > 0.5 * width && std::isfinite(shape.bowlRadius))) {
@@ -102,18 +100,20 @@ base::Status checkShape(const FeederShape& shape, double length, double width) {
 base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap) {
     if (auto status = checkParameters(parameters); !status) return status.error();
     if (auto status = checkTrap(trap); !status) return status.error();
-    const double length = parameters.leadInLength + trap.back().x +
-                          parameters.leadOutSegments * parameters.leadOutSegmentLength;
-    if (auto status = checkShape(parameters.shape, length, parameters.width); !status) return status.error();
+    const double length =
+        parameters.leadInLength + trap.back().x + parameters.leadOutSegments * parameters.maxSegmentLength;
+    if (auto status = checkShape(parameters.shape, length, parameters.segmentWidth); !status)
+        return status.error();
 
     Track track;
     track.shape = parameters.shape;
-    track.width = parameters.width;
-    track.height = parameters.height;
+    track.width = parameters.segmentWidth;
+    track.height = parameters.segmentHeight;
     track.baseThickness = parameters.baseThickness;
     const std::size_t points = trap.front().points.size();
     for (const double x : {0.0, parameters.leadInLength}) {
-        track.sections.push_back(makeFlatSection(x, parameters.width, 0.5 * parameters.height, points));
+        track.sections.push_back(
+            makeFlatSection(x, parameters.segmentWidth, 0.5 * parameters.segmentHeight, points));
     }
     track.firstTrapSection = 1;
     for (const CrossSection& section : trap) {
@@ -122,10 +122,10 @@ base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<cons
     track.lastTrapSection = static_cast<int>(track.sections.size()) - 1;
     for (int i = 0; i < parameters.leadOutSegments; ++i) {
         const CrossSection& before = track.sections.back();
-        track.sections.push_back(CrossSection{before.x + parameters.leadOutSegmentLength, before.points});
+        track.sections.push_back(CrossSection{before.x + parameters.maxSegmentLength, before.points});
     }
     track.start = parameters.leadInLength - parameters.startFromLeadInEnd;
-    track.finish = track.end() - 0.5 * parameters.leadOutSegmentLength;
+    track.finish = track.end() - 0.5 * parameters.maxSegmentLength;
 
     TrackSolid solid = buildTrackSolid(track.shape, track.sections, parameters.baseThickness);
     track.solid = std::move(solid.mesh);

@@ -7,18 +7,23 @@
 
 namespace trapwright::track {
 
-/// What surrounds the trap (paper, section 3.1, Figure 3; decisions.md#lead-in-and-lead-out,
-/// decisions.md#bowl).
+/// What surrounds the trap, and the box that it keeps to (paper, Table 1 and section 3.1, Figure 3;
+/// decisions.md#lead-in-and-lead-out, decisions.md#bowl). The trap's own numbers come to it in
+/// traps::TrapParameters, and which traps they are of in study::TrackSettings.
 struct TrackParameters {
     FeederShape shape;
-    double width = 60e-3;                 // of the lead-in, and of the box that the trap keeps to [m]
-    double height = 30e-3;                // of that box; the lead-in lies at half of it [m]
-    double leadInLength = 80e-3;          // [m]
-    double startFromLeadInEnd = 20e-3;    // the start point's distance before the trap [m]
-    int leadOutSegments = 2;              // duplicates of the last functional section
-    double leadOutSegmentLength = 36e-3;  // the maximal segment length [m]
-    double baseThickness = 3e-3;          // of the solid below z = 0 [m]
+    double segmentWidth = 60e-3;      // of the lead-in and of the traps' box [m]
+    double segmentHeight = 30e-3;     // of that box; the lead-in lies at half of it [m]
+    double maxSegmentLength = 36e-3;  // of a trap's segments, and what the lead-out's have [m]
+    double leadInLength = 80e-3;      // [m]
+    // The start point's distance before the trap; 60 mm of lead-in stay behind it. [m]
+    double startFromLeadInEnd = 20e-3;
+    int leadOutSegments = 2;      // duplicates of the last functional section
+    double baseThickness = 3e-3;  // of the solid below z = 0 [m]
 };
+
+/// An error that names the first parameter that is out of its range.
+base::Status checkParameters(const TrackParameters& parameters);
 
 /// Flat lead-in from x = 0, the functional sections (x measured from the lead-in's end, at least one), and
 /// the lead-out; finish in the middle of the last duplicate. An error that names the parameter that is out of

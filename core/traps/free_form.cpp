@@ -13,27 +13,29 @@ constexpr int kBits = 10;  // of each number (paper, section 4.2.1)
 constexpr double kMillimetres = 1.0 / base::kMillimetre;
 
 std::size_t countPointValues(const TrapParameters& parameters) {
-    return 2 * static_cast<std::size_t>(parameters.sections) * static_cast<std::size_t>(parameters.points);
+    return 2 * static_cast<std::size_t>(parameters.crossSections) *
+           static_cast<std::size_t>(parameters.pointsPerSection);
 }
 
 std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
     std::vector<search::Dimension> dimensions;
-    dimensions.reserve(countPointValues(parameters) + static_cast<std::size_t>(parameters.sections));
-    for (int section = 0; section < parameters.sections; ++section) {
-        for (int point = 0; point < parameters.points; ++point) {
+    dimensions.reserve(countPointValues(parameters) + static_cast<std::size_t>(parameters.crossSections));
+    for (int section = 0; section < parameters.crossSections; ++section) {
+        for (int point = 0; point < parameters.pointsPerSection; ++point) {
             const std::string place =
                 "section " + std::to_string(section + 1) + ", point " + std::to_string(point + 1);
             const Interval across = spanAcross(parameters, point);
             dimensions.push_back({place + ", y", "mm", kMillimetres * across.low,
                                   kMillimetres * (across.low + across.size), kBits, true, section});
             dimensions.push_back(
-                {place + ", z", "mm", 0.0, kMillimetres * parameters.height, kBits, true, section});
+                {place + ", z", "mm", 0.0, kMillimetres * parameters.segmentHeight, kBits, true, section});
         }
     }
-    for (int section = 0; section < parameters.sections; ++section) {
+    for (int section = 0; section < parameters.crossSections; ++section) {
         dimensions.push_back({"length of segment " + std::to_string(section + 1), "mm",
-                              kMillimetres * parameters.minLength, kMillimetres * parameters.maxLength, kBits,
-                              false, parameters.sections});
+                              kMillimetres * parameters.minSegmentLength,
+                              kMillimetres * parameters.maxSegmentLength, kBits, false,
+                              parameters.crossSections});
     }
     return dimensions;
 }
@@ -46,21 +48,21 @@ std::vector<track::CrossSection> buildFreeForm(const TrapParameters& parameters,
 
 std::vector<double> layOutFreeForm(const TrapParameters& parameters) {
     std::vector<double> places;
-    for (int section = 1; section <= parameters.sections; ++section)
-        places.push_back(section * (0.5 * (parameters.minLength + parameters.maxLength)));
+    for (int section = 1; section <= parameters.crossSections; ++section)
+        places.push_back(section * (0.5 * (parameters.minSegmentLength + parameters.maxSegmentLength)));
     return places;
 }
 
 double longestFreeForm(const TrapParameters& parameters) {
-    return parameters.sections * parameters.maxLength;
+    return parameters.crossSections * parameters.maxSegmentLength;
 }
 
 std::vector<double> smoothFreeForm(const TrapParameters& parameters, std::span<const double> numbers,
                                    double probability, base::Random& random) {
     std::vector<double> smoothed(numbers.begin(), numbers.end());
     const std::vector<double> points =
-        smoothSurface(numbers.first(countPointValues(parameters)), parameters.sections, parameters.points,
-                      probability, random);
+        smoothSurface(numbers.first(countPointValues(parameters)), parameters.crossSections,
+                      parameters.pointsPerSection, probability, random);
     std::copy(points.begin(), points.end(), smoothed.begin());
     return smoothed;
 }
@@ -160,26 +162,28 @@ TrapKind freeForm() {
 }
 
 Interval spanAcross(const TrapParameters& parameters, int point) {
-    if (parameters.pointEncoding == PointEncoding::free) return {-0.5 * parameters.width, parameters.width};
-    const double strip = parameters.width / parameters.points;
-    return {-0.5 * parameters.width + strip * point, strip};
+    if (parameters.encoding == PointEncoding::free)
+        return {-0.5 * parameters.segmentWidth, parameters.segmentWidth};
+    const double strip = parameters.segmentWidth / parameters.pointsPerSection;
+    return {-0.5 * parameters.segmentWidth + strip * point, strip};
 }
 
 std::vector<track::CrossSection> decodeTrap(const TrapParameters& parameters, std::span<const double> points,
                                             std::span<const double> lengths) {
     assert(points.size() == countPointValues(parameters) &&
-           lengths.size() == static_cast<std::size_t>(parameters.sections));
+           lengths.size() == static_cast<std::size_t>(parameters.crossSections));
     std::vector<track::CrossSection> sections(lengths.size());
     double x = 0.0;
     std::size_t next = 0;
     for (std::size_t i = 0; i < sections.size(); ++i) {
-        x += parameters.minLength + (parameters.maxLength - parameters.minLength) * lengths[i];
+        x += parameters.minSegmentLength +
+             (parameters.maxSegmentLength - parameters.minSegmentLength) * lengths[i];
         sections[i].x = x;
-        sections[i].points.reserve(static_cast<std::size_t>(parameters.points));
-        for (int j = 0; j < parameters.points; ++j, next += 2) {
+        sections[i].points.reserve(static_cast<std::size_t>(parameters.pointsPerSection));
+        for (int j = 0; j < parameters.pointsPerSection; ++j, next += 2) {
             const Interval interval = spanAcross(parameters, j);
             sections[i].points.emplace_back(interval.low + interval.size * points[next],
-                                            parameters.height * points[next + 1]);
+                                            parameters.segmentHeight * points[next + 1]);
         }
     }
     return sections;

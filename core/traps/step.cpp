@@ -13,32 +13,33 @@ double within(double low, double high, double share) {
 
 std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
     constexpr double kMillimetres = 1.0 / base::kMillimetre;
-    const double most = kMillimetres * 0.5 * parameters.height;
+    const double most = kMillimetres * 0.5 * parameters.segmentHeight;
     const double steepest = kSteepestTread / base::kDegree;
     return {{"height", "mm", -most, most},
-            {"length", "mm", kMillimetres * parameters.minLength, kMillimetres * parameters.maxLength},
+            {"length", "mm", kMillimetres * parameters.minSegmentLength,
+             kMillimetres * parameters.maxSegmentLength},
             {"inclination", "deg", -steepest, steepest}};
 }
 
 std::vector<track::CrossSection> buildStep(const TrapParameters& parameters,
                                            std::span<const double> numbers) {
-    const double middle = within(0.0, parameters.height, numbers[0]);
-    const double length = within(parameters.minLength, parameters.maxLength, numbers[1]);
+    const double middle = within(0.0, parameters.segmentHeight, numbers[0]);
+    const double length = within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[1]);
     const double slope = -std::tan(within(-kSteepestTread, kSteepestTread, numbers[2]));
     track::CrossSection tread{kStepEdge, {}};
-    for (int j = 0; j < parameters.points; ++j) {
-        const double y = parameters.width * (j / (parameters.points - 1.0) - 0.5);
-        tread.points.emplace_back(y, std::clamp(middle + slope * y, 0.0, parameters.height));
+    for (int j = 0; j < parameters.pointsPerSection; ++j) {
+        const double y = parameters.segmentWidth * (j / (parameters.pointsPerSection - 1.0) - 0.5);
+        tread.points.emplace_back(y, std::clamp(middle + slope * y, 0.0, parameters.segmentHeight));
     }
     return {tread, {kStepEdge + length, tread.points}};
 }
 
 std::vector<double> layOutStep(const TrapParameters& parameters) {
-    return {kStepEdge, kStepEdge + 0.5 * (parameters.minLength + parameters.maxLength)};
+    return {kStepEdge, kStepEdge + 0.5 * (parameters.minSegmentLength + parameters.maxSegmentLength)};
 }
 
 double longestStep(const TrapParameters& parameters) {
-    return kStepEdge + parameters.maxLength;
+    return kStepEdge + parameters.maxSegmentLength;
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ namespace trapwright::traps {
 
 namespace {
 
+using base::inMillimetres;
+
 base::Error unknownKind(std::string_view name) {
     std::string keys;
     for (const TrapKind& kind : trapKinds())
@@ -25,10 +27,6 @@ base::Error unknownKind(std::string_view name) {
         name, keys)};
 }
 
-double inMillimetres(double length) {
-    return length / base::kMillimetre;
-}
-
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
@@ -37,31 +35,24 @@ std::span<const TrapKind> trapKinds() {
 }
 
 base::Status checkParameters(const TrapParameters& parameters) {
-    if (parameters.sections < 1) {
+    if (parameters.crossSections < 1) {
+        return base::Error{fmt::format("The number of cross-sections is {}; a trap needs at least 1.",
+                                       parameters.crossSections)};
+    }
+    if (parameters.pointsPerSection < 2) {
         return base::Error{
-            fmt::format("The number of cross-sections is {}; a trap needs at least 1.", parameters.sections)};
+            fmt::format("The number of points per cross-section is {}; a surface needs at least 2.",
+                        parameters.pointsPerSection)};
     }
-    if (parameters.points < 2) {
-        return base::Error{fmt::format(
-            "The number of points per cross-section is {}; a surface needs at least 2.", parameters.points)};
+    if (!(parameters.minSegmentLength > 0.0 && std::isfinite(parameters.minSegmentLength))) {
+        return base::Error{fmt::format("The minimal segment length is {:g} mm; it must be greater than 0.",
+                                       inMillimetres(parameters.minSegmentLength))};
     }
-    const struct {
-        const char* name;
-        double value;
-    } lengths[] = {{"minimal segment length", parameters.minLength},
-                   {"maximal segment length", parameters.maxLength},
-                   {"segment width", parameters.width},
-                   {"segment height", parameters.height}};
-    for (const auto& [name, value] : lengths) {
-        if (!(value > 0.0 && std::isfinite(value))) {
-            return base::Error{
-                fmt::format("The {} is {:g} mm; it must be greater than 0.", name, inMillimetres(value))};
-        }
-    }
-    if (parameters.minLength > parameters.maxLength) {
+    if (const auto surrounds = track::checkParameters(parameters); !surrounds) return surrounds.error();
+    if (parameters.minSegmentLength > parameters.maxSegmentLength) {
         return base::Error{fmt::format(
             "The minimal segment length ({:g} mm) is greater than the maximal segment length ({:g} mm).",
-            inMillimetres(parameters.minLength), inMillimetres(parameters.maxLength))};
+            inMillimetres(parameters.minSegmentLength), inMillimetres(parameters.maxSegmentLength))};
     }
     return base::success();
 }

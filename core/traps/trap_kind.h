@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/search/design_space.h"
-#include "core/track/track.h"
+#include "core/track/track_builder.h"
 
 namespace trapwright::traps {
 
@@ -17,18 +17,16 @@ enum class PointEncoding {
     free    // the paper's: any place in the box, so a surface may overhang or cross itself
 };
 
-/// The room that a trap has, and how finely it is shaped. Each kind takes what it needs.
-struct TrapParameters {
-    int sections = 5;          // functional ones of a free-form trap
-    int points = 8;            // of every cross-section
-    double minLength = 15e-3;  // of a segment [m]
-    double maxLength = 36e-3;  // of a segment [m]
-    double width = 60e-3;      // of a segment [m]
-    double height = 30e-3;     // of a segment; the lead-in lies at half of it [m]
-    PointEncoding pointEncoding = PointEncoding::strip;
+/// The room that a trap has, and how finely it is shaped (decisions.md#surface-points and what follows). Each
+/// kind takes what it needs.
+struct TrapParameters : track::TrackParameters {
+    int crossSections = 5;  // functional ones of a free-form trap
+    int pointsPerSection = 8;
+    double minSegmentLength = 15e-3;  // [m]
+    PointEncoding encoding = PointEncoding::strip;
 };
 
-/// An error that names the first parameter that is out of its range.
+/// An error that names the first parameter that is out of its range, the track's own among them.
 base::Status checkParameters(const TrapParameters& parameters);
 
 /// One kind of trap: what there is to choose, and the surface that a choice stands for. Knows no physics.
@@ -40,8 +38,8 @@ struct TrapKind {
     /// What there is to choose, in the order in which the numbers come.
     std::vector<search::Dimension> (*dimensions)(const TrapParameters& parameters);
     /// The functional cross-sections of these numbers (as many as dimensions, in [0, 1]); x is measured from
-    /// where the trap begins and rises, y in [-width / 2, width / 2], z in [0, height], each section has
-    /// `points` points.
+    /// where the trap begins and rises, y within half a segment's width to either side, z in [0,
+    /// segmentHeight], each section has `pointsPerSection` points.
     std::vector<track::CrossSection> (*build)(const TrapParameters& parameters,
                                               std::span<const double> numbers);
     /// Where the cross-sections of a typical one are: x from where the trap begins. [m]

@@ -11,7 +11,7 @@
 #include "core/base/result.h"
 #include "core/part/part.h"
 #include "core/track/track.h"
-#include "core/trial/contact_parameters.h"
+#include "core/trial/contact.h"
 #include "core/trial/vibration.h"
 
 namespace trapwright::trial {

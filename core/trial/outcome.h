@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/math.h"
-#include "core/trial/contact_force.h"
+#include "core/trial/contact.h"
 
 namespace trapwright::trial {
 

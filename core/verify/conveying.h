@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/base/result.h"
+#include "core/calibration/half_stroke.h"
 #include "core/trial/engine.h"
 
 namespace trapwright::verify {
@@ -29,5 +30,12 @@ struct ConveyingScene {
 /// one per heading.
 base::Result<ConveyingSpeed> measureConveyingSpeed(const trial::Engine& engine, const ConveyingScene& scene,
                                                    const base::RunControl& control);
+
+/// Conveying speed at half-strokes up to a throw number of 3.3, beyond which parts skip periods, for the
+/// calibration of a real drive by its conveying speed. Only what can be inverted (calibration::risingPart).
+/// The scene's own half-stroke does not count. Errors and `control` as measureConveyingSpeed.
+base::Result<calibration::SpeedTable> measureSpeedTable(const trial::Engine& engine,
+                                                        const ConveyingScene& scene,
+                                                        const base::RunControl& control);
 
 }  // namespace trapwright::verify

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "core/verify/cases.h"
-#include "core/verify/hopping.h"
+#include "core/verify/predicted_speed.h"
 #include "core/verify/scenes.h"
-#include "core/verify/stick_slip.h"
 
 namespace trapwright::verify {
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "core/study/track_design.h"
-#include "core/study/track_trials.h"
+#include "core/study/trial_batches.h"
 
 namespace trapwright::workflow {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/store/study_file.h"
-#include "core/study/learning_control.h"
+#include "core/study/evaluator.h"
 #include "core/study/runner.h"
 #include "core/trial/engine_registry.h"
 #include "core/workflow/failure.h"

@@ -6,8 +6,8 @@
 
 #include "core/base/run_control.h"
 #include "core/store/study_file.h"
-#include "core/study/background_checks.h"
 #include "core/study/evaluator.h"
+#include "core/study/reference_check.h"
 #include "core/trial/engine_registry.h"
 #include "core/workflow/failure.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/math.h"
-#include "core/trial/contact_force.h"
+#include "core/trial/contact.h"
 #include "sim/contact/contact_body.h"
 #include "sim/contact/contact_track.h"
 #include "sim/contact/formulas/scalar.h"

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/base/math.h"
-#include "core/trial/contact_force.h"
+#include "core/trial/contact.h"
 #include "sim/contact/body_motion.h"
 #include "sim/contact/formulas/scalar.h"
 #include "sim/contact/law.h"
-#include "sim/contact/manifold_point.h"
+#include "sim/contact/manifold.h"
 
 namespace trapwright::contact {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/trial/contact_parameters.h"
+#include "core/trial/contact.h"
 
 /// The contact law's continuous form, and what both forms are told. The discrete form is in formulas/.
 /// Derivations and sources: README.md of this folder.

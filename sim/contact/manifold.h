@@ -2,9 +2,16 @@
 
 #include <span>
 
-#include "sim/contact/manifold_point.h"
+#include "core/base/math.h"
 
 namespace trapwright::contact {
+
+/// What thinning out looks at of a contact.
+struct ManifoldPoint {
+    base::Vec3 arm;     // [m]
+    base::Vec3 normal;  // unit
+    double gap;         // [m]
+};
 
 /// Puts into `kept` the indices of contacts that stand for all of them, in order, and returns how many: of
 /// contacts that say the same (same normal, same place) the lowest; if these are more than `kept` holds, of

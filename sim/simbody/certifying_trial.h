@@ -4,8 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/track/feeder_shape.h"
-#include "core/trial/contact_force.h"
-#include "core/trial/contact_parameters.h"
+#include "core/trial/contact.h"
 #include "core/trial/vibration.h"
 #include "sim/contact/body_motion.h"
 #include "sim/contact/contact_body.h"

@@ -1,5 +1,4 @@
 #include "core/drive/reo_drive.h"
-#include "core/drive/reo_frame.h"
 #include "tests/fuzz/drive_answers.h"
 #include "tests/fuzz/scratch_folder.h"
 

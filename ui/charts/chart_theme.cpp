@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "ui/look/okabe_ito.h"
+#include "ui/look/theme.h"
 
 namespace trapwright::charts {
 

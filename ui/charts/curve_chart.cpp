@@ -5,7 +5,7 @@
 
 #include "ui/charts/legend.h"
 #include "ui/charts/plot.h"
-#include "ui/charts/sheet_csv.h"
+#include "ui/charts/sheet.h"
 
 namespace trapwright::charts {
 

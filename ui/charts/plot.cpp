@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/charts/ticks.h"
+#include "ui/charts/axes.h"
 
 namespace trapwright::charts {
 

@@ -5,9 +5,9 @@
 #include <set>
 #include <vector>
 
+#include "ui/charts/axes.h"
 #include "ui/charts/chart_theme.h"
 #include "ui/charts/sheet.h"
-#include "ui/charts/view_range.h"
 
 class QCategoryAxis;
 

@@ -8,7 +8,7 @@
 #include <QHorizontalStackedBarSeries>
 #include <algorithm>
 
-#include "ui/charts/ticks.h"
+#include "ui/charts/axes.h"
 
 namespace trapwright::charts {
 

@@ -3,6 +3,7 @@
 #include <QPointF>
 #include <QString>
 #include <QStringList>
+
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "ui/charts/chart_theme.h"
 
 /// What a chart shows, as values: made from a study's curves, drawn by a CurveChart.
+
 namespace trapwright::charts {
 
 enum class Scale { linear, logarithmic };
@@ -73,5 +75,9 @@ struct ChartSheet {
     std::vector<LegendEntry> legend;
     std::vector<PlotSheet> plots;
 };
+
+/// The numbers of all curves, those not shown as well: a line for each x that any has, an empty field where a
+/// curve has no point there. RFC 4180 with \n; numbers in full with a point as decimal sign.
+QString toCsv(const ChartSheet& sheet);
 
 }  // namespace trapwright::charts

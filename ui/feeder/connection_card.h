@@ -3,8 +3,8 @@
 #include <QWidget>
 #include <vector>
 
-#include "core/drive/address.h"
 #include "core/drive/profile.h"
+#include "core/drive/transport.h"
 
 class QComboBox;
 class QFormLayout;

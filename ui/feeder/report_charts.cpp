@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/stats/binomial.h"
-#include "ui/look/okabe_ito.h"
+#include "ui/look/theme.h"
 #include "ui/models/numbers.h"
 
 namespace trapwright::feeder {

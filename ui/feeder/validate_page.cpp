@@ -17,7 +17,6 @@
 #include "ui/feeder/plan_panel.h"
 #include "ui/feeder/report_card.h"
 #include "ui/feeder/stop_button.h"
-#include "ui/feeder/stop_key.h"
 #include "ui/look/folding_group.h"
 #include "ui/pages/result_table.h"
 #include "ui/scene/scene_view.h"

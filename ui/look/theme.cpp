@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QStyleFactory>
 #include <QToolButton>
+
 #include <cmath>
 
 #include "ui/look/system_scheme.h"

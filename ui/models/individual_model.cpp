@@ -2,9 +2,8 @@
 
 #include <QFont>
 
+#include "ui/models/number_columns.h"
 #include "ui/models/numbers.h"
-#include "ui/models/score_columns.h"
-#include "ui/models/search_columns.h"
 
 namespace trapwright::models {
 

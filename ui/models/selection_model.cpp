@@ -1,7 +1,7 @@
 #include "ui/models/selection_model.h"
 
+#include "ui/models/number_columns.h"
 #include "ui/models/numbers.h"
-#include "ui/models/score_columns.h"
 
 namespace trapwright::models {
 

@@ -5,7 +5,7 @@
 #include <QPainter>
 #include <QPainterPath>
 
-#include "ui/look/okabe_ito.h"
+#include "ui/look/theme.h"
 
 namespace trapwright::models {
 

@@ -7,8 +7,8 @@
 #include "core/study/track_design.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/text.h"
+#include "ui/models/number_columns.h"
 #include "ui/models/numbers.h"
-#include "ui/models/score_columns.h"
 #include "ui/pages/design_picture.h"
 #include "ui/pages/fact_list.h"
 

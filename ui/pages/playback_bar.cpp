@@ -5,8 +5,10 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
+#include <QMouseEvent>
 #include <QSignalBlocker>
 #include <QSlider>
+#include <QStyleOptionSlider>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <array>
@@ -28,12 +30,35 @@ int toLine(double time) {
     return static_cast<int>(std::lround(time / kStep));
 }
 
+/// Goes to where its groove is clicked, as players do, instead of a page nearer; from there it can be
+/// dragged.
+class TimeLine : public QSlider {
+ public:
+    explicit TimeLine(QWidget* parent) : QSlider(Qt::Horizontal, parent) {}
+
+ protected:
+    void mousePressEvent(QMouseEvent* event) override {
+        QStyleOptionSlider option;
+        initStyleOption(&option);
+        const QRect handle =
+            style()->subControlRect(QStyle::CC_Slider, &option, QStyle::SC_SliderHandle, this);
+        if (event->button() == Qt::LeftButton && !handle.contains(event->position().toPoint())) {
+            const QRect groove =
+                style()->subControlRect(QStyle::CC_Slider, &option, QStyle::SC_SliderGroove, this);
+            const int place = qRound(event->position().x()) - groove.left() - handle.width() / 2;
+            setValue(QStyle::sliderValueFromPosition(minimum(), maximum(), place,
+                                                     groove.width() - handle.width()));
+        }
+        QSlider::mousePressEvent(event);
+    }
+};
+
 }  // namespace
 
 PlaybackBar::PlaybackBar(ReplayPlayer& player)
     : player_(player),
       warning_(new look::MessageBar(this)),
-      line_(new QSlider(Qt::Horizontal, this)),
+      line_(new TimeLine(this)),
       time_(new QLabel(this)),
       speed_(new QComboBox(this)) {
     setObjectName("transport");
@@ -43,7 +68,7 @@ PlaybackBar::PlaybackBar(ReplayPlayer& player)
 
     line_->setObjectName("transport.line");
     line_->setAccessibleName(tr("Time line"));
-    line_->setToolTip(tr("Drag to any moment of the replay"));
+    line_->setToolTip(tr("Click or drag to any moment of the replay"));
     // The arrows step the replay wherever the focus is.
     line_->setSingleStep(toLine(kStep));
     connect(line_, &QSlider::valueChanged, this, [this](int value) { player_.setTime(kStep * value); });

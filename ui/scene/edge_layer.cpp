@@ -10,7 +10,6 @@
 
 #include <algorithm>
 
-#include "ui/scene/actors.h"
 #include "ui/scene/layers.h"
 #include "ui/scene/meshes.h"
 #include "ui/scene/subject.h"

@@ -4,15 +4,16 @@
 #include <QFontMetricsF>
 #include <QGuiApplication>
 #include <QLocale>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "ui/scene/contact_arrows.h"
-
 namespace trapwright::scene {
 
 namespace {
+
+constexpr double kLongest = 6.0;  // in bounding radii
 
 constexpr double kMargin = 16.0;
 constexpr double kHead = 5.0;
@@ -45,6 +46,12 @@ void paintArrow(QPainter& painter, const QPointF& from, double length) {
 }
 
 }  // namespace
+
+double arrowLength(const part::Part& part, double force) {
+    const double weight = part.massProperties.mass * base::kStandardGravity;
+    if (force <= 0.0 || weight <= 0.0) return 0.0;
+    return part.boundingRadius * std::min(std::sqrt(force / weight), kLongest);
+}
 
 OverlayItem makeForceLegend(const SceneContents& contents, const Camera& camera, const QSizeF& screen) {
     const part::Part& part = *contents.parts.front().part;

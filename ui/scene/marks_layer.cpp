@@ -12,7 +12,6 @@
 
 #include "ui/scene/layers.h"
 #include "ui/scene/meshes.h"
-#include "ui/scene/section_spans.h"
 #include "ui/scene/surface_places.h"
 
 namespace trapwright::scene {

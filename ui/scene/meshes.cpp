@@ -1,12 +1,15 @@
 #include "ui/scene/meshes.h"
 
+#include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
 #include <vtkSmartPointer.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
@@ -195,6 +198,21 @@ geometry::TriangleMesh makeSlab(const geometry::Box& top, double thickness, doub
         mesh.triangles.push_back({next, i + 1, next + 1});
     }
     return mesh;
+}
+
+void setColour(vtkActor& actor, const QColor& colour) {
+    actor.GetProperty()->SetColor(colour.redF(), colour.greenF(), colour.blueF());
+}
+
+void setPose(vtkActor& actor, const base::Pose& pose) {
+    vtkNew<vtkMatrix4x4> matrix;
+    const base::Mat3 rotation = pose.rotation.toRotationMatrix();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            matrix->SetElement(row, column, rotation(row, column));
+        matrix->SetElement(row, 3, pose.position[row] * kDrawn);
+    }
+    actor.SetUserMatrix(matrix);
 }
 
 }  // namespace trapwright::scene

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QColor>
+
 #include <functional>
 #include <span>
 #include <vector>
@@ -11,6 +12,8 @@
 template <class T>
 class vtkSmartPointer;
 class vtkPolyData;
+
+class vtkActor;
 
 namespace trapwright::scene {
 
@@ -47,5 +50,10 @@ vtkSmartPointer<vtkPolyData> makeArrows(std::span<const Arrow> arrows);
 
 /// A level slab with rounded corners under `top`, the box of what shall lie on it. [m]
 geometry::TriangleMesh makeSlab(const geometry::Box& top, double thickness, double rounding);
+
+void setColour(vtkActor& actor, const QColor& colour);
+
+/// Places an actor whose mesh is in millimetres. The pose is in metres, as everywhere.
+void setPose(vtkActor& actor, const base::Pose& pose);
 
 }  // namespace trapwright::scene

@@ -6,8 +6,7 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
-#include "ui/scene/actors.h"
-#include "ui/scene/contact_arrows.h"
+#include "ui/scene/force_legend.h"
 #include "ui/scene/layers.h"
 #include "ui/scene/meshes.h"
 

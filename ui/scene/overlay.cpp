@@ -10,12 +10,11 @@
 #include <cmath>
 
 #include "ui/scene/force_legend.h"
-#include "ui/scene/height_colours.h"
 #include "ui/scene/orbit_cube.h"
 #include "ui/scene/pose_row.h"
-#include "ui/scene/section_spans.h"
 #include "ui/scene/subject.h"
 #include "ui/scene/surface_places.h"
+#include "ui/scene/theme.h"
 
 namespace trapwright::scene {
 

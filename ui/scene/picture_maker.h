@@ -3,6 +3,7 @@
 #include <QFuture>
 #include <QImage>
 #include <QSize>
+
 #include <memory>
 
 #include "ui/scene/contents.h"

@@ -3,6 +3,7 @@
 #include <QFuture>
 #include <QImage>
 #include <QString>
+
 #include <memory>
 
 #include "ui/scene/camera.h"

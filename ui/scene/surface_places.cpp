@@ -1,5 +1,7 @@
 #include "ui/scene/surface_places.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +25,8 @@ std::vector<Vec2> sectionAt(const track::Track& track, double x) {
         points[i] = (1.0 - share) * before.points[i] + share * next->points[i];
     return points;
 }
+
+using base::Vec3;
 
 }  // namespace
 
@@ -69,6 +73,36 @@ std::vector<Vec3> lineAlong(const track::Track& track, double from, double to, d
     for (int i = 0; i <= pieces; ++i)
         line.push_back(track.shape.toRoom({from + (to - from) * i / pieces, y, z}));
     return line;
+}
+
+std::vector<SectionSpan> sectionSpans(const track::Track& track, const Camera& camera) {
+    const double aside = 0.5 * track.width + 0.12 * track.width;
+    const double gap = 0.012 * track.width;  // between one span and the next
+    const double tick = 0.035 * track.width;
+    const double z = -track.baseThickness;
+    const double middle = 0.5 * (track.begin() + track.end());
+    const auto depth = [&](double y) { return track.shape.toRoom({middle, y, z}).dot(camera.forward()); };
+    const double side = depth(-aside) <= depth(aside) ? -1.0 : 1.0;
+
+    const double trapBegin = track.sections[static_cast<std::size_t>(track.firstTrapSection)].x;
+    const double trapEnd = track.sections[static_cast<std::size_t>(track.lastTrapSection)].x;
+    const auto makeSpan = [&](const QString& name, double from, double to) {
+        SectionSpan span;
+        span.name = name;
+        span.length = to - from;
+        const double shrink = std::min(gap, 0.2 * span.length);
+        span.line = lineAlong(track, from + shrink, to - shrink, side * aside, z);
+        span.middle = track.shape.toRoom({0.5 * (from + to), side * aside, z});
+        span.inside = track.shape.toRoom({0.5 * (from + to), 0.0, z});
+        for (const double x : {from + shrink, to - shrink}) {
+            span.ticks.push_back(track.shape.toRoom({x, side * (aside - tick), z}));
+            span.ticks.push_back(track.shape.toRoom({x, side * (aside + tick), z}));
+        }
+        return span;
+    };
+    return {makeSpan(QCoreApplication::translate("scene", "Lead-in"), track.begin(), trapBegin),
+            makeSpan(QCoreApplication::translate("scene", "Trap"), trapBegin, trapEnd),
+            makeSpan(QCoreApplication::translate("scene", "Lead-out"), trapEnd, track.end())};
 }
 
 }  // namespace trapwright::scene

@@ -8,8 +8,8 @@
 #include <array>
 #include <string>
 
-#include "ui/scene/height_colours.h"
 #include "ui/scene/light_map.h"
+#include "ui/scene/theme.h"
 
 namespace trapwright::scene {
 

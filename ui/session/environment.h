@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "core/drive/address.h"
 #include "core/drive/drive.h"
 #include "core/drive/profile.h"
+#include "core/drive/transport.h"
 #include "core/trial/engine_registry.h"
 
 namespace trapwright::session {

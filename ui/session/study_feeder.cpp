@@ -2,7 +2,7 @@
 
 #include <QDateTime>
 
-#include "core/verify/speed_table.h"
+#include "core/verify/conveying.h"
 #include "ui/session/study_state.h"
 
 namespace trapwright::session {

@@ -40,15 +40,9 @@ base::Result<OpenedStudy> readStudy(store::StudyFile file) {
     if (!chosen) return chosen.error();
     auto study = readNewStudy(std::move(file), std::move(*design));
     if (!study) return study;
-    study->summaries = std::move(*summaries);
-    study->winners = std::move(*winners);
-    study->checks = std::move(*checks);
-    study->selections = std::move(*selections);
-    study->validations = std::move(*validations);
-    study->physicalValidations = std::move(*physical);
-    study->calibrations = std::move(*calibrations);
-    study->dropTests = std::move(*dropTests);
-    study->chosen = std::move(*chosen);
+    study->records = {std::move(*summaries),    std::move(*winners),     std::move(*checks),
+                      std::move(*selections),   std::move(*validations), std::move(*physical),
+                      std::move(*calibrations), std::move(*dropTests),   std::move(*chosen)};
     return study;
 }
 
@@ -57,19 +51,7 @@ base::Result<OpenedStudy> readNewStudy(store::StudyFile file, workflow::StudyDes
     if (!reader) return reader.error();
     auto ledger = file.openBeside();
     if (!ledger) return ledger.error();
-    return OpenedStudy{std::move(file),
-                       std::move(*reader),
-                       std::move(*ledger),
-                       std::move(design),
-                       {},
-                       {},
-                       {},
-                       {},
-                       {},
-                       {},
-                       {},
-                       {},
-                       {}};
+    return OpenedStudy{std::move(file), std::move(*reader), std::move(*ledger), std::move(design), {}};
 }
 
 void StudyOpening::start(const std::filesystem::path& path, const Environment& environment, Opened opened) {

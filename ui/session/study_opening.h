@@ -16,12 +16,8 @@
 
 namespace trapwright::session {
 
-/// All that a session shows of a study without reading it again.
-struct OpenedStudy {
-    store::StudyFile file;    // open for writing
-    store::StudyFile reader;  // the same study
-    store::StudyFile ledger;  // likewise, opened beside `file`
-    workflow::StudyDesign design;
+/// What a session shows of a study without reading it again.
+struct StudyRecords {
     std::vector<study::GenerationSummary> summaries;
     std::vector<study::Individual> winners;
     std::vector<study::CheckRecord> checks;
@@ -31,6 +27,14 @@ struct OpenedStudy {
     std::vector<calibration::Calibration> calibrations;
     std::vector<study::DropRecord> dropTests;
     std::optional<study::Individual> chosen;  // by the user
+};
+
+struct OpenedStudy {
+    store::StudyFile file;    // open for writing
+    store::StudyFile reader;  // the same study
+    store::StudyFile ledger;  // likewise, opened beside `file`
+    workflow::StudyDesign design;
+    StudyRecords records;
 };
 
 /// Reads a study that is open for writing. May be called on any thread.

@@ -126,7 +126,7 @@ base::Result<std::unique_ptr<StudySession>> StudySession::fork(const std::filesy
         if (const auto added = file->addDropTest(*drops); !added) return added.error();
     }
     auto study = readNewStudy(std::move(*file), {state_->settings, *state_->part.stored, state_->part.part});
-    if (study && drops) study->dropTests = {*drops};
+    if (study && drops) study->records.dropTests = {*drops};
     return makeSession(std::move(study), state_->environment);
 }
 

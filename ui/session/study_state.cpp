@@ -1,6 +1,6 @@
 #include "ui/session/study_state.h"
 
-#include "core/base/thread_priority.h"
+#include "core/base/parallel.h"
 
 namespace trapwright::session {
 
@@ -15,20 +15,12 @@ constexpr int kWorkSteps = 10;
 
 StudyState::StudyState(OpenedStudy study, const Environment& environmentGiven,
                        std::function<void(const QString& what, const QString& message)> failGiven)
-    : environment(environmentGiven),
+    : StudyRecords(std::move(study.records)),
+      environment(environmentGiven),
       path(study.file.path()),
       settings(std::move(study.design.settings)),
       part{std::make_shared<const store::StoredPart>(std::move(study.design.stored)), settings.part,
            std::move(study.design.part)},
-      summaries(std::move(study.summaries)),
-      winners(std::move(study.winners)),
-      checks(std::move(study.checks)),
-      selections(std::move(study.selections)),
-      validations(std::move(study.validations)),
-      physicalValidations(std::move(study.physicalValidations)),
-      calibrations(std::move(study.calibrations)),
-      dropTests(std::move(study.dropTests)),
-      chosen(std::move(study.chosen)),
       reader(std::move(study.reader)),
       fail(std::move(failGiven)),
       writer(std::move(study.file)),

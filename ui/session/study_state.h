@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/run_control.h"
-#include "core/study/learning_control.h"
+#include "core/study/evaluator.h"
 #include "core/workflow/study_trials.h"
 #include "ui/session/environment.h"
 #include "ui/session/study_opening.h"
@@ -62,7 +62,7 @@ using Deliver = base::Result<std::function<void()>>;
 
 /// The open study itself, which the session and its four parts share: what it holds, what goes on, its file
 /// and its threads. Values without a word belong to the GUI thread.
-struct StudyState {
+struct StudyState : StudyRecords {
     /// `fail` tells the user (StudySession::failed).
     StudyState(OpenedStudy study, const Environment& environmentGiven,
                std::function<void(const QString& what, const QString& message)> failGiven);
@@ -71,15 +71,6 @@ struct StudyState {
     std::filesystem::path path;
     study::Settings settings;
     PartVersion part;
-    std::vector<study::GenerationSummary> summaries;
-    std::vector<study::Individual> winners;
-    std::vector<study::CheckRecord> checks;
-    std::vector<study::SelectionRecord> selections;
-    std::vector<study::ValidationRecord> validations;
-    std::vector<study::PhysicalValidation> physicalValidations;
-    std::vector<calibration::Calibration> calibrations;
-    std::vector<study::DropRecord> dropTests;
-    std::optional<study::Individual> chosen;  // by the user
     std::vector<std::string> problems;
     std::vector<std::string> recommendations;
     std::optional<store::StudyFile> reader;

@@ -22,7 +22,6 @@
 #include "ui/window/farewell.h"
 #include "ui/window/help_place.h"
 #include "ui/window/page_docks.h"
-#include "ui/window/page_list.h"
 #include "ui/window/rail.h"
 #include "ui/window/scene_frame.h"
 #include "ui/window/status_line.h"

@@ -3,20 +3,43 @@
 #include <QHash>
 #include <QList>
 #include <QObject>
+#include <QWidget>
+
 #include <vector>
 
 class QAction;
 class QDockWidget;
+class QLabel;
 class QMainWindow;
 class QPoint;
 class QStackedWidget;
 class QTabBar;
+class QToolButton;
 
 namespace trapwright::pages {
 class Page;
 }
 
 namespace trapwright::window {
+
+/// The title bar of a dock: drag it to move the dock, double-click it to float it; two buttons float and
+/// close it. A dock that has a tab needs no title bar, and has none.
+class DockTitle : public QWidget {
+    Q_OBJECT
+ public:
+    explicit DockTitle(QDockWidget& dock);
+
+    void setTabbed(bool tabbed);
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+ private:
+    QToolButton* addButton(const QString& icon, const QString& text);
+
+    QWidget* bar_;
+    bool tabbed_ = false;
+};
 
 /// The docks around the scene: the inspector with the page that is shown, and one for each panel of a page.
 /// Docks move, float and close; every page has an arrangement of its own, which is remembered between starts.

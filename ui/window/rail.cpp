@@ -4,8 +4,14 @@
 #include <QLayout>
 #include <QToolButton>
 
+#include "ui/feeder/validate_page.h"
 #include "ui/look/icon.h"
+#include "ui/pages/evolve_page.h"
+#include "ui/pages/export_page.h"
 #include "ui/pages/page.h"
+#include "ui/pages/part_page.h"
+#include "ui/pages/review_page.h"
+#include "ui/pages/track_page.h"
 
 namespace trapwright::window {
 
@@ -27,6 +33,11 @@ constexpr auto kStyle =
     "font-weight: 600; }";
 
 }  // namespace
+
+std::vector<pages::Page*> makePages(pages::RunActions& run, const session::Environment& environment) {
+    return {new pages::PartPage,   new pages::TrackPage(run), new pages::EvolvePage(run),
+            new pages::ReviewPage, new pages::ExportPage,     new feeder::ValidatePage(environment)};
+}
 
 Rail::Rail(const std::vector<pages::Page*>& pages, QWidget* parent) : QToolBar(tr("Pages"), parent) {
     setObjectName("rail");

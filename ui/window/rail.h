@@ -8,6 +8,10 @@ class QActionGroup;
 
 namespace trapwright::pages {
 class Page;
+class RunActions;
+}  // namespace trapwright::pages
+namespace trapwright::session {
+struct Environment;
 }
 
 namespace trapwright::window {
@@ -28,5 +32,8 @@ class Rail : public QToolBar {
  private:
     std::vector<QAction*> actions_;
 };
+
+/// The pages of the studio in the order of the rail. The window takes them.
+std::vector<pages::Page*> makePages(pages::RunActions& run, const session::Environment& environment);
 
 }  // namespace trapwright::window

@@ -17,7 +17,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/drive/reo_frame.h"
+#include "core/drive/reo_drive.h"
 
 namespace trapwright::tests {
 

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/drive/address.h"
 #include "core/drive/feeder_model.h"
 #include "core/drive/profile.h"
+#include "core/drive/transport.h"
 
 namespace trapwright::tests {
 

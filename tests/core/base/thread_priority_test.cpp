@@ -1,4 +1,4 @@
-#include "core/base/thread_priority.h"
+#include "core/base/parallel.h"
 
 #include <sys/resource.h>
 

@@ -9,7 +9,6 @@
 #include "core/drive/modbus_drive.h"
 #include "core/drive/register_value.h"
 #include "core/drive/reo_drive.h"
-#include "core/drive/reo_frame.h"
 
 using namespace trapwright;
 using drive::State;

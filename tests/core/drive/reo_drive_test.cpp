@@ -3,8 +3,6 @@
 #include <QtTest>
 #include <cmath>
 
-#include "core/drive/reo_frame.h"
-
 using namespace trapwright;
 
 namespace {

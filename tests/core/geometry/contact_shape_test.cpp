@@ -8,7 +8,7 @@
 #include "core/geometry/convex_pieces.h"
 #include "core/geometry/mass_properties.h"
 #include "core/geometry/surface_distance.h"
-#include "core/geometry/winding.h"
+#include "core/geometry/triangle_mesh.h"
 #include "shapes.h"
 
 using namespace trapwright;

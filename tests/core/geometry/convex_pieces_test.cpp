@@ -6,8 +6,7 @@
 #include "core/base/random.h"
 #include "core/geometry/convex_hull.h"
 #include "core/geometry/mass_properties.h"
-#include "core/geometry/piece_merging.h"
-#include "core/geometry/winding.h"
+#include "core/geometry/triangle_mesh.h"
 #include "shapes.h"
 
 using namespace trapwright;

@@ -1,6 +1,6 @@
 // Packages that unpack to more than a model has, or to something else than they say.
 
-#include "core/geometry/package_size.h"
+#include "core/geometry/three_mf.h"
 
 #include <zip.h>
 

@@ -1,4 +1,4 @@
-#include "core/stats/family.h"
+#include "core/stats/rates.h"
 
 #include <QtTest>
 #include <algorithm>

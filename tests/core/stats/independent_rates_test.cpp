@@ -1,4 +1,4 @@
-#include "core/stats/independent_rates.h"
+#include "core/stats/rates.h"
 
 #include <QtTest>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "core/stats/paired_rates.h"
+#include "core/stats/rates.h"
 
 #include <QtTest>
 #include <cmath>

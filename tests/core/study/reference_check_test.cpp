@@ -5,7 +5,6 @@
 #include <future>
 #include <set>
 
-#include "core/study/background_checks.h"
 #include "core/study/runner.h"
 #include "fake_engine.h"
 #include "tests/core/objectives/paper_fitness.h"

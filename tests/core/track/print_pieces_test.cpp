@@ -6,7 +6,7 @@
 
 #include "core/geometry/mesh_check.h"
 #include "core/geometry/surface_distance.h"
-#include "core/geometry/winding.h"
+#include "core/geometry/triangle_mesh.h"
 #include "core/track/print_mount.h"
 #include "core/track/track_file.h"
 #include "track_scenes.h"

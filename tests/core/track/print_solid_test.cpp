@@ -239,9 +239,9 @@ class PrintSolidTest : public QObject {
     }
 
     void surfacesThatOverhangAreClosedAllTheSame() {
-        traps::TrapParameters encoding;
-        encoding.pointEncoding = traps::PointEncoding::free;
-        const Track track = track::buildTrack({}, testing::drawTrap(encoding, 5)).value();
+        traps::TrapParameters form;
+        form.encoding = traps::PointEncoding::free;
+        const Track track = track::buildTrack({}, testing::drawTrap(form, 5)).value();
         const auto solid = track::buildPrintSolid(track, makeOptions(5 * kMm, true, 4.5 * kMm));
         QVERIFY2(solid.ok(), solid.ok() ? "" : solid.error().message.c_str());
         QVERIFY(geometry::checkMesh(*solid).isSolid());

@@ -80,8 +80,7 @@ class TrackBuilderTest : public QObject {
 
  private slots:
     void layout() {
-        const TrapParameters encoding;
-        const auto trap = testing::drawTrap(encoding, 7);
+        const auto trap = testing::drawTrap({}, 7);
         const auto track = build({}, trap);
         QCOMPARE(track.sections.size(), std::size_t{2 + 5 + 2});
         QCOMPARE(track.begin(), 0.0);
@@ -130,29 +129,32 @@ class TrackBuilderTest : public QObject {
 
     void solidIsClosed_data() {
         QTest::addColumn<FeederShape>("shape");
-        QTest::addColumn<TrapParameters>("encoding");
+        QTest::addColumn<TrapParameters>("form");
         const FeederShape shapes[] = {FeederShape{}, testing::makeBowl(Conveying::clockwise),
                                       testing::makeBowl(Conveying::anticlockwise)};
+        TrapParameters twoPoints;
+        twoPoints.crossSections = 1;
+        twoPoints.pointsPerSection = 2;
         const char* shapeNames[] = {"linear", "clockwise", "anticlockwise"};
         for (std::size_t s = 0; s < 3; ++s) {
             for (const auto points : {PointEncoding::strip, PointEncoding::free}) {
-                TrapParameters encoding;
-                encoding.pointEncoding = points;
+                TrapParameters form;
+                form.encoding = points;
                 QTest::addRow("%s, %s", shapeNames[s], points == PointEncoding::strip ? "strip" : "free")
-                    << shapes[s] << encoding;
+                    << shapes[s] << form;
             }
-            QTest::addRow("%s, two points", shapeNames[s]) << shapes[s] << TrapParameters{1, 2};
+            QTest::addRow("%s, two points", shapeNames[s]) << shapes[s] << twoPoints;
         }
     }
     void solidIsClosed() {
         QFETCH(FeederShape, shape);
-        QFETCH(TrapParameters, encoding);
+        QFETCH(TrapParameters, form);
         TrackParameters parameters;
         parameters.shape = shape;
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
-            const auto track = build(parameters, testing::drawTrap(encoding, seed));
+            const auto track = build(parameters, testing::drawTrap(form, seed));
             QVERIFY(isClosedManifold(track.solid));
-            if (encoding.pointEncoding == PointEncoding::free) continue;
+            if (form.encoding == PointEncoding::free) continue;
             QVERIFY(calcVolume(track.solid) > 0.0);
             for (std::size_t t = 0; t < track.solid.triangles.size(); ++t) {
                 const base::Vec3 normal = geometry::triangleNormal(track.solid, t);
@@ -223,7 +225,7 @@ class TrackBuilderTest : public QObject {
         QTest::addColumn<TrackParameters>("parameters");
         QTest::addColumn<QString>("named");
         TrackParameters p;
-        p.width = -1.0;
+        p.segmentWidth = -1.0;
         QTest::newRow("width") << p << "segment width";
         p = {};
         p.leadInLength = 0.0;

@@ -7,15 +7,15 @@
 namespace trapwright::testing {
 
 /// A trap with every gene value drawn at random.
-inline std::vector<track::CrossSection> drawTrap(const traps::TrapParameters& encoding, std::uint64_t seed) {
+inline std::vector<track::CrossSection> drawTrap(const traps::TrapParameters& form, std::uint64_t seed) {
     base::Random random({seed, 0, 0, 0, base::Purpose::test});
-    std::vector<double> points(2 * static_cast<std::size_t>(encoding.sections * encoding.points));
-    std::vector<double> lengths(static_cast<std::size_t>(encoding.sections));
+    std::vector<double> points(2 * static_cast<std::size_t>(form.crossSections * form.pointsPerSection));
+    std::vector<double> lengths(static_cast<std::size_t>(form.crossSections));
     for (double& value : points)
         value = random.uniform();
     for (double& value : lengths)
         value = random.uniform();
-    return traps::decodeTrap(encoding, points, lengths);
+    return traps::decodeTrap(form, points, lengths);
 }
 
 inline track::FeederShape makeBowl(track::Conveying conveying) {
@@ -26,8 +26,8 @@ inline track::FeederShape makeBowl(track::Conveying conveying) {
 inline track::Track bend(const track::Track& track, const track::FeederShape& shape) {
     track::TrackParameters parameters;
     parameters.shape = shape;
-    parameters.width = track.width;
-    parameters.height = track.height;
+    parameters.segmentWidth = track.width;
+    parameters.segmentHeight = track.height;
     parameters.leadInLength = track.sections[1].x - track.begin();
     parameters.baseThickness = track.baseThickness;
     std::vector<track::CrossSection> trap(track.sections.begin() + 2,

@@ -133,16 +133,16 @@ class SmoothingTest : public QObject {
 
     // In strip encoding, smoothing gene values and smoothing the places that they stand for are the same.
     void stripValuesSmoothAsPlaces() {
-        const traps::TrapParameters encoding;
+        const traps::TrapParameters form;
         const std::vector<double> lengths(5, 0.5);
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             const auto values = drawValues(seed);
             base::Random first = makeRandom(seed);
             const auto smoothValues = traps::smoothSurface(values, kRows, kColumns, 0.5, first);
-            const auto decodedAfter = traps::decodeTrap(encoding, smoothValues, lengths);
+            const auto decodedAfter = traps::decodeTrap(form, smoothValues, lengths);
 
             std::vector<double> places;
-            for (const auto& section : traps::decodeTrap(encoding, values, lengths)) {
+            for (const auto& section : traps::decodeTrap(form, values, lengths)) {
                 for (const auto& point : section.points)
                     places.insert(places.end(), {point.x(), point.y()});
             }

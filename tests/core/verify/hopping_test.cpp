@@ -1,10 +1,8 @@
-#include "core/verify/hopping.h"
+#include "core/verify/predicted_speed.h"
 
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
-
-#include "core/verify/stick_slip.h"
 
 using namespace trapwright;
 

@@ -1,4 +1,4 @@
-#include "core/verify/stick_slip.h"
+#include "core/verify/predicted_speed.h"
 
 #include <QtTest>
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
 #include "core/study/presets.h"
-#include "core/study/track_trials.h"
+#include "core/study/trial_batches.h"
 #include "core/workflow/judging.h"
 #include "core/workflow/learning.h"
 #include "core/workflow/part_source.h"

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "tests/ui/sample_records.h"
-#include "ui/charts/sheet_csv.h"
+#include "ui/charts/sheet.h"
 
 using namespace trapwright;
 using charts::ChartSheet;

@@ -1,4 +1,4 @@
-#include "ui/charts/view_range.h"
+#include "ui/charts/axes.h"
 
 #include <QtTest>
 #include <limits>

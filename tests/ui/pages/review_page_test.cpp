@@ -146,6 +146,20 @@ class ReviewPageTest : public QObject {
                  qPrintable(text));
     }
 
+    void clickInTheTimeLineGoesThere() {
+        ReviewUser user(study_);
+        QVERIFY(user.waitForReplay());
+        auto* line = user.find<QSlider>("transport.line");
+        const auto clickAt = [line](double share) {
+            QTest::mouseClick(line, Qt::LeftButton, {}, {qRound(share * line->width()), line->height() / 2});
+        };
+        for (const double share : {0.75, 0.25}) {
+            clickAt(share);
+            QVERIFY2(std::abs(user.player().time() / user.player().duration() - share) < 0.02,
+                     qPrintable(QString::number(user.player().time())));
+        }
+    }
+
     void loopBeginsAgainAndSpeedHasItsLimits() {
         ReviewUser user(study_);
         QVERIFY(user.waitForReplay());

@@ -9,7 +9,7 @@
 #include "core/part/bundled.h"
 #include "core/part/import.h"
 #include "core/part/part_builder.h"
-#include "core/study/resource_tracks.h"
+#include "core/study/presets.h"
 #include "core/track/track_file.h"
 #include "ui/scene/scene_view.h"
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 
 #include "tests/ui/scene/scene_samples.h"
-#include "ui/scene/height_colours.h"
 #include "ui/scene/orbit_cube.h"
 #include "ui/scene/overlay.h"
 #include "ui/scene/subject.h"
 #include "ui/scene/surface_places.h"
+#include "ui/scene/theme.h"
 
 using namespace trapwright;
 using scene::SceneView;

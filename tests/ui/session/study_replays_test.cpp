@@ -24,7 +24,7 @@ Environment nativeEnvironment(const SessionFixture& fixture) {
 }  // namespace
 
 /// Trials of a study made again, simulated in earnest.
-class StudyTrialsTest : public QObject {
+class StudyReplaysTest : public QObject {
     Q_OBJECT
 
  private slots:
@@ -234,5 +234,5 @@ class StudyTrialsTest : public QObject {
     std::unique_ptr<StudySession> session_;
 };
 
-QTEST_GUILESS_MAIN(StudyTrialsTest)
-#include "study_trials_test.moc"
+QTEST_GUILESS_MAIN(StudyReplaysTest)
+#include "study_replays_test.moc"

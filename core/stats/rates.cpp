@@ -1,7 +1,8 @@
-#include "core/stats/independent_rates.h"
+#include "core/stats/rates.h"
+
+#include <boost/math/distributions/binomial.hpp>
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -171,6 +172,30 @@ double testBoschloo(const RatePair& pair) {
     // No successes divide in one way only: that is rejected if everything is.
     if (levels.front() > 0.0) return fisher;
     return std::min(fisher, maximizeLevel(levels));
+}
+
+double testMcNemar(int onlyFirst, int onlySecond) {
+    assert(onlyFirst >= 0 && onlySecond >= 0);
+    const int differ = onlyFirst + onlySecond;
+    if (differ == 0) return 1.0;
+    const boost::math::binomial_distribution<> fair(differ, 0.5);
+    return std::min(1.0, 2.0 * boost::math::cdf(fair, std::min(onlyFirst, onlySecond)));
+}
+
+std::vector<double> adjustHolm(std::span<const double> probabilities) {
+    std::vector<std::size_t> order(probabilities.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return probabilities[a] < probabilities[b]; });
+    std::vector<double> adjusted(probabilities.size());
+    double largest = 0.0;
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+        // The smaller ones are rejected first; as many hypotheses as are left share the level.
+        const double left = static_cast<double>(order.size() - rank);
+        largest = std::max(largest, std::min(1.0, left * probabilities[order[rank]]));
+        adjusted[order[rank]] = largest;
+    }
+    return adjusted;
 }
 
 }  // namespace trapwright::stats

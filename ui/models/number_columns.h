@@ -1,12 +1,33 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/objectives/objectives.h"
+#include "core/search/search.h"
 #include "ui/models/numbers.h"
 #include "ui/models/record_model.h"
 
 namespace trapwright::models {
+
+/// The column of a number that the search knows of each row: a trait, or a curve. Empty where a row has it
+/// not.
+template <class Row>
+Column<Row> numberColumn(const search::NumberInfo& info,
+                         std::span<const search::NamedNumber> (*numbersOf)(const Row&)) {
+    const auto find = [key = info.key, numbersOf](const Row& row) {
+        return search::findNumber(numbersOf(row), key);
+    };
+    return {QString::fromStdString(info.key), QString::fromStdString(info.help),
+            [find](const Row& row) {
+                const auto number = find(row);
+                return number ? QVariant(*number) : QVariant();
+            },
+            [find, decimals = info.decimals](const Row& row) {
+                const auto number = find(row);
+                return number ? fixed(*number, decimals) : QString();
+            }};
+}
 
 /// The objectives that get a column, those for everybody or those for who looks into the algorithm; not
 /// success, which tables show with its bounds. `isNoisy`: only those that differ from trials to trials.

@@ -1,10 +1,16 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/stats/binomial.h"
 
 /// Comparing success rates on trials of their own.
+
+/// Comparing two success rates on the same trials.
+
+/// Many tests in one table.
+
 namespace trapwright::stats {
 
 /// Two rates that are compared.
@@ -26,5 +32,15 @@ double testFisher(std::span<const RatePair> pairs);
 /// probability as small as this one. Never more than testFisher(), and still at most the stated level wrong
 /// where the rates are equal. Takes a time of a.trials times b.trials: 0.1 s for 6000 and 600.
 double testBoschloo(const RatePair& pair);
+
+/// McNemar's test (1947) in its exact form, two-sided: the probability that trials which differ at all would
+/// fall at least as unevenly if either way were equally probable. The trials that succeed, or fail, on both
+/// sides tell nothing. Counts of trials that succeeded on one side only, not negative; none give 1.
+double testMcNemar(int onlyFirst, int onlySecond);
+
+/// Holm's adjustment (1979): rejecting where the adjusted probability is at most a level rejects any true
+/// hypothesis of the family with at most that probability, whatever the tests have to do with each other. In
+/// the order given.
+std::vector<double> adjustHolm(std::span<const double> probabilities);
 
 }  // namespace trapwright::stats

@@ -1,4 +1,4 @@
-#include "ui/charts/sheet_csv.h"
+#include "ui/charts/sheet.h"
 
 #include <map>
 

@@ -2,7 +2,16 @@
 
 #include "core/base/math.h"
 
+// Simbody's headers are no C++20: what they are compiled with keeps to C++17, as this does.
+
 namespace trapwright::trial {
+
+/// The material pair. Values and their sources are in resources/materials.
+struct ContactParameters {
+    double staticFriction = 0.5;
+    double kineticFriction = 0.5;
+    double restitution = 0.2;
+};
 
 /// A body of a trial: the part of this place in TrialSpec::parts, or the track.
 using Body = int;
