@@ -5,16 +5,24 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <IFSelect_ReturnStatus.hxx>
+#include <IFSelect_WorkLibrary.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
+#include <Interface_EntityIterator.hxx>
+#include <Interface_Graph.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_Protocol.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Poly_Triangulation.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
+#include <StepRepr_Representation.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepRepr_RepresentationMap.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
@@ -25,6 +33,7 @@
 #include <XSControl_Reader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <exception>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -138,6 +147,59 @@ std::string findFail(XSControl_Reader& reader) {
     return {};
 }
 
+/// Whether what this entity of a STEP model consists of may not contain it again (ISO 10303-43).
+bool isShape(const Handle(Standard_Transient) & entity) {
+    return entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationItem)) ||
+           entity->IsKind(STANDARD_TYPE(StepRepr_Representation)) ||
+           entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationMap));
+}
+
+/// What is wrong if a shape of a STEP model is part of itself, by whatever way; empty if none is. OpenCASCADE
+/// follows such references until its stack is full.
+std::string findCircle(const Handle(Interface_InterfaceModel) & model,
+                       const Handle(Interface_Protocol) & protocol) {
+    const Interface_Graph graph(model, protocol, false);
+    const auto shapesIn = [&](int entity) {
+        std::vector<int> numbers;
+        Interface_EntityIterator references = graph.Shareds(model->Value(entity));
+        for (references.Start(); references.More(); references.Next()) {
+            if (isShape(references.Value())) numbers.push_back(model->Number(references.Value()));
+        }
+        return numbers;
+    };
+    enum class Visit : char { none, begun, done };
+    std::vector<Visit> visits(static_cast<std::size_t>(model->NbEntities()) + 1, Visit::none);  // from 1
+    struct Step {
+        int entity;
+        std::vector<int> left;  // of its references
+    };
+    std::vector<Step> path;
+    const auto enter = [&](int entity) {
+        visits[static_cast<std::size_t>(entity)] = Visit::begun;
+        path.push_back({entity, shapesIn(entity)});
+    };
+    for (int root = 1; root <= model->NbEntities(); ++root) {
+        if (visits[static_cast<std::size_t>(root)] != Visit::none || !isShape(model->Value(root))) continue;
+        enter(root);
+        while (!path.empty()) {
+            Step& step = path.back();
+            if (step.left.empty()) {
+                visits[static_cast<std::size_t>(step.entity)] = Visit::done;
+                path.pop_back();
+                continue;
+            }
+            const int next = step.left.back();
+            step.left.pop_back();
+            if (next < 1 || visits[static_cast<std::size_t>(next)] == Visit::done) continue;
+            if (visits[static_cast<std::size_t>(next)] == Visit::begun)
+                return fmt::format("{} is a part of itself",
+                                   model->StringLabel(model->Value(next))->ToCString());
+            enter(next);
+        }
+    }
+    return {};
+}
+
 /// Runs a reader and turns what it throws into an error.
 template <class Read>
 base::Result<FileMesh> guarded(const std::filesystem::path& path, const char* format, Read read) {
@@ -157,8 +219,17 @@ base::Result<FileMesh> guarded(const std::filesystem::path& path, const char* fo
 base::Result<FileMesh> readStepFile(const std::filesystem::path& path) {
     return guarded(path, "STEP", [&]() -> base::Result<FileMesh> {
         STEPControl_Reader reader;
-        const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
-        if (status != IFSelect_RetDone) return unreadable(path, "STEP", describe(status));
+        // As reader.ReadFile does it, but for the look at the model before it is checked.
+        const Handle(XSControl_WorkSession) session = reader.WS();
+        Handle(Interface_InterfaceModel) model;
+        const int status = session->WorkLibrary()->ReadFile(path.c_str(), model, session->Protocol());
+        if (status != 0)
+            return unreadable(path, "STEP", describe(status < 0 ? IFSelect_RetError : IFSelect_RetFail));
+        if (model.IsNull()) return unreadable(path, "STEP", describe(IFSelect_RetVoid));
+        if (const std::string circle = findCircle(model, session->Protocol()); !circle.empty())
+            return unreadable(path, "STEP", circle);
+        session->SetModel(model);
+        session->InitTransferReader(4);  // empty, for this model
         if (const std::string fail = findFail(reader); !fail.empty()) return unreadable(path, "STEP", fail);
         TColStd_SequenceOfAsciiString lengths;
         TColStd_SequenceOfAsciiString angles;

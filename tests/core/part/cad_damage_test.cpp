@@ -80,6 +80,20 @@ class CadDamageTest : public QObject {
         QVERIFY(QString::fromStdString(read.error().message).contains("#398"));
     }
 
+    // OpenCASCADE's own check of the model would follow the edge until the stack is full.
+    void anEdgeThatIsAPartOfItself() {
+        const std::string sound = "#20 = ORIENTED_EDGE('',*,*,#21,";
+        std::vector<std::string> lines = lines_;
+        const auto found = std::find_if(lines.begin(), lines.end(),
+                                        [&](const std::string& line) { return line.starts_with(sound); });
+        QVERIFY(found != lines.end());
+        found->replace(found->find("#21"), 3, "#20");
+        QVERIFY(write(lines).ok());
+        QCOMPARE(readApart(path_), Ending::refused);
+        const auto read = part::readStepFile(path_);
+        QVERIFY(QString::fromStdString(read.error().message).contains("#20 is a part of itself"));
+    }
+
     // TRAPWRIGHT_EVERY_LINE=1 tries all of them.
     void anyLineThatIsMissing() {
         const std::size_t step = qEnvironmentVariableIsSet("TRAPWRIGHT_EVERY_LINE") ? 1 : 12;
