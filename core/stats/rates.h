@@ -5,11 +5,7 @@
 
 #include "core/stats/binomial.h"
 
-/// Comparing success rates on trials of their own.
-
-/// Comparing two success rates on the same trials.
-
-/// Many tests in one table.
+/// Comparing success rates: of trials of their own, of the same trials, and many comparisons in one table.
 
 namespace trapwright::stats {
 

@@ -27,9 +27,9 @@ int countCheckTrials(const Individual& winner);
 base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::Engine& reference,
                                       const Individual& winner, const base::RunControl& control);
 
-/// Checks winners (reference_check.h) on one thread of its own, of the lowest priority, so that learning is
-/// not slowed and never waits. The latest winner comes first, because it is
-/// the one that somebody who watches wants to know of. Used by one thread.
+/// Checks winners (checkWinner) on one thread of its own, of the lowest priority, so that learning is not
+/// slowed and never waits. The latest winner comes first, because it is the one that somebody who watches
+/// wants to know of. Used by one thread.
 class BackgroundChecks {
  public:
     /// The engine of the inputs learned. Both engines shall use one thread.
