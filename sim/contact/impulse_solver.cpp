@@ -155,8 +155,11 @@ void preparePair(scalar::PairConstraint& row, const scalar::MovingContact& touch
         inverse.along[k] = 1.0 + scalar::dot(row.turn[k], row.turn[k]) +
                            row.ratio * (1.0 + scalar::dot(row.turnA[k], row.turnA[k]));
     }
-    inverse.coupling =
-        scalar::dot(row.turn[1], row.turn[2]) + row.ratio * scalar::dot(row.turnA[1], row.turnA[2]);
+    const auto couple = [&](int k, int l) {
+        return scalar::dot(row.turn[k], row.turn[l]) + row.ratio * scalar::dot(row.turnA[k], row.turnA[l]);
+    };
+    inverse.coupling = couple(1, 2);
+    inverse.normalCoupling = {couple(0, 1), couple(0, 2)};
     scalar::applyLaw(row, touch, inverse, speedBefore, law, dt);
 }
 

@@ -12,8 +12,6 @@ using Indices = std::vector<int>;
 
 /// Contacts whose normals differ by less belong to one plane. (cosine)
 constexpr double kSameNormal = 0.9998;
-/// Contacts of one plane nearer to each other than this are one. [m]
-constexpr double kSamePlace = 0.2e-3;
 /// A gap counts this many times as much as a distance within the plane when contacts are chosen.
 constexpr double kGapWeight = 30.0;
 

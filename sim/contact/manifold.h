@@ -13,6 +13,9 @@ struct ManifoldPoint {
     double gap;         // [m]
 };
 
+/// Contacts of one plane nearer to each other than this are one. [m]
+inline constexpr double kSamePlace = 0.2e-3;
+
 /// Puts into `kept` the indices of contacts that stand for all of them, in order, and returns how many: of
 /// contacts that say the same (same normal, same place) the lowest; if these are more than `kept` holds, of
 /// contacts with the same normal (a face lying on a plane) the lowest and those that span the widest figure.

@@ -24,7 +24,7 @@ namespace trapwright::native::HWY_NAMESPACE {
 #include "sim/contact/formulas/law.inl"
 #include "sim/contact/formulas/step.inl"
 #include "sim/native/motion.inl"
-#include "sim/native/feature_tests.inl"
+#include "sim/native/collecting.inl"
 #include "sim/native/detection.inl"
 #include "sim/native/solving.inl"
 // clang-format on
@@ -35,7 +35,6 @@ void endLap(TrialLanes& group, double trial::Costs::*what) {
 
 void beginStepOf(TrialLanes& group) {
     const int width = static_cast<int>(hn::Lanes(Tag()));
-    group.looking.clear();
     for (int lane = 0; lane < group.count(); lane += width) {
         moveFreely(group, lane);
         moveTrack(group, lane);
@@ -45,28 +44,25 @@ void beginStepOf(TrialLanes& group) {
 
 void finishStepOf(TrialLanes& group) {
     endLap(group, &trial::Costs::integration);
-    std::size_t next = 0;
-    for (int lane = 0; lane < group.count(); ++lane) {
-        group.found.clear();
-        if (next < group.looking.size() && group.looking[next] == lane) {
-            ++next;
-            findContacts(group, lane);
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    placeCentres(group);
+    for (int first = 0; first < group.count(); first += width) {
+        const std::uint32_t carries = findContacts(group, first);
+        const int end = std::min(first + width, group.count());
+        for (int lane = first; lane < end; ++lane) {
+            ContactList& found = group.found[static_cast<std::size_t>(lane)];
+            if (((carries >> static_cast<unsigned>(lane - first)) & 1U) == 0) {
+                rememberIdle(group, lane);
+                continue;
+            }
+            found.sort();
+            if (found.size() > kFew) reduceContacts(found);
+            beginSolving(group, lane);
         }
-        if (group.found.empty() || !anyCarries(group, lane)) {
-            rememberIdle(group, lane);
-            continue;
-        }
-        if (group.found.size() > kFew) reduceContacts(group.found);
-        endLap(group, &trial::Costs::detection);
-        enqueue(group, lane);
-        endLap(group, &trial::Costs::law);
     }
     endLap(group, &trial::Costs::detection);
-    for (SolveBatch& batch : group.solveBatches) {
-        if (batch.filled > 0) solveBatch(group, batch);
-    }
+    solveCarrying(group);
     endLap(group, &trial::Costs::law);
-    const int width = static_cast<int>(hn::Lanes(Tag()));
     for (int lane = 0; lane < group.count(); lane += width)
         movePose(group, lane);
     movePositions(group);

@@ -83,9 +83,10 @@ inline Real sqrt(Real a) {
     return Real(hn::Sqrt(a.lanes));
 }
 inline Real inverseSqrt(Real a) {
-    // Two steps of Newton's from the machine's own guess.
+    // Newton's steps from the machine's own guess, which is good to 12 bits or more; without one, to 9.
+    constexpr int kSteps = HWY_TARGET == HWY_SCALAR ? 2 : 1;
     Real guess(hn::ApproximateReciprocalSqrt(a.lanes));
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < kSteps; ++i)
         guess = guess * (Real(1.5) - Real(0.5) * a * guess * guess);
     return guess;
 }
@@ -114,6 +115,11 @@ inline std::uint32_t bitsOf(Mask mask) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(Tag(), mask.bits, bytes);
     return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
+}
+
+inline Mask maskOf(std::uint32_t bits) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8U)};
+    return {hn::LoadMaskBits(Tag(), bytes)};
 }
 
 /// Four floats at once, whatever the width of Real: what belongs to one feature of the track.

@@ -137,29 +137,18 @@ inline Progress calcProgress(const TrialLanes& group, int lane, int velocityFiel
     return progress;
 }
 
-/// Added to what a part can come near in a step. [m]
-constexpr double kReserve = 1e-6;
-
 inline void lookAhead(TrialLanes& group, int lane) {
     const Progress step = calcProgress(group, lane, kAfterX, kAfterSpinX);
     setThree(group, kStepX, lane, step.way);
     set(group, kStepPath, lane, step.path);
     set(group, kStepTurned, lane, step.turned);
-    const Real reach = get(group, kPath, lane) + get(group, kTurned, lane) + step.path + step.turned;
-    std::uint32_t bits = bitsOf(reach + Real(kReserve) >= get(group, kNextLook, lane));
-    for (; bits != 0; bits &= bits - 1) {
-        const int i = lane + static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-        if (i < group.count()) group.looking.push_back(i);
-    }
 }
 
 /// The pose at the step's end.
 inline void movePose(TrialLanes& group, int lane) {
     const Real dt = group.model().dt;
     const Progress step = calcProgress(group, lane, kAdvanceX, kAdvanceSpinX);
-    setThree(group, kWayX, lane, getThree(group, kWayX, lane) + step.way);
-    set(group, kPath, lane, get(group, kPath, lane) + step.path);
-    set(group, kTurned, lane, get(group, kTurned, lane) + step.turned);
+    set(group, kGone, lane, get(group, kGone, lane) + step.path + step.turned);
 
     // A rotation whose axis wanders is not the mean angular velocity times the step: the next terms of
     // Magnus' series (Iserles et al. 2000, section 4).

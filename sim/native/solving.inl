@@ -91,6 +91,12 @@ inline Triple loadTouchThree(SolveBatch& batch, int row, int field) {
     return {loadTouch(batch, row, field), loadTouch(batch, row, field + 1), loadTouch(batch, row, field + 2)};
 }
 
+/// A contact that does nothing.
+inline void clearTouch(SolveBatch& batch, int row, int slot) {
+    for (int f = 0; f < kContactFields; ++f)
+        batch.touch(row, f)[slot] = f == kGap ? 1.0F : 0.0F;
+}
+
 inline MovingContact loadContact(const TrialLanes& group, SolveBatch& batch, int row,
                                  const TrackMotion& track) {
     MovingContact touch;
@@ -107,28 +113,82 @@ inline MovingContact loadContact(const TrialLanes& group, SolveBatch& batch, int
         touch.trackVelocityBefore = {track.beforeX, Real(0.0), track.beforeZ};
     }
     const Real state = loadTouch(batch, row, kState);
-    touch.known = state > Real(0.5);
-    touch.slid = state > Real(1.5);
+    touch.known = state >= Real(kStuckContact);
+    touch.slid = state >= Real(kSlidContact);
     touch.normalImpulse = loadTouch(batch, row, kNormalImpulse);
     touch.tangentialImpulse = {loadTouch(batch, row, kAlongImpulse), loadTouch(batch, row, kAcrossImpulse)};
     return touch;
 }
 
-inline void scatterThree(TrialLanes& group, const SolveBatch& batch, int field, const Triple& value) {
+/// Into the lanes of the slots that are set in `bits`.
+inline void scatterThree(TrialLanes& group, const SolveBatch& batch, std::uint32_t bits, int field,
+                         const Triple& value) {
     alignas(64) float values[3][kWidestVector];
     store(value.x, values[0]);
     store(value.y, values[1]);
     store(value.z, values[2]);
     for (int k = 0; k < 3; ++k) {
         float* to = group.field(field + k);
-        for (int slot = 0; slot < batch.filled; ++slot)
-            to[batch.lanes[slot]] = values[k][slot];
+        forEachBit(bits,
+                   [&](int slot) { to[batch.lanes[static_cast<std::size_t>(slot)]] = values[k][slot]; });
     }
 }
 
-inline void remember(TrialLanes& group, const SolveBatch& batch, const ContactConstraint* rows) {
-    for (int slot = 0; slot < batch.filled; ++slot)
-        group.warmStarts[batch.lanes[slot]].carrying = 0;
+/// Lanes that have not converged after so many iterations wait for others to be solved with, so that a few
+/// slow ones do not hold up the rest of a vector.
+constexpr int kFirstRound = 8;
+
+/// Has one lane wait to be solved with those that have as many contacts.
+inline void await(const TrialLanes& group, LanesByContacts& waiting, int lane) {
+    waiting[group.found[static_cast<std::size_t>(lane)].size()].push_back(lane);
+}
+
+/// Gives the contacts of one lane what the last step left, and has the lane wait to be solved.
+inline void beginSolving(TrialLanes& group, int lane) {
+    const auto place = static_cast<std::size_t>(lane);
+    const WarmStartCache& memory = group.warmStarts[place];
+    ContactList& found = group.found[place];
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        Contact& contact = found[i];
+        int known = 0;
+        while (known < memory.count && memory.feature[known] != contact.feature)
+            ++known;
+        const bool remembered = known < memory.count;
+        contact.values[kNormalImpulse] = remembered ? memory.normal[known] : 0.0F;
+        contact.values[kAlongImpulse] = remembered ? memory.along[known] : 0.0F;
+        contact.values[kAcrossImpulse] = remembered ? memory.across[known] : 0.0F;
+        const ContactState state =
+            remembered ? (memory.slid[known] ? kSlidContact : kStuckContact) : kNewContact;
+        contact.values[kState] = static_cast<float>(state);
+    }
+    group.plastic[place] = 0;
+    await(group, group.carrying, lane);
+}
+
+/// Takes up from the round before; impacts of `plastic` lanes are plastic.
+inline void goOn(ContactConstraint* rows, SolveBatch& batch, Mask plastic) {
+    for (int r = 0; r < batch.rows; ++r) {
+        ContactConstraint& row = rows[r];
+        row.normal = loadTouch(batch, r, kNormalImpulse);
+        row.tangential = {loadTouch(batch, r, kAlongImpulse), loadTouch(batch, r, kAcrossImpulse)};
+        row.shape = {loadTouch(batch, r, kOnTheWay) > Real(0.0),
+                     {loadTouch(batch, r, kDirectionAlong), loadTouch(batch, r, kDirectionAcross)}};
+        row.target = select(plastic, min(row.target, Real(0.0)), row.target);
+    }
+}
+
+/// Remembers what the contacts of these slots' lanes gave.
+inline void remember(TrialLanes& group, const SolveBatch& batch, const ContactConstraint* rows,
+                     std::uint32_t bits) {
+    forEachBit(bits, [&](int slot) {
+        const auto lane = static_cast<std::size_t>(batch.lanes[static_cast<std::size_t>(slot)]);
+        const ContactList& found = group.found[lane];
+        WarmStartCache& memory = group.warmStarts[lane];
+        memory.count = static_cast<int>(found.size());
+        memory.carrying = 0;
+        for (int i = 0; i < memory.count; ++i)
+            memory.feature[i] = found[static_cast<std::size_t>(i)].feature;
+    });
     for (int r = 0; r < batch.rows; ++r) {
         const ContactConstraint& row = rows[r];
         alignas(64) float normal[kWidestVector];
@@ -141,15 +201,16 @@ inline void remember(TrialLanes& group, const SolveBatch& batch, const ContactCo
         store(select(impact, Real(0.0), row.tangential.y), across);
         const std::uint32_t sliding = bitsOf(row.sliding);
         const std::uint32_t carrying = bitsOf(row.normal > Real(0.0));
-        for (int slot = 0; slot < batch.filled; ++slot) {
-            WarmStartCache& memory = group.warmStarts[batch.lanes[slot]];
-            if (r >= memory.count) continue;
+        forEachBit(bits, [&](int slot) {
+            WarmStartCache& memory =
+                group.warmStarts[static_cast<std::size_t>(batch.lanes[static_cast<std::size_t>(slot)])];
+            if (r >= memory.count) return;
             memory.normal[r] = normal[slot];
             memory.along[r] = along[slot];
             memory.across[r] = across[slot];
             memory.slid[r] = ((sliding >> static_cast<unsigned>(slot)) & 1U) != 0;
             memory.carrying += static_cast<int>((carrying >> static_cast<unsigned>(slot)) & 1U);
-        }
+        });
     }
 }
 
@@ -170,15 +231,43 @@ inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, co
     }
 }
 
-/// Solves all lanes of a batch and empties it.
+/// Has the lanes of these slots solved further, from what their contacts have now; those of `plastic` from
+/// nothing.
+inline void awaitAgain(TrialLanes& group, const SolveBatch& batch, const ContactConstraint* rows,
+                       std::uint32_t bits, std::uint32_t plastic) {
+    alignas(64) float states[kMostContacts][6][kWidestVector];
+    for (int r = 0; r < batch.rows; ++r) {
+        store(rows[r].normal, states[r][0]);
+        store(rows[r].tangential.x, states[r][1]);
+        store(rows[r].tangential.y, states[r][2]);
+        store(select(rows[r].shape.onTheWay, Real(1.0), Real(0.0)), states[r][3]);
+        store(rows[r].shape.direction.x, states[r][4]);
+        store(rows[r].shape.direction.y, states[r][5]);
+    }
+    forEachBit(bits, [&](int slot) {
+        const std::int32_t lane = batch.lanes[static_cast<std::size_t>(slot)];
+        const auto place = static_cast<std::size_t>(lane);
+        const bool isPlastic = ((plastic >> static_cast<unsigned>(slot)) & 1U) != 0;
+        if (isPlastic) group.plastic[place] = 1;
+        ContactList& found = group.found[place];
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            auto& values = found[i].values;
+            for (std::size_t k = 0; k < 3; ++k) {
+                values[kNormalImpulse + k] = isPlastic ? 0.0F : states[i][k][slot];
+                values[kOnTheWay + k] = states[i][3 + k][slot];
+            }
+        }
+        await(group, group.unfinished, lane);
+    });
+}
+
+/// Solves all lanes of a batch, as far as its round does, and empties it.
 inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
     // Slots that are left over do what the first one does, without its contacts.
     for (int slot = batch.filled; slot < static_cast<int>(hn::Lanes(Tag())); ++slot) {
-        batch.lanes[slot] = batch.lanes[0];
-        for (int row = 0; row < batch.rows; ++row) {
-            for (int f = 0; f < kContactFields; ++f)
-                batch.touch(row, f)[slot] = f == kGap ? 1.0F : 0.0F;
-        }
+        batch.lanes[static_cast<std::size_t>(slot)] = batch.lanes[0];
+        for (int row = 0; row < batch.rows; ++row)
+            clearTouch(batch, row, slot);
     }
     const Index lanes = hn::LoadU(hn::RebindToSigned<Tag>(), batch.lanes.data());
     const Scaling scaling{{{gatherThree(group, kAxes, lanes), gatherThree(group, kAxes + 3, lanes),
@@ -193,68 +282,93 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
     const TrackMotion track = gatherTrackMotion(group, lanes);
     const Matrix turns = scaling.turns();
     const Real dt = group.model().dt;
-    ContactConstraint rows[WarmStartCache::kMost];
+    ContactConstraint rows[kMostContacts];
     for (int row = 0; row < batch.rows; ++row)
         prepareConstraint(rows[row], loadContact(group, batch, row, track), turns, before, free, law, dt);
-    const Motion after = solve(rows, batch.rows, free);
+    std::uint32_t plastic = 0;
+    if (batch.shaped) {
+        for (int slot = 0; slot < batch.filled; ++slot) {
+            const auto lane = static_cast<std::size_t>(batch.lanes[static_cast<std::size_t>(slot)]);
+            plastic |= std::uint32_t{group.plastic[lane]} << static_cast<unsigned>(slot);
+        }
+        goOn(rows, batch, maskOf(plastic));
+    }
+
+    const std::uint32_t there = (1U << static_cast<unsigned>(batch.filled)) - 1U;
+    const int iterations = batch.shaped ? kMaxIterations - kFirstRound : kFirstRound;
+    const auto solved = iterate(rows, batch.rows, free, !maskOf(there), iterations, batch.shaped);
+    const Motion& after = solved.motion;
+    const std::uint32_t converged = batch.shaped ? there : bitsOf(solved.converged) & there;
+    const std::uint32_t energetic = bitsOf(createsEnergy(rows, batch.rows, after)) & converged & ~plastic;
+    const std::uint32_t settled = converged & ~energetic;
     const Motion advance = advancePose(rows, batch.rows, free, after, dt);
 
-    scatterThree(group, batch, kAfterX, after.velocity);
-    scatterThree(group, batch, kAfterSpinX, scaling.unscale(after.spin));
-    scatterThree(group, batch, kAdvanceX, advance.velocity);
-    scatterThree(group, batch, kAdvanceSpinX, scaling.unscale(advance.spin));
-    remember(group, batch, rows);
-    if (group.recorded != nullptr) record(*group.recorded, batch, rows);
+    scatterThree(group, batch, settled, kAfterX, after.velocity);
+    scatterThree(group, batch, settled, kAfterSpinX, scaling.unscale(after.spin));
+    scatterThree(group, batch, settled, kAdvanceX, advance.velocity);
+    scatterThree(group, batch, settled, kAdvanceSpinX, scaling.unscale(advance.spin));
+    remember(group, batch, rows, settled);
+    if (group.recorded != nullptr && settled != 0) record(*group.recorded, batch, rows);
+    if (settled != there) awaitAgain(group, batch, rows, there & ~settled, energetic);
     batch.filled = 0;
 }
 
-/// Puts the contacts of one lane, group.found, into the batch that they fit into.
+/// Puts the contacts of one lane into the next slot of the batch.
 inline void enqueue(TrialLanes& group, int lane) {
-    const int count = static_cast<int>(group.found.size());
-    std::size_t size = 0;
-    while (kSolveRows[size] < count)
-        ++size;
-    SolveBatch& batch = group.solveBatches[size];
+    SolveBatch& batch = group.solveBatch;
     const int slot = batch.filled++;
-    batch.lanes[slot] = lane;
-
-    WarmStartCache& memory = group.warmStarts[lane];
-    const WarmStartCache old = memory;
-    memory.count = count;
-    for (int row = 0; row < batch.rows; ++row) {
+    batch.lanes[static_cast<std::size_t>(slot)] = lane;
+    const ContactList& found = group.found[static_cast<std::size_t>(lane)];
+    const int count = static_cast<int>(found.size());
+    const int fields = batch.shaped ? static_cast<int>(kContactFields) : kState + 1;
+    for (int row = 0; row < count; ++row) {
         float* touch = batch.touch(row, 0) + slot;
-        const auto set = [touch](int field, float value) { touch[field * kWidestVector] = value; };
-        if (row >= count) {
-            for (int f = 0; f < kContactFields; ++f)
-                set(f, f == kGap ? 1.0F : 0.0F);
-            continue;
-        }
-        const Contact& contact = group.found[static_cast<std::size_t>(row)];
-        for (int k = 0; k < 3; ++k) {
-            set(kArmX + k, contact.arm[k]);
-            set(kNormalX + k, contact.normal[k]);
-        }
-        set(kGap, contact.gap);
-        int known = 0;
-        while (known < old.count && old.feature[known] != contact.feature)
-            ++known;
-        const bool found = known < old.count;
-        set(kNormalImpulse, found ? old.normal[known] : 0.0F);
-        set(kAlongImpulse, found ? old.along[known] : 0.0F);
-        set(kAcrossImpulse, found ? old.across[known] : 0.0F);
-        set(kState, found ? (old.slid[known] ? 2.0F : 1.0F) : 0.0F);
-        memory.feature[row] = contact.feature;
+        const auto& values = found[static_cast<std::size_t>(row)].values;
+        for (int f = 0; f < fields; ++f)
+            touch[f * kWidestVector] = values[static_cast<std::size_t>(f)];
     }
-    if (batch.filled == static_cast<int>(hn::Lanes(Tag()))) solveBatch(group, batch);
+    for (int row = count; row < batch.rows; ++row)
+        clearTouch(batch, row, slot);
+}
+
+/// Solves these lanes, those with like numbers of contacts side by side, as far as one round does.
+inline void solveRound(TrialLanes& group, LanesByContacts& byContacts, bool shaped) {
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    SolveBatch& batch = group.solveBatch;
+    batch.shaped = shaped;
+    std::vector<std::int32_t>& waiting = group.waiting;
+    waiting.clear();
+    for (std::vector<std::int32_t>& lanes : byContacts) {
+        waiting.insert(waiting.end(), lanes.begin(), lanes.end());
+        lanes.clear();
+    }
+    const int count = static_cast<int>(waiting.size());
+    for (int first = 0; first < count; first += width) {
+        const int end = std::min(first + width, count);
+        const auto last = static_cast<std::size_t>(waiting[static_cast<std::size_t>(end - 1)]);
+        batch.rows = static_cast<int>(group.found[last].size());
+        for (int i = first; i < end; ++i)
+            enqueue(group, waiting[static_cast<std::size_t>(i)]);
+        solveBatch(group, batch);
+    }
+}
+
+/// Solves all lanes on which impulses act.
+inline void solveCarrying(TrialLanes& group) {
+    solveRound(group, group.carrying, false);
+    const auto isEmpty = [](const std::vector<std::int32_t>& lanes) { return lanes.empty(); };
+    while (!std::all_of(group.unfinished.begin(), group.unfinished.end(), isEmpty))
+        solveRound(group, group.unfinished, true);
 }
 
 /// Remembers contacts that touch but carry nothing.
 inline void rememberIdle(TrialLanes& group, int lane) {
-    WarmStartCache& memory = group.warmStarts[lane];
-    memory.count = std::min(static_cast<int>(group.found.size()), WarmStartCache::kMost);
+    WarmStartCache& memory = group.warmStarts[static_cast<std::size_t>(lane)];
+    const ContactList& found = group.found[static_cast<std::size_t>(lane)];
+    memory.count = std::min(static_cast<int>(found.size()), WarmStartCache::kMost);
     memory.carrying = 0;
     for (int i = 0; i < memory.count; ++i) {
-        memory.feature[i] = group.found[static_cast<std::size_t>(i)].feature;
+        memory.feature[i] = found[static_cast<std::size_t>(i)].feature;
         memory.normal[i] = 0.0F;
         memory.along[i] = 0.0F;
         memory.across[i] = 0.0F;

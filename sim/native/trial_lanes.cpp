@@ -20,6 +20,22 @@ void store(const Mat3& from, float (&to)[3][3]) {
     }
 }
 
+/// Whether no two of them can be one (contact::kSamePlace).
+bool areApart(const ContactList& found) {
+    constexpr auto kApart = static_cast<float>(1.01 * contact::kSamePlace);
+    for (std::size_t i = 1; i < found.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            float square = 0.0F;
+            for (std::size_t f = kArmX; f <= kArmZ; ++f) {
+                const float d = found[i].values[f] - found[k].values[f];
+                square += d * d;
+            }
+            if (square < kApart * kApart) return false;
+        }
+    }
+    return true;
+}
+
 std::uint32_t toTurns(double turns) {
     return static_cast<std::uint32_t>(std::llround((turns - std::floor(turns)) * 4294967296.0));
 }
@@ -46,18 +62,17 @@ TrialLanes::TrialLanes(const LaneModel& model, int capacity)
     : phase(padToVectors(capacity)),
       cycle(padToVectors(capacity)),
       track(capacity),
-      candidates(capacity),
       warmStarts(capacity),
+      found(capacity),
+      plastic(capacity),
       model_(&model),
       // Not a power of two: fields of one lane would fall into the same few lines of the cache.
       stride_(padToVectors(capacity) + kWidestVector),
       floats_(static_cast<std::size_t>(stride_) * kFieldCount),
-      positions_(static_cast<std::size_t>(stride_) * 3) {
-    for (const int rows : kSolveRows) {
-        SolveBatch& batch = solveBatches.emplace_back();
-        batch.rows = rows;
-        batch.touches.resize(static_cast<std::size_t>(rows) * kContactFields * kWidestVector);
-    }
+      positions_(static_cast<std::size_t>(stride_) * 3),
+      origins_(static_cast<std::size_t>(stride_) * 3),
+      pairs_(padToVectors(capacity) / kWidestVector) {
+    solveBatch.touches.resize(static_cast<std::size_t>(kMostContacts) * kContactFields * kWidestVector);
     // Lanes that were never used are stepped along with the others of their vector: give them a rotation.
     for (int lane = 0; lane < stride_; ++lane)
         field(kRotationW)[lane] = 1.0F;
@@ -114,24 +129,31 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     set(kRestitution, batch.contact.restitution * spec.restitutionScale);
 
     set(kNextLook, -1.0);
+    set(kReach, -1.0);
     track[lane] = &packedTrack;
-    candidates[lane].count = 0;
-    candidates[lane].collectAt = -1.0F;
+    pairsOf(lane).clear(lane % kWidestVector);
     warmStarts[lane].count = 0;
     warmStarts[lane].carrying = 0;
 }
 
 void TrialLanes::remove(int lane) {
     const int last = --count_;
-    if (lane == last) return;
+    if (lane == last) {
+        pairsOf(last).clear(last % kWidestVector);
+        return;
+    }
     for (int f = 0; f < kFieldCount; ++f)
         field(f)[lane] = field(f)[last];
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
         position(k)[lane] = position(k)[last];
+        origin(k)[lane] = origin(k)[last];
+    }
     phase[lane] = phase[last];
     cycle[lane] = cycle[last];
     track[lane] = track[last];
-    std::swap(candidates[lane], candidates[last]);
+    NearPairs& left = pairsOf(last);
+    pairsOf(lane).copy(lane % kWidestVector, left, last % kWidestVector);
+    left.clear(last % kWidestVector);
     warmStarts[lane] = warmStarts[last];
 }
 
@@ -153,11 +175,12 @@ base::Pose TrialLanes::poseInTrack(int lane) const {
 }
 
 void reduceContacts(ContactList& found) {
+    if (found.size() <= WarmStartCache::kMost && areApart(found)) return;
     std::vector<contact::ManifoldPoint> points;
     points.reserve(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const Contact& f = found[i];
-        points.push_back({{f.arm[0], f.arm[1], f.arm[2]}, {f.normal[0], f.normal[1], f.normal[2]}, f.gap});
+        const auto& f = found[i].values;
+        points.push_back({{f[kArmX], f[kArmY], f[kArmZ]}, {f[kNormalX], f[kNormalY], f[kNormalZ]}, f[kGap]});
     }
     std::array<int, WarmStartCache::kMost> kept{};
     const int count = contact::reduceManifold(points, kept);

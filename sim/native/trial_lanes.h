@@ -10,6 +10,7 @@
 #include "core/trial/costs.h"
 #include "sim/contact/impulse_solver.h"
 #include "sim/native/aligned.h"
+#include "sim/native/near_pairs.h"
 #include "sim/native/packed_body.h"
 #include "sim/native/packed_track.h"
 
@@ -57,31 +58,29 @@ enum Field : int {
     kRateBeforeX, kRateBeforeZ, kSineRateBefore, kCosineLessRateBefore,
     kTrackStepX, kTrackStepY, kTrackStepZ,           // of the track at the part's centre in the coming step [m]
 
-    // Detection [m]: since the candidates were collected ...
-    kWayX, kWayY, kWayZ,                             // way of the centre in the track's axes
-    kPath,                                           // length of the centre's path
-    kTurned,                                         // the farthest that any point can have come by turning
-    // ... and what the coming step adds if nothing touches
-    kStepX, kStepY, kStepZ, kStepPath, kStepTurned,
-    kNextLook,                                       // path + turned before which nothing can touch
+    // Detection [m]: what the coming step is if nothing touches, in the track's axes
+    kStepX, kStepY, kStepZ,                          // way of the centre
+    kStepPath, kStepTurned,                          // its length; the farthest that any point comes by turning
+    kGone,                                           // sum of both since the pairs were collected
+    kNextLook,                                       // of it, before which nothing can touch
+    // Since the pairs were collected
+    kAwayX, kAwayY, kAwayZ,                          // way of the centre, track axes
+    kThenW, kThenX, kThenY, kThenZ,                  // rotation of that moment
+    kThenSine,                                       // of the track's rotation
+    kReach,                                          // a pair that was not collected was farther apart
+    kSkinThickness,                                  // what is collected next is nearer; 0: not yet
 
     kStaticFriction, kKineticFriction, kRestitution,
     kFieldCount
 };
 // clang-format on
 
-/// The features of one track that are near one part. A lower bound of the distance between part and feature
-/// is start + normal . way - turned - (path if `blind`): tells without looking at them which can touch.
-struct Candidates {
-    AlignedVector<float> start, normalX, normalY, normalZ, blind;  // padded with a huge start
-    std::vector<std::uint32_t> names;                              // kind, piece, feature of the track
-    int count = 0;
-    float collectAt = 0.0F;  // path + turned at which they must be collected anew
-};
+/// Of one part, after thinning out.
+inline constexpr int kMostContacts = contact::ImpulseSolver::kMaxContacts;
 
 /// Impulses that the last step left at the contacts of one part.
 struct WarmStartCache {
-    static constexpr int kMost = contact::ImpulseSolver::kMaxContacts;
+    static constexpr int kMost = kMostContacts;
     int count = 0;
     int carrying = 0;  // with an impulse
     std::uint64_t feature[kMost];
@@ -90,11 +89,32 @@ struct WarmStartCache {
     bool slid[kMost];
 };
 
-/// A contact of one part in its track's axes.
+/// What a contact is made of, in its track's axes, arms from the centre of mass.
+enum ContactField : int {
+    kArmX,
+    kArmY,
+    kArmZ,     // [m]
+    kNormalX,  // unit, track -> part
+    kNormalY,
+    kNormalZ,
+    kGap,  // [m]; the last field that detection gives
+    kNormalImpulse,
+    kAlongImpulse,
+    kAcrossImpulse,  // per mass, to begin with [m/s]
+    kState,          // ContactState
+    // How friction turns within the step, as far as the rounds before told (FrictionShape).
+    kOnTheWay,
+    kDirectionAlong,
+    kDirectionAcross,
+    kContactFields
+};
+
+/// What the last step left of a contact.
+enum ContactState : int { kNewContact, kStuckContact, kSlidContact };
+
+/// A contact of one part.
 struct Contact {
-    float arm[3];     // from the centre of mass [m]
-    float normal[3];  // unit, track -> part
-    float gap;        // [m]
+    std::array<float, kContactFields> values;
     std::uint64_t feature;
 };
 
@@ -115,6 +135,13 @@ class ContactList {
     /// The place of the next one, for which there is room.
     Contact& next() { return contacts_[size_]; }
     void keepIf(bool counts) { size_ += counts ? 1 : 0; }
+    /// By their features: where several contacts share a load, what each gets hangs on their order.
+    void sort() {
+        for (std::size_t i = 1; i < size_; ++i) {
+            for (std::size_t k = i; k > 0 && contacts_[k].feature < contacts_[k - 1].feature; --k)
+                std::swap(contacts_[k], contacts_[k - 1]);
+        }
+    }
     void shrink(std::size_t size) { size_ = size; }
 
     [[nodiscard]] std::size_t size() const { return size_; }
@@ -127,26 +154,14 @@ class ContactList {
     std::size_t size_ = 0;
 };
 
-/// What a row of contacts is made of, one float per slot of a SolveBatch.
-enum ContactField : int {
-    kArmX,
-    kArmY,
-    kArmZ,
-    kNormalX,
-    kNormalY,
-    kNormalZ,
-    kGap,
-    kNormalImpulse,
-    kAlongImpulse,
-    kAcrossImpulse,
-    kState,  // 0: new, 1: known and stuck, 2: known and slid
-    kContactFields
-};
+/// Lanes by how many contacts they have.
+using LanesByContacts = std::array<std::vector<std::int32_t>, kMostContacts + 1>;
 
-/// Lanes with about equally many contacts, waiting to be solved together.
+/// Lanes with about equally many contacts that are solved together.
 struct SolveBatch {
-    int rows = 0;  // at most as many contacts
+    int rows = 0;  // contacts of the lane that has most
     int filled = 0;
+    bool shaped = false;  // it is the second round: kOnTheWay and so on are known
     std::array<std::int32_t, kWidestVector> lanes{};
     AlignedVector<float> touches;  // [row][ContactField][slot]
 
@@ -179,6 +194,14 @@ class TrialLanes {
         return positions_.data() + static_cast<std::ptrdiff_t>(axis) * stride_;
     }
 
+    /// In the track's frame, where the centre of mass was when its pairs were collected. [m]
+    [[nodiscard]] double* origin(int axis) {
+        return origins_.data() + static_cast<std::ptrdiff_t>(axis) * stride_;
+    }
+
+    /// The pairs of kWidestVector lanes, among them this one.
+    [[nodiscard]] NearPairs& pairsOf(int lane) { return pairs_[lane / kWidestVector]; }
+
     [[nodiscard]] base::Pose poseInRoom(int lane) const;
     [[nodiscard]] base::Pose poseInTrack(int lane) const;
 
@@ -186,13 +209,16 @@ class TrialLanes {
     AlignedVector<std::uint32_t> phase,
         cycle;  // of the drive at the step after the next, per step: [turn / 2^32]
     std::vector<const PackedTrack*> track;
-    std::vector<Candidates> candidates;
+    std::vector<NearPair> collected;
     std::vector<WarmStartCache> warmStarts;
-    std::vector<SolveBatch> solveBatches;
-    ContactList found;
+    std::vector<ContactList> found;     // of each lane
+    LanesByContacts carrying;           // that wait to be solved
+    LanesByContacts unfinished;         // that wait for the second round
+    std::vector<std::int32_t> waiting;  // the same, one after the other
+    std::vector<std::uint8_t> plastic;  // whether the impacts of the lane create energy
+    SolveBatch solveBatch;
     trial::CostLaps* laps = nullptr;                   // if the costs are to be told apart
     std::vector<RecordedImpulse>* recorded = nullptr;  // if they are wanted, of a group of one
-    std::vector<std::int32_t> looking;                 // lanes that may have contacts in this step
 
  private:
     const LaneModel* model_;
@@ -200,14 +226,13 @@ class TrialLanes {
     int count_ = 0;
     AlignedVector<float> floats_;
     AlignedVector<double> positions_;
+    AlignedVector<double> origins_;
+    std::vector<NearPairs> pairs_;
 };
 
 /// More contacts than this are looked through for those that say the same.
 inline constexpr std::size_t kFew = 3;
 /// Leaves at most WarmStartCache::kMost contacts that stand for all (contact::reduceManifold).
 void reduceContacts(ContactList& found);
-
-/// How many contacts each SolveBatch is for.
-inline constexpr std::array<int, 7> kSolveRows = {1, 2, 3, 4, 6, 8, contact::ImpulseSolver::kMaxContacts};
 
 }  // namespace trapwright::native

@@ -81,6 +81,26 @@ inline EdgeTest testEdges(const Edge& part, const Edge& track, const Triple& out
     return test;
 }
 
+/// From `from` along a unit vector. [m]
+struct Segment {
+    Triple from, direction;
+    Real length;
+};
+
+/// From the point of `b` that is nearest to `a` to the nearest point of `a` (Ericson 2005, section 5.1.9).
+inline Triple findBetween(const Segment& a, const Segment& b) {
+    const Triple apart = a.from - b.from;
+    const Real turn = dot(a.direction, b.direction);
+    const Real onA = dot(a.direction, apart);
+    const Real onB = dot(b.direction, apart);
+    const Real sine2 = Real(1.0) - turn * turn;
+    const auto within = [](Real along, Real length) { return min(max(along, Real(0.0)), length); };
+    const Real first = select(sine2 > Real(1e-6), (turn * onB - onA) / max(sine2, Real(1e-6)), Real(0.0));
+    const Real alongB = within(turn * within(first, a.length) + onB, b.length);
+    const Real alongA = within(turn * alongB - onA, a.length);
+    return mulAdd(alongA, a.direction, apart) - alongB * b.direction;
+}
+
 /// How far a segment is beyond a face of the part. The largest over all faces is a lower bound of its
 /// distance.
 inline Real calcSeparation(const Plane& face, const Triple& a, const Triple& b) {

@@ -56,6 +56,7 @@ struct ContactConstraint {
     Real gap;
     Real normalInverse, normalMass;    // change of normal velocity by a unit normal impulse, and 1 / that
     Real tangentInverse, tangentMass;  // largest eigenvalue of the tangential inverse mass, and 1 / that
+    Pair coupling;                     // change of tangential velocity by a unit normal impulse
     Real target;                       // least normal velocity after the step
     Real impactTime;                   // share of the step before an impact; kNoImpact: none
     Real friction;                     // coefficient
@@ -69,11 +70,11 @@ struct ContactConstraint {
 };
 
 inline Real velocityAlong(const ContactConstraint& row, const Motion& motion, int k) {
-    const Real moving = mulAdd(
-        row.axis[k].x, motion.velocity.x,
-        mulAdd(row.axis[k].y, motion.velocity.y, mulAdd(row.axis[k].z, motion.velocity.z, -row.track[k])));
-    return mulAdd(row.turn[k].x, motion.spin.x,
-                  mulAdd(row.turn[k].y, motion.spin.y, mulAdd(row.turn[k].z, motion.spin.z, moving)));
+    // Two short chains rather than a long one.
+    return mulAdd(row.axis[k].x, motion.velocity.x,
+                  mulAdd(row.axis[k].y, motion.velocity.y,
+                         mulAdd(row.axis[k].z, motion.velocity.z, -row.track[k]))) +
+           dot(row.turn[k], motion.spin);
 }
 
 inline void applyImpulse(const ContactConstraint& row, Motion& motion, int k, Real impulse) {
@@ -111,8 +112,9 @@ inline void setAxes(ContactConstraint& row, const MovingContact& touch) {
 /// How the velocities along a contact's axes change by a unit impulse along each: what its two bodies have
 /// together.
 struct InverseMass {
-    Real along[3];  // by the impulse along the same axis
-    Real coupling;  // of the two tangents
+    Real along[3];        // by the impulse along the same axis
+    Real coupling;        // of the two tangents
+    Pair normalCoupling;  // along the tangents by the normal impulse
 };
 
 /// What is to be solved for at a contact whose axes and `speed` are set. `speedBefore`: along the axes, in
@@ -125,6 +127,7 @@ inline void applyLaw(ContactConstraint& row, const MovingContact& touch, const I
     row.tangentInverse = Real(0.5) * (inverse.along[1] + inverse.along[2]) +
                          sqrt(half * half + inverse.coupling * inverse.coupling);
     row.tangentMass = Real(1.0) / row.tangentInverse;
+    row.coupling = inverse.normalCoupling;
 
     // Not deeper than touching at the step's end; an impact inside the step rebounds.
     const Real open = max(touch.gap, Real(0.0));
@@ -170,13 +173,23 @@ inline void prepareConstraint(ContactConstraint& row, const MovingContact& touch
         inverse.along[k] = Real(1.0) + dot(row.turn[k], row.turn[k]);
     }
     inverse.coupling = dot(row.turn[1], row.turn[2]);
+    inverse.normalCoupling = {dot(row.turn[0], row.turn[1]), dot(row.turn[0], row.turn[2])};
     applyLaw(row, touch, inverse, speedBefore, law, dt);
 }
 
-/// Changes the rows' impulses until all targets are met; returns the motion that they lead to from
-/// `freeMotion`. Lanes of `frozen` keep their impulses.
+/// What iterating led to.
+template <class State>
+struct Iterated {
+    State motion;
+    Mask converged;
+};
+
+/// Changes the rows' impulses until all targets are met, at most so often; `motion` is the one that they lead
+/// to from `freeMotion`. Lanes of `frozen` keep their impulses. shaped: how friction turns within the step is
+/// known in all lanes.
 template <class Row, class State>
-State iterate(Row* rows, int count, const State& freeMotion, Mask frozen) {
+Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask frozen, int iterations,
+                        bool shaped = false) {
     State motion = freeMotion;
     for (int i = 0; i < count; ++i) {
         applyImpulse(rows[i], motion, 0, rows[i].normal);
@@ -186,25 +199,28 @@ State iterate(Row* rows, int count, const State& freeMotion, Mask frozen) {
     const Real tolerance = Real(kVelocityTolerance * kVelocityTolerance) +
                            Real(kRelativeTolerance * kRelativeTolerance) * squaredSpeed(motion);
     Mask done = frozen;
-    for (int iteration = 0; iteration < kMaxIterations && !all(done); ++iteration) {
+    for (int iteration = 0; iteration < iterations && !all(done); ++iteration) {
         Real change = Real(0.0);  // of velocity, squared
         for (int i = 0; i < count; ++i) {
             Row& row = rows[iteration % 2 == 0 ? i : count - 1 - i];
-            const Real normal =
-                max(Real(0.0), row.normal + (row.target - velocityAlong(row, motion, 0)) * row.normalMass);
+            // All that can be told before the normal impulse is known: each step of this waits for the last
+            // one.
+            const Real speed = velocityAlong(row, motion, 0);
+            const Pair before = Pair{velocityAlong(row, motion, 1), velocityAlong(row, motion, 2)} -
+                                row.slipTarget - row.tangentInverse * row.tangential;
+
+            const Real normal = max(Real(0.0), row.normal + (row.target - speed) * row.normalMass);
             const Real step = select(done, Real(0.0), normal - row.normal);
             row.normal = row.normal + step;
             applyImpulse(row, motion, 0, step);
             const Real normalChange = step * row.normalInverse;
             change = max(change, normalChange * normalChange);
 
-            const Pair slip =
-                Pair{velocityAlong(row, motion, 1), velocityAlong(row, motion, 2)} - row.slipTarget;
-            const Pair free = slip - row.tangentInverse * row.tangential;
+            const Pair free = before + step * row.coupling;
             const Real bound = row.friction * row.normal * row.tangentInverse;
             // How friction turns on the way hardly changes from one iteration to the next; once it stays,
             // they converge.
-            if (iteration == 0 || iteration == kShapingIteration)
+            if (!shaped && (iteration == 0 || iteration == kShapingIteration))
                 row.shape = calcFrictionShape(free, row.slipBefore, bound);
             const Friction friction = calcFriction(row.shape, free, bound);
             const Pair tangentialStep =
@@ -218,15 +234,12 @@ State iterate(Row* rows, int count, const State& freeMotion, Mask frozen) {
         }
         done = done || change < tolerance;
     }
-    return motion;
+    return {motion, done};
 }
 
-/// Solves for the impulses of all rows.
+/// Newton's restitution at several places at once may create energy: whether it did.
 template <class Row, class State>
-State solve(Row* rows, int count, const State& free) {
-    State motion = iterate(rows, count, free, Real(0.0) > Real(1.0));
-
-    // Newton's restitution at several places at once may create energy: such an impact is taken as plastic.
+Mask createsEnergy(const Row* rows, int count, const State& motion) {
     Mask impact = Real(0.0) > Real(1.0);
     Real work = Real(0.0);
     for (int i = 0; i < count; ++i) {
@@ -237,15 +250,29 @@ State solve(Row* rows, int count, const State& free) {
             work =
                 work + workOf(row, Real(0.5) * impulse[k] * (row.speed[k] + velocityAlong(row, motion, k)));
     }
-    const Mask again = impact && work > Real(0.0);
+    return impact && work > Real(0.0);
+}
+
+/// Makes the impacts of these lanes plastic and begins anew.
+template <class Row>
+void makePlastic(Row* rows, int count, Mask lanes) {
+    for (int i = 0; i < count; ++i) {
+        Row& row = rows[i];
+        row.target = select(lanes, min(row.target, Real(0.0)), row.target);
+        row.normal = select(lanes, Real(0.0), row.normal);
+        row.tangential = select(lanes, Pair{Real(0.0), Real(0.0)}, row.tangential);
+    }
+}
+
+/// Solves for the impulses of all rows; an impact that would create energy is taken as plastic.
+template <class Row, class State>
+State solve(Row* rows, int count, const State& free) {
+    const Mask none = Real(0.0) > Real(1.0);
+    State motion = iterate(rows, count, free, none, kMaxIterations).motion;
+    const Mask again = createsEnergy(rows, count, motion);
     if (any(again)) {
-        for (int i = 0; i < count; ++i) {
-            Row& row = rows[i];
-            row.target = select(again, min(row.target, Real(0.0)), row.target);
-            row.normal = select(again, Real(0.0), row.normal);
-            row.tangential = select(again, Pair{Real(0.0), Real(0.0)}, row.tangential);
-        }
-        motion = select(again, iterate(rows, count, free, !again), motion);
+        makePlastic(rows, count, again);
+        motion = select(again, iterate(rows, count, free, !again, kMaxIterations).motion, motion);
     }
     return motion;
 }

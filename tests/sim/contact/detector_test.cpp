@@ -7,6 +7,7 @@
 #include "core/base/random.h"
 #include "detector_scenes.h"
 #include "nearest_features.h"
+#include "sim/contact/formulas/scalar.h"
 
 using namespace trapwright;
 using base::kMillimetre;
@@ -44,6 +45,27 @@ class DetectorTest : public QObject {
     Q_OBJECT
 
  private slots:
+    // The nearest points of two segments: crossing, beside each other, end to end, parallel.
+    void segmentsAreAsFarApartAsTheirNearestPoints() {
+        base::Random random({7, 0, 0, 0, base::Purpose::test});
+        const auto any = [&] {
+            return Vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+        };
+        const auto toTriple = [](const Vec3& v) { return contact::scalar::Triple{v.x(), v.y(), v.z()}; };
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 a = any();
+            const Vec3 c = any();
+            const Vec3 along = any().normalized();
+            const Vec3 other = i % 10 == 0 ? along : any().normalized();
+            const double first = random.uniform(0.1, 1.0);
+            const double second = random.uniform(0.1, 1.0);
+            const contact::scalar::Triple between = contact::scalar::findBetween(
+                {toTriple(a), toTriple(along), first}, {toTriple(c), toTriple(other), second});
+            const double expected = testing::calcSegmentDistance(a, a + first * along, c, c + second * other);
+            QVERIFY(std::abs(Vec3(between.x, between.y, between.z).norm() - expected) < 1e-9);
+        }
+    }
+
     void aCuboidRestsOnItsFourCorners() {
         const DetectorScene scene(verify::makeFlat(), verify::makePaperCuboid());
         for (const double gap : {3e-6, 0.0, -7e-6, -100e-6}) {

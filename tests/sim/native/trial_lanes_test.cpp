@@ -90,7 +90,7 @@ class TrialLanesTest : public QObject {
         scene_.add(fresh, 11);
         step(used, 400);
         step(fresh, 400);
-        QVERIFY(fresh.warmStarts[0].count > 0 || fresh.candidates[0].count > 0);  // it has met the track
+        QVERIFY(fresh.pairsOf(0).vertices.rows() > 0);  // it has come near the track
         QVERIFY(areSame(used.poseInRoom(2), fresh.poseInRoom(0)));
     }
 
@@ -109,10 +109,9 @@ class TrialLanesTest : public QObject {
         found.reserve(40);
         for (int i = 0; i < 40; ++i) {
             const float angle = 0.157F * static_cast<float>(i);
-            found.next() = {{5e-3F * std::cos(angle), 5e-3F * std::sin(angle), -2e-3F},
-                            {0.0F, 0.0F, 1.0F},
-                            1e-6F,
-                            static_cast<std::uint64_t>(i)};
+            found.next() = {
+                {5e-3F * std::cos(angle), 5e-3F * std::sin(angle), -2e-3F, 0.0F, 0.0F, 1.0F, 1e-6F},
+                static_cast<std::uint64_t>(i)};
             found.keepIf(true);
         }
         native::reduceContacts(found);
