@@ -65,6 +65,10 @@ source "$root/packaging/sanitizers/environment.sh"
 names=$(ctest --test-dir "build/$preset" -N | sed -n 's/^ *Test *#[0-9]*: //p' | grep -E -- "$regex" || true)
 [[ -n $names ]] || fail "no test matches '$regex'."
 
+# See the file.
+keep=$PWD/build/$preset/keep_libraries.so
+cc -shared -fPIC -o "$keep" packaging/sanitizers/keep_libraries.c
+
 passed=()
 failed=()
 omitted=()
@@ -88,7 +92,7 @@ for folder in "${folders[@]}"; do
         continue
     fi
     code=0
-    within ctest --test-dir "build/$preset" --parallel "$(nproc)" --output-on-failure --no-tests=error \
+    LD_PRELOAD=$keep within ctest --test-dir "build/$preset" --parallel "$(nproc)" --output-on-failure --no-tests=error \
         -R "^($(IFS='|' && echo "${tests[*]}"))\$" || code=$?
     if ((code == 0)); then
         passed+=("$folder")
