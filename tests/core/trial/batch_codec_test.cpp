@@ -22,6 +22,12 @@ std::size_t largestRequest = 0;  // of memory since it was set to 0 [byte]
 
 }  // namespace
 
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define TRAPWRIGHT_THREAD_SANITIZER  // which has operators of its own
+#endif
+#endif
+#ifndef TRAPWRIGHT_THREAD_SANITIZER
 void* operator new(std::size_t size) {
     largestRequest = std::max(largestRequest, size);
     void* memory = std::malloc(size);
@@ -34,6 +40,7 @@ void operator delete(void* memory) noexcept {
 void operator delete(void* memory, std::size_t) noexcept {
     std::free(memory);
 }
+#endif
 
 namespace {
 
