@@ -19,6 +19,7 @@ struct Options {
     std::string engine = engines::registry().reference().name;
     std::string filter;
     bool withoutAgreement = false;
+    double step = 0.0;  // [ms]; 0: the engine's own
     AgreementOptions agreement;
 };
 
@@ -27,6 +28,16 @@ bool wantsAgreement(const Options& options, const trial::EngineKind& kind) {
     return kind.role != trial::EngineRole::reference && kind.role != trial::EngineRole::certifying &&
            !options.withoutAgreement &&
            std::string_view("agreement").find(options.filter) != std::string_view::npos;
+}
+
+// The kind, its engines at this step of simulated time unless they are told another one. [s]
+trial::EngineKind atStep(trial::EngineKind kind, double step) {
+    if (step <= 0.0) return kind;
+    kind.make = [make = kind.make, step](trial::EngineOptions options) {
+        if (options.step <= 0.0) options.step = step;
+        return make(options);
+    };
+    return kind;
 }
 
 // Prints the cases' rows as they come.
@@ -56,6 +67,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     // What learns is what has to agree.
     auto kind = findEngine(engines::registry().nameFor(options.engine, trial::EngineUse::learning));
     if (!kind) return kind.error();
+    const trial::EngineKind judged = atStep(*kind, options.step * 1e-3);
     std::string names;
     bool anyCase = false;
     for (const verify::Case& one : verify::allCases()) {
@@ -72,7 +84,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     if (anyCase) {
-        auto done = runCases(*kind, options.filter, console);
+        auto done = runCases(judged, options.filter, console);
         if (!done) return done.error();
         rows = *done;
     }
@@ -83,9 +95,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         console.print(fmt::format("{} of {} rows pass with {}\n",
                                   rows.size() - static_cast<std::size_t>(failed), rows.size(), kind->name));
     }
-    nlohmann::ordered_json answer = {{"engine", kind->name}, {"passed", passed}, {"rows", rows}};
+    nlohmann::ordered_json answer = {{"engine", kind->name},
+                                     {"step_ms", judged.make({})->step() * 1e3},
+                                     {"passed", passed},
+                                     {"rows", rows}};
     if (agreement) {
-        auto table = runAgreement(*kind, options.agreement, console);
+        auto table = runAgreement(judged, options.agreement, console);
         if (!table) return table.error();
         passed = passed && (*table)["passed"].get<bool>();
         answer["passed"] = passed;
@@ -123,6 +138,11 @@ void addVerifyCommand(CLI::App& program, Invocation& invocation) {
         .addOption("--trials", options->agreement.trials,
                    "Of each part on each track, in each engine, of the case agreement (1000)")
         .range(1, 10000);
+    command
+        .addOption(
+            "--step", options->step,
+            "Of simulated time in ms, of this engine alone: the reference keeps its own (each engine's own)")
+        .range(1e-4, 2.0);
     command.addOption("--threads", options->agreement.threads,
                       "Threads of the case agreement (default: all processors)");
 }

@@ -32,7 +32,7 @@ class SceneRun {
             engines_.push_back(contender.make({1, plan.step, nullptr}));
             Measurement& measured = measurements_.emplace_back();
             measured.engine = contender.name;
-            measured.step = plan.step > 0.0 ? plan.step : engines_.back()->defaultStep();
+            measured.step = engines_.back()->step();
         }
     }
 

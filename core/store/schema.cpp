@@ -325,7 +325,12 @@ CREATE TABLE outcomes (             -- of the trials [first, first + count) of a
 );
 )sql";
 
-constexpr std::array<Migration, 10> kMigrations = {{{1, kVersion1},
+// As fine while learning as afterwards.
+constexpr const char* kVersion11 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.evolution.learningStep_ms', 0.2);
+)sql";
+
+constexpr std::array<Migration, 11> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -334,7 +339,8 @@ constexpr std::array<Migration, 10> kMigrations = {{{1, kVersion1},
                                                     {7, kVersion7},
                                                     {8, kVersion8, &turnGenesIntoDesigns},
                                                     {9, kVersion9},
-                                                    {10, kVersion10}}};
+                                                    {10, kVersion10},
+                                                    {11, kVersion11}}};
 
 }  // namespace
 

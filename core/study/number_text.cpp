@@ -94,6 +94,7 @@ std::optional<double> parse(std::string_view text) {
 std::string fileText(double value, FileUnit unit) {
     switch (unit) {
         case FileUnit::millimetre:
+        case FileUnit::millisecond:
             return shiftedText(value, kMillimetreShift);
         case FileUnit::degree:
             return degreeText(value);

@@ -70,7 +70,8 @@ Settings paperMode(Settings settings) {
     settings.evolution.racingTrials = 0;
     settings.evolution.commonRandomNumbers = false;
     settings.evolution.learningStuckTime = settings.simulation.termination.stuckTime;
-    settings.simulation.engine = "simbody";  // a setting like the others: the one that judges every trial
+    settings.evolution.learningStep = 0.2e-3;  // engines' own
+    settings.simulation.engine = "simbody";    // a setting like the others: the one that judges every trial
     return settings;
 }
 

@@ -41,10 +41,12 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
     auto built = decodeTrack(inputs.settings.track, winner.record.design);
     if (!built) return built.error();
     const auto track = std::make_shared<const track::Track>(std::move(built).value());
-    const std::array batches = {
+    std::array batches = {
         makeLearningBatch(makeScene(inputs.settings, inputs.part, track), winner, countCheckTrials(winner))};
     const auto learned = runTrials(*inputs.engine, batches, control);
     if (!learned) return learned.error();
+    batches.front().step =
+        0.0;  // the reference's own: that the step was no larger than it may be is checked, too
     const auto judged = runTrials(reference, batches, control);
     if (!judged) return judged.error();
 

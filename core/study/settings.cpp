@@ -1,9 +1,19 @@
 #include "core/study/settings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace trapwright::study {
+
+namespace {
+
+// decisions.md#steps-while-learning
+constexpr double kStepsPerPeriod = 66.0;
+constexpr double kLargestStep = 0.3e-3;          // [s]
+constexpr double kFinestAutomaticStep = 0.2e-3;  // what engines take of themselves [s]
+
+}  // namespace
 
 bool operator==(const TrackSettings& a, const TrackSettings& b) {
     const auto fields = [](const TrackSettings& s) {
@@ -27,6 +37,14 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
     const bool samePose =
         poseA.has_value() == poseB.has_value() && (!poseA || poseA->coeffs() == poseB->coeffs());
     return samePose && fields(a) == fields(b);
+}
+
+double chooseLearningStep(const Settings& settings) {
+    if (settings.evolution.learningStep > 0.0) return settings.evolution.learningStep;
+    // Whole steps of 10 us: times of outcomes are stored in microseconds.
+    const double share = settings.simulation.drive.period() / kStepsPerPeriod;
+    const double step = std::floor(std::min(share, kLargestStep) * 1e5 + 1e-6) / 1e5;
+    return step > kFinestAutomaticStep ? step : 0.0;
 }
 
 void takePoseWeights(PartSettings& part, const PartSettings& other) {

@@ -43,6 +43,9 @@ struct EvolutionSettings {
     // A part without progress for so long counts as stuck while learning, if that is less than
     // Termination::stuckTime, which counts in selection and validation. [s]
     double learningStuckTime = 0.6;
+    // Of simulated time in learning trials; 0: chosen by evidence (chooseLearningStep). Selection and
+    // validation go by the engine's own. [s]
+    double learningStep = 0.0;
     int generations = 200;
     std::uint64_t seed = 1;
 
@@ -117,6 +120,11 @@ void takePoseWeights(PartSettings& part, const PartSettings& other);
 /// Whether scores that were made with `before` still hold with `after`: only the number of generations, the
 /// weights of the stable poses and what concerns selection, validation and the real feeder differ.
 bool keepsScores(const Settings& before, const Settings& after);
+
+/// The step of learning trials: the one that is set, or the largest with which the rows of `verify` that
+/// matter for the drive and the rates of trials agree with those of engines' own steps
+/// (decisions.md#steps-while-learning); 0 where that is no larger than theirs. [s]
+double chooseLearningStep(const Settings& settings);
 
 /// Every violated range, as sentences that name the parameter as its JSON key, its value and what is allowed.
 /// Empty if all is well.

@@ -123,6 +123,12 @@ std::vector<std::string> findProblems(const Settings& settings) {
                            "; it must not be more than evolution.populationSize, which is " +
                            std::to_string(evolution.populationSize) + ".");
     }
+    constexpr double kLeastStep = 0.01e-3;
+    if (evolution.learningStep > 0.0 && evolution.learningStep < kLeastStep) {
+        problems.push_back("evolution.learningStep_ms is " +
+                           shown(evolution.learningStep, FileUnit::millisecond) +
+                           "; it must be 0 (chosen by the program) or from 0.01 to 1.");
+    }
     if (evolution.racingTrials == 1) {
         problems.emplace_back(
             "evolution.racingTrials is 1; F_O compares two parts at least, so it must be 0 (no race) or at "

@@ -87,6 +87,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"evolution.racingShare", none, search::kTopShare, 1.0}, s.evolution.racingShare);
     v.flag("evolution.commonRandomNumbers", s.evolution.commonRandomNumbers);
     v.number({"evolution.learningStuckTime_s", none, 0.05, 600.0}, s.evolution.learningStuckTime);
+    v.number({"evolution.learningStep_ms", FileUnit::millisecond, 0.0, 1.0}, s.evolution.learningStep);
     v.count({"evolution.generations", 1, 1000000}, s.evolution.generations);
     v.seed("evolution.seed", s.evolution.seed);
 

@@ -40,7 +40,8 @@ TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part>
             std::move(track),
             settings.evolution.seed,
             settings.evolution.commonRandomNumbers,
-            settings.evolution.learningStuckTime};
+            settings.evolution.learningStuckTime,
+            chooseLearningStep(settings)};
 }
 
 trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId& individual, int trials,
@@ -50,6 +51,7 @@ trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId&
                                         keyOf(scene, stream, first, base::Purpose::trialStart), trials);
     double& stuckTime = batch.termination.stuckTime;
     stuckTime = std::min(stuckTime, scene.learningStuckTime.value_or(stuckTime));
+    batch.step = scene.learningStep;
     return batch;
 }
 

@@ -20,7 +20,8 @@ struct TrialScene {
     std::uint64_t seed = 0;            // of the study
     bool commonRandomNumbers = false;  // see makeLearningBatch
     std::optional<double> learningStuckTime =
-        std::nullopt;  // of makeLearningBatch, if less than the simulation's [s]
+        std::nullopt;           // of makeLearningBatch, if less than the simulation's [s]
+    double learningStep = 0.0;  // of makeLearningBatch; 0: the engine's own [s]
 };
 
 /// The scene of a track of the study. Refers to `settings`.
@@ -34,7 +35,7 @@ TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part>
 /// The trials by which an individual is judged while learning: `trials` of them from `first` on. With common
 /// random numbers all individuals of a generation have the streams of individual 0, so that each meets the
 /// same starts and a difference of two scores has less noise. What does not move on is given up sooner than
-/// elsewhere (EvolutionSettings::learningStuckTime).
+/// elsewhere (EvolutionSettings::learningStuckTime), and steps are larger (chooseLearningStep).
 trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId& individual, int trials,
                                     int first = 0);
 

@@ -52,7 +52,11 @@ struct TrialBatch {
     ContactParameters partsContact;  // of parts with each other
     Termination termination;
     double gravity = base::kStandardGravity;  // [m/s^2]
+    double step = 0.0;  // of simulated time, in engines that go in equal steps; 0: the engine's own [s]
     std::vector<TrialSpec> trials;
+
+    /// `step`, or the engine's where none is asked for. [s]
+    [[nodiscard]] double stepOr(double engines) const { return step > 0.0 ? step : engines; }
 };
 
 /// Why no engine can simulate this batch, or its trial `index` alone; none if it can.

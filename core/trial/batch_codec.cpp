@@ -97,8 +97,8 @@ void serialize(Archive& archive, T& spec) {
 
 template <class Archive, base::OrConst<TrialBatch> T>
 void serialize(Archive& archive, T& batch) {
-    auto& [track, parts, drive, contact, partsContact, termination, gravity, trials] = batch;
-    archive(drive, contact, partsContact, termination, gravity, trials);
+    auto& [track, parts, drive, contact, partsContact, termination, gravity, step, trials] = batch;
+    archive(drive, contact, partsContact, termination, gravity, step, trials);
 }
 
 template <class Archive, base::OrConst<PartOutcome> T>
@@ -116,7 +116,7 @@ void serialize(Archive& archive, T& outcome) {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

@@ -17,7 +17,7 @@ namespace trapwright::trial {
 /// What every engine can be told. 0 leaves the choice to the engine.
 struct EngineOptions {
     unsigned threads = 0;  // 0: all processors
-    double step = 0.0;     // of simulated time [s]; 0: the engine's own
+    double step = 0.0;     // of simulated time [s], where a batch asks for none; 0: the engine's own
     /// Told what run() spent on what, by engines that can tell. Null: nothing is measured.
     std::shared_ptr<CostMeter> costs = nullptr;
 };
@@ -38,8 +38,8 @@ class Engine {
     /// The processor's instructions that its results depend on: the same program gives the same bits on every
     /// machine where this is the same.
     [[nodiscard]] virtual std::string instructionSet() const { return base::mathInstructionSet(); }
-    /// The step of simulated time when none is asked for. [s]
-    [[nodiscard]] virtual double defaultStep() const = 0;
+    /// The step of simulated time where a batch asks for none. [s]
+    [[nodiscard]] virtual double step() const = 0;
 
     /// Simulates every trial: result[b][i] is the outcome of batches[b].trials[i]. Advances `control` by one
     /// per finished trial. An error if cancelled (within 0.2 s) or if a batch cannot be simulated.

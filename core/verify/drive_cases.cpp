@@ -145,7 +145,7 @@ std::vector<Row> runPlasticHop(const trial::EngineKind& kind, const base::RunCon
 
 std::vector<Row> runStepHalved(const trial::EngineKind& kind, const base::RunControl& control) {
     std::vector<Row> rows;
-    const double step = kind.make({})->defaultStep();
+    const double step = kind.make({})->step();
     for (const double halfStroke : {0.4e-3, 0.62e-3, 0.7e-3, 0.8e-3, 0.9e-3}) {
         trial::Vibration drive;
         drive.halfStroke = halfStroke;

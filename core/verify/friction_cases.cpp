@@ -63,10 +63,12 @@ std::vector<Row> runSlope(const trial::EngineKind& kind, const base::RunControl&
             trial::TrialBatch above = slope(angle);
             above.contact = {kFriction, kFriction, 0.0};
             const trial::Trajectory slide = replayScene(*engine, above, 0.01, control);
-            const double speed =
-                (sampleAt(slide, 0.25).parts[0].velocity - sampleAt(slide, 0.05).parts[0].velocity).norm();
+            // Samples are at whole steps of the engine.
+            const trial::TrajectorySample& from = sampleAt(slide, 0.05);
+            const trial::TrajectorySample& to = sampleAt(slide, 0.25);
+            const double gained = (to.parts[0].velocity - from.parts[0].velocity).norm();
             const double expected = base::kStandardGravity * (std::sin(angle) - kFriction * std::cos(angle));
-            const double error = speed / 0.2 / expected - 1.0;
+            const double error = gained / (to.time - from.time) / expected - 1.0;
             if (std::abs(error) > std::abs(worst)) worst = error;
         }
     }

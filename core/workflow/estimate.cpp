@@ -65,8 +65,9 @@ base::Result<double> timeFlatTrack(const study::StudyInputs& inputs, double budg
     simulation.termination.stuckTime = inputs.settings.evolution.learningStuckTime;
     constexpr std::size_t kMost = 20000;
     return timeOne(budget, std::size_t{16} * inputs.threads, kMost, [&](std::size_t count) -> base::Status {
-        const trial::TrialBatch batch = study::makeTrackBatch(
+        trial::TrialBatch batch = study::makeTrackBatch(
             flat, inputs.part, simulation, inputs.settings.evolution.seed, static_cast<int>(count));
+        batch.step = study::chooseLearningStep(inputs.settings);
         const auto outcomes = study::runTrials(*inputs.engine, std::span(&batch, 1), control);
         if (!outcomes) return outcomes.error();
         return base::success();

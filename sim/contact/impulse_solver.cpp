@@ -119,13 +119,12 @@ struct ScaledBody {
     explicit ScaledBody(const MovingBody& body)
         : scaling(body.inertia),
           turns(scaling.turns()),
-          before(scaling.scale(body.before)),
-          free(scaling.scale(body.free)),
+          motion{scaling.scale(body.before), scaling.scale(body.free), {}},
           mass(1.0 / body.inertia.inverseMass) {}
 
     Scaling scaling;
     scalar::Matrix turns;
-    scalar::Motion before, free;
+    scalar::StepMotion motion;
     double mass;  // [kg]
 };
 
@@ -133,7 +132,7 @@ struct ScaledBody {
 void preparePair(scalar::PairConstraint& row, const scalar::MovingContact& touch, const Vec3& armA,
                  const ScaledBody& b, const ScaledBody* a, const scalar::Law& law, double dt) {
     if (a == nullptr) {
-        scalar::prepareConstraint(row, touch, b.turns, b.before, b.free, law, dt);
+        scalar::prepareConstraint(row, touch, b.turns, b.motion, law, dt);
         return;
     }
     row.ratio = b.mass / a->mass;
@@ -150,11 +149,16 @@ void preparePair(scalar::PairConstraint& row, const scalar::MovingContact& touch
             return scalar::dot(axis, ofB.velocity - ofA.velocity) + scalar::dot(row.turn[k], ofB.spin) -
                    scalar::dot(row.turnA[k], ofA.spin);
         };
-        row.speed[k] = along(b.free, a->free);
-        speedBefore[k] = along(b.before, a->before);
+        row.speed[k] = along(b.motion.free, a->motion.free);
+        speedBefore[k] = along(b.motion.before, a->motion.before);
         inverse.along[k] = 1.0 + scalar::dot(row.turn[k], row.turn[k]) +
                            row.ratio * (1.0 + scalar::dot(row.turnA[k], row.turnA[k]));
     }
+    const scalar::Motion& offset = b.motion.offset;
+    const scalar::Motion& offsetA = a->motion.offset;
+    row.gap =
+        touch.gap + dt * (scalar::dot(row.axis[0], offset.velocity - offsetA.velocity) +
+                          scalar::dot(row.turn[0], offset.spin) - scalar::dot(row.turnA[0], offsetA.spin));
     const auto couple = [&](int k, int l) {
         return scalar::dot(row.turn[k], row.turn[l]) + row.ratio * scalar::dot(row.turnA[k], row.turnA[l]);
     };
@@ -251,73 +255,99 @@ void ImpulseSolver::solveAlone(std::span<const MovingBody> bodies, std::span<con
     const auto index = kept.empty()
                            ? std::size_t{0}
                            : static_cast<std::size_t>(contacts[static_cast<std::size_t>(kept.front())].bodyB);
-    const ScaledBody body(bodies[index]);
+    ScaledBody body(bodies[index]);
     const int count = static_cast<int>(kept.size());
     rows_.resize(kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-        const MovingContact& contact = contacts[static_cast<std::size_t>(kept[i])];
-        scalar::prepareConstraint(rows_[i], describe(contact), body.turns, body.before, body.free,
-                                  lawOf(contact, laws), dt);
+    for (int moment = 0;; ++moment) {
+        const bool last = moment + 1 == scalar::kMostMoments;
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            const MovingContact& contact = contacts[static_cast<std::size_t>(kept[i])];
+            scalar::prepareConstraint(rows_[i], describe(contact, moment), body.turns, body.motion,
+                                      lawOf(contact, laws), dt);
+        }
+        scalar::takeFirstImpacts(rows_.data(), count, dt);
+        const scalar::Motion& free = body.motion.free;
+        const scalar::Motion after = scalar::solve(rows_.data(), count, free);
+        const scalar::Motion own = scalar::advancePose(rows_.data(), count, free, after, dt, last);
+        const scalar::Motion advance = body.motion.offset + own;
+        StepResult& result = results_[index];
+        result.motion = body.scaling.unscale(after);
+        result.advance = body.scaling.unscale(advance);
+        for (std::size_t i = 0; i < kept.size(); ++i)
+            keep(contacts[static_cast<std::size_t>(kept[i])], kept[i], rows_[i], body.mass, moment);
+        if (last || !scalar::reachesLater(rows_.data(), count, own, dt)) return;
+        body.motion = goOnAfter(body.motion, after, advance);
     }
-    const scalar::Motion after = scalar::solve(rows_.data(), count, body.free);
-    StepResult& result = results_[index];
-    result.motion = body.scaling.unscale(after);
-    result.advance = body.scaling.unscale(scalar::advancePose(rows_.data(), count, body.free, after, dt));
-    for (std::size_t i = 0; i < kept.size(); ++i)
-        keep(contacts[static_cast<std::size_t>(kept[i])], kept[i], rows_[i], body.mass);
 }
 
 void ImpulseSolver::solveTogether(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
                                   const Island& island, const ContactLaws& laws, double dt) {
     std::vector<ScaledBody> own;
-    scalar::PartMotions free;
-    for (const int body : island.bodies) {
+    for (const int body : island.bodies)
         own.emplace_back(bodies[static_cast<std::size_t>(body)]);
-        free.parts.push_back(own.back().free);
-    }
     const auto placeOf = [&](trial::Body body) {
         return static_cast<int>(std::ranges::find(island.bodies, body) - island.bodies.begin());
     };
     std::vector<scalar::PairConstraint> rows(island.contacts.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const MovingContact& contact = contacts[static_cast<std::size_t>(island.contacts[i])];
-        scalar::PairConstraint& row = rows[i];
-        row.b = placeOf(contact.bodyB);
-        row.a = contact.bodyA == trial::kTrack ? -1 : placeOf(contact.bodyA);
-        const ScaledBody& b = own[static_cast<std::size_t>(row.b)];
-        const ScaledBody* a = row.a < 0 ? nullptr : &own[static_cast<std::size_t>(row.a)];
-        row.weight = b.mass / own.front().mass;
-        preparePair(row, describe(contact), contact.armA, b, a, lawOf(contact, laws), dt);
-    }
     const int count = static_cast<int>(rows.size());
-    const scalar::PartMotions after = scalar::solve(rows.data(), count, free);
-    const scalar::PartMotions advance = scalar::advancePose(rows.data(), count, free, after, dt);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        StepResult& result = results_[static_cast<std::size_t>(island.bodies[i])];
-        result.motion = own[i].scaling.unscale(after.parts[i]);
-        result.advance = own[i].scaling.unscale(advance.parts[i]);
+    scalar::PartMotions free;
+    free.parts.resize(own.size());
+    for (int moment = 0;; ++moment) {
+        const bool last = moment + 1 == scalar::kMostMoments;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const MovingContact& contact = contacts[static_cast<std::size_t>(island.contacts[i])];
+            scalar::PairConstraint& row = rows[i];
+            row.b = placeOf(contact.bodyB);
+            row.a = contact.bodyA == trial::kTrack ? -1 : placeOf(contact.bodyA);
+            const ScaledBody& b = own[static_cast<std::size_t>(row.b)];
+            const ScaledBody* a = row.a < 0 ? nullptr : &own[static_cast<std::size_t>(row.a)];
+            row.weight = b.mass / own.front().mass;
+            preparePair(row, describe(contact, moment), contact.armA, b, a, lawOf(contact, laws), dt);
+        }
+        for (std::size_t i = 0; i < own.size(); ++i)
+            free.parts[i] = own[i].motion.free;
+        scalar::takeFirstImpacts(rows.data(), count, dt);
+        const scalar::PartMotions after = scalar::solve(rows.data(), count, free);
+        const scalar::PartMotions ways = scalar::advancePose(rows.data(), count, free, after, dt, last);
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            keep(contacts[static_cast<std::size_t>(island.contacts[i])], island.contacts[i], rows[i],
+                 own[static_cast<std::size_t>(rows[i].b)].mass, moment);
+        const bool more = !last && scalar::reachesLater(rows.data(), count, ways, dt);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            StepResult& result = results_[static_cast<std::size_t>(island.bodies[i])];
+            const scalar::Motion advance = own[i].motion.offset + ways.parts[i];
+            result.motion = own[i].scaling.unscale(after.parts[i]);
+            result.advance = own[i].scaling.unscale(advance);
+            if (more) own[i].motion = goOnAfter(own[i].motion, after.parts[i], advance);
+        }
+        if (!more) return;
     }
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        keep(contacts[static_cast<std::size_t>(island.contacts[i])], island.contacts[i], rows[i],
-             own[static_cast<std::size_t>(rows[i].b)].mass);
 }
 
-/// For the next step, and for whoever asks for impulses. `mass`: of B [kg].
+/// For the next step, and for whoever asks for impulses. `mass`: of B [kg]. What carries over a step shows
+/// before its first impact: `moment` 0.
 void ImpulseSolver::keep(const MovingContact& contact, int index, const scalar::ContactConstraint& row,
-                         double mass) {
-    // The impulse of an impact says nothing about the next step's.
-    const bool impact = row.target > 0.0;
-    next_.push_back({contact.bodyA, contact.bodyB, contact.feature, impact ? 0.0 : row.normal,
-                     impact ? scalar::Pair{0.0, 0.0} : row.tangential, row.sliding});
+                         double mass, int moment) {
+    if (moment == 0) {
+        // The impulse of an impact says nothing about the next step's.
+        const bool impact = row.impactTime <= 1.0;
+        next_.push_back({contact.bodyA, contact.bodyB, contact.feature, impact ? 0.0 : row.normal,
+                         impact ? scalar::Pair{0.0, 0.0} : row.tangential, row.sliding});
+    }
     if (row.normal <= 0.0) return;
-    ++results_[static_cast<std::size_t>(contact.bodyB)].carrying;
-    if (contact.bodyA != trial::kTrack) ++results_[static_cast<std::size_t>(contact.bodyA)].carrying;
     const Vec3 perMass = row.normal * fromTriple(row.axis[0]) + row.tangential.x * fromTriple(row.axis[1]) +
                          row.tangential.y * fromTriple(row.axis[2]);
+    const auto known = std::ranges::find(impulses_, index, &ContactImpulse::contact);
+    if (known != impulses_.end()) {
+        known->impulse += mass * perMass;
+        return;
+    }
     impulses_.push_back({index, mass * perMass});
+    ++results_[static_cast<std::size_t>(contact.bodyB)].carrying;
+    if (contact.bodyA != trial::kTrack) ++results_[static_cast<std::size_t>(contact.bodyA)].carrying;
 }
 
-scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact) const {
+scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact, int moment) const {
     scalar::MovingContact touch{toTriple(contact.arm),
                                 toTriple(contact.normal),
                                 contact.gap,
@@ -331,8 +361,10 @@ scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact) cons
         if (old.feature != contact.feature || old.bodyA != contact.bodyA || old.bodyB != contact.bodyB)
             continue;
         touch.known = true;
-        touch.normalImpulse = old.normal;
-        touch.tangentialImpulse = old.tangential;
+        if (moment == 0) {
+            touch.normalImpulse = old.normal;
+            touch.tangentialImpulse = old.tangential;
+        }
         touch.slid = old.sliding;
         break;
     }

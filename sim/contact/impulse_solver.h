@@ -83,8 +83,9 @@ class ImpulseSolver {
                     std::span<const int> kept, const ContactLaws& laws, double dt);
     void solveTogether(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
                        const Island& island, const ContactLaws& laws, double dt);
-    void keep(const MovingContact& contact, int index, const scalar::ContactConstraint& row, double mass);
-    [[nodiscard]] scalar::MovingContact describe(const MovingContact& contact) const;
+    void keep(const MovingContact& contact, int index, const scalar::ContactConstraint& row, double mass,
+              int moment);
+    [[nodiscard]] scalar::MovingContact describe(const MovingContact& contact, int moment) const;
 
     std::vector<StepResult> results_;
     std::vector<int> kept_;  // contacts that stand for all

@@ -10,8 +10,6 @@ namespace {
 
 using Indices = std::vector<int>;
 
-/// Contacts whose normals differ by less belong to one plane. (cosine)
-constexpr double kSameNormal = 0.9998;
 /// A gap counts this many times as much as a distance within the plane when contacts are chosen.
 constexpr double kGapWeight = 30.0;
 

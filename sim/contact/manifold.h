@@ -15,6 +15,8 @@ struct ManifoldPoint {
 
 /// Contacts of one plane nearer to each other than this are one. [m]
 inline constexpr double kSamePlace = 0.2e-3;
+/// Contacts whose normals differ by less belong to one plane. (cosine)
+inline constexpr double kSameNormal = 0.9998;
 
 /// Puts into `kept` the indices of contacts that stand for all of them, in order, and returns how many: of
 /// contacts that say the same (same normal, same place) the lowest; if these are more than `kept` holds, of

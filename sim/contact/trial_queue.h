@@ -56,14 +56,16 @@ class TrialQueue {
     std::size_t total_ = 0;
 };
 
-/// The places of the batches, those with the same parts and gravity together.
+/// The places of the batches, those with the same parts, gravity and step together.
 inline std::vector<std::vector<std::size_t>> groupByPart(std::span<const trial::TrialBatch> batches) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t b = 0; b < batches.size(); ++b) {
         bool placed = false;
         for (std::vector<std::size_t>& group : groups) {
             const trial::TrialBatch& like = batches[group.front()];
-            if (like.parts != batches[b].parts || like.gravity != batches[b].gravity) continue;
+            if (like.parts != batches[b].parts || like.gravity != batches[b].gravity ||
+                like.step != batches[b].step)
+                continue;
             group.push_back(b);
             placed = true;
             break;

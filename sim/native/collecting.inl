@@ -16,6 +16,9 @@ enum Kind : std::uint32_t { kVertexOnTriangle, kEdgeAcrossEdge, kFaceOnVertex };
 constexpr unsigned kPieceShift = 22;
 constexpr unsigned kKindShift = 20;
 
+/// Edges of a vertex that a pair has at hand.
+constexpr int kConeEdges = 3;
+
 constexpr std::uint32_t pieceOf(std::uint32_t trackFeature) {
     return trackFeature >> kPieceShift;
 }
@@ -134,10 +137,12 @@ inline void collectVertices(const Placed& placed, const PackedPiece& piece, std:
         forEachBit(bits, [&](int i) {
             const int vertex = first + i;
             if (vertex >= piece.vertexCount) return;
-            placed.pairs->push_back({clear[i],
-                                     name,
-                                     static_cast<std::uint32_t>(vertex),
-                                     {offsets[0], offsets[1], offsets[2], offsets[3]}});
+            const int edges = piece.firstEdge[vertex + 1] - piece.firstEdge[vertex];
+            placed.pairs->push_back(
+                {clear[i],
+                 name,
+                 static_cast<std::uint32_t>(vertex) | (edges > kConeEdges ? kManyEdges : 0U),
+                 {offsets[0], offsets[1], offsets[2], offsets[3]}});
         });
     }
 }
@@ -268,8 +273,16 @@ inline void collectAmong(const Placed& placed, const BallArrays& balls, Kind kin
 inline void writeVertexPair(const PackedPiece& piece, const PackedTrack& track, const NearPair& pair,
                             PairTable& table, int row, int slot) {
     const PackedTriangle& triangle = track.triangles[indexOf(pair.trackFeature)];
+    const auto vertex = static_cast<int>(pair.partFeature & ~kManyEdges);
     for (int k = 0; k < 3; ++k)
-        table.at(row, kVertexX + k, slot) = piece.vertices.row(k)[pair.partFeature];
+        table.at(row, kVertexX + k, slot) = piece.vertices.row(k)[vertex];
+    const int first = piece.firstEdge[vertex];
+    const int edges = piece.firstEdge[vertex + 1] - first;
+    for (int e = 0; e < kConeEdges; ++e) {
+        for (int k = 0; k < 3; ++k)
+            table.at(row, kCone + 3 * e + k, slot) =
+                edges > kConeEdges ? 0.0F : piece.vertexEdges[3 * (first + std::min(e, edges - 1)) + k];
+    }
     for (int c = 0; c < 4; ++c) {
         table.at(row, kPlanes + 4 * c, slot) = triangle.nx[c];
         table.at(row, kPlanes + 4 * c + 1, slot) = triangle.ny[c];
@@ -299,7 +312,7 @@ inline void writeEdgePair(const PackedPiece& piece, const PackedTrack& track, co
 }
 inline void writeFacePair(const PackedPiece& /*piece*/, const PackedTrack& /*track*/, const NearPair& pair,
                           PairTable& table, int row, int slot) {
-    for (int f = 0; f < kFacePairFields; ++f)
+    for (int f = 0; f < kFaceFound; ++f)
         table.at(row, f, slot) = pair.own[static_cast<std::size_t>(f)];
 }
 

@@ -108,6 +108,38 @@ constexpr std::uint64_t nameContact(std::uint32_t trackFeature, std::uint32_t pa
     return (std::uint64_t{trackFeature} << 32U) | partFeature;
 }
 
+/// What looking at pairs gives: lanes in which a contact carries, and when the next pair is due.
+struct Looked {
+    std::uint32_t carries;
+    Real due;
+};
+
+// Which rows, lanes and contacts there is something to do for cannot be guessed by a processor: each pass
+// does one thing for all of them without branching and lists what is left for the next.
+
+/// The rows of which a pair is due, into `rows`; returns how many.
+inline int listDue(const PlacedLanes& placed, const PairTable& pairs, int* rows) {
+    int count = 0;
+    for (int row = 0; row < pairs.rows(); ++row) {
+        rows[count] = row;
+        count += any(placed.gone + placed.margin >= load(pairs.due(row) + placed.slot)) ? 1 : 0;
+    }
+    return count;
+}
+
+/// Notes how far the pairs of a row are apart.
+inline void setDue(const PlacedLanes& placed, PairTable& pairs, int row, Real distance) {
+    store(placed.gone + distance - Real(kReserve), pairs.due(row) + placed.slot);
+}
+
+/// When the first pair of a table is due.
+inline Real findNextDue(const PlacedLanes& placed, const PairTable& pairs) {
+    Real due = kUntouchable;
+    for (int row = 0; row < pairs.rows(); ++row)
+        due = min(due, load(pairs.due(row) + placed.slot));
+    return due;
+}
+
 /// What contacts of a vector of lanes are made of.
 struct FoundContacts {
     Mask touching;
@@ -115,135 +147,168 @@ struct FoundContacts {
     Real gap;
 };
 
-/// Adds to the lanes' lists those contacts that can matter and that `holds` (bit, arm, normal) confirms.
-/// Returns the bits of lanes in which one overlaps more at the step's end if nothing holds it.
-template <class Name, class Holds>
-inline std::uint32_t addContacts(TrialLanes& group, const PlacedLanes& placed, const FoundContacts& found,
-                                 const Name& nameOf, const Holds& holds) {
+/// Puts aside those contacts of a row that can matter.
+inline void stage(TrialLanes& group, const PlacedLanes& placed, int row, const FoundContacts& found) {
     const Real after =
         max(found.gap, Real(0.0)) + dot(found.normal, placed.step + cross(placed.turn, found.arm));
-    const std::uint32_t bits = bitsOf(found.touching && after < placed.near);
-    if (bits == 0) return 0;
-    const std::uint32_t overlaps = bitsOf(after < Real(0.0));
-    alignas(64) float values[kGap + 1][kWidestVector];
-    store(found.arm.x, values[kArmX]);
-    store(found.arm.y, values[kArmY]);
-    store(found.arm.z, values[kArmZ]);
-    store(found.normal.x, values[kNormalX]);
-    store(found.normal.y, values[kNormalY]);
-    store(found.normal.z, values[kNormalZ]);
-    store(found.gap, values[kGap]);
+    StagedContacts& staged = group.staged;
+    const auto place = static_cast<int>(staged.rows.size());
+    staged.rows.push_back(row);
+    staged.overlaps.push_back(bitsOf(after < Real(0.0)));
+    const Real values[] = {found.arm.x,    found.arm.y,    found.arm.z, found.normal.x,
+                           found.normal.y, found.normal.z, found.gap};
+    float* to = staged.valuesOf(place);
+    for (const Real& value : values) {
+        store(value, to);
+        to += kWidestVector;
+    }
+    const hn::RebindToSigned<Tag> whole;
+    const Mask counts = found.touching && after < placed.near;
+    const auto codes = hn::Iota(whole, place * kWidestVector);
+    hn::StoreU(hn::Compress(codes, hn::RebindMask(whole, counts.bits)), whole, staged.reserveCodes());
+    staged.count += static_cast<int>(hn::CountTrue(Tag(), counts.bits));
+}
+
+/// Adds the contacts that were put aside to their lanes' lists, if `holds` (row, lane, normal) confirms them.
+/// Returns the bits of lanes in which one overlaps more at the step's end if nothing holds it.
+template <class Name, class Holds>
+inline std::uint32_t addStaged(TrialLanes& group, const PlacedLanes& placed, const Name& nameOf,
+                               const Holds& holds) {
+    StagedContacts& staged = group.staged;
     std::uint32_t carries = 0;
-    forEachBit(bits, [&](int i) {
-        const float normal[3] = {values[kNormalX][i], values[kNormalY][i], values[kNormalZ][i]};
-        if (!holds(i, normal)) return;
+    for (int c = 0; c < staged.count; ++c) {
+        const int place = staged.codes[static_cast<std::size_t>(c)] / kWidestVector;
+        const int i = staged.codes[static_cast<std::size_t>(c)] % kWidestVector;
+        const auto at = static_cast<std::size_t>(place);
+        const float* values = staged.valuesOf(place) + i;
+        if (!holds(staged.rows[at], i, values)) continue;
         ContactList& list = group.found[placed.lane + i];
         list.reserve(1);
         Contact& contact = list.next();
         for (int f = 0; f <= kGap; ++f)
-            contact.values[static_cast<std::size_t>(f)] = values[f][i];
-        contact.feature = nameOf(i);
+            contact.values[static_cast<std::size_t>(f)] = values[f * kWidestVector];
+        contact.feature = nameOf(staged.rows[at], i);
         list.keepIf(true);
-        carries |= overlaps & (1U << static_cast<unsigned>(i));
-    });
+        carries |= staged.overlaps[at] & (1U << static_cast<unsigned>(i));
+    }
+    staged.clear();
     return carries;
 }
 
-/// What looking at pairs gives: lanes in which a contact carries, and when the next pair is due.
-struct Looked {
-    std::uint32_t carries;
-    Real due;
-};
-
-/// Whether no pair of the row can touch in the coming step.
-inline bool isFar(const PlacedLanes& placed, const PairTable& pairs, int row, Looked& looked) {
-    const Real due = load(pairs.due(row) + placed.slot);
-    if (any(placed.gone + placed.margin >= due)) return false;
-    looked.due = min(looked.due, due);
-    return true;
+/// Whether all edges of a vertex lead away from the plane that has this normal. [track's axes]
+inline bool liesAbove(const TrialLanes& group, const PlacedLanes& placed, std::uint32_t trackFeature,
+                      std::uint32_t vertex, int i, const float* normal) {
+    const PackedPiece& piece = group.model().body->pieces[pieceOf(trackFeature)];
+    float inPart[3] = {};
+    alignas(64) float axes[3][kWidestVector];
+    for (int k = 0; k < 3; ++k) {
+        store(placed.axes.row[k].x, axes[0]);
+        store(placed.axes.row[k].y, axes[1]);
+        store(placed.axes.row[k].z, axes[2]);
+        for (int f = 0; f < 3; ++f)
+            inPart[f] += axes[f][i] * normal[k];
+    }
+    bool above = true;
+    for (int e = piece.firstEdge[vertex]; e < piece.firstEdge[vertex + 1]; ++e)
+        above &= dotThree(inPart, piece.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) >=
+                 static_cast<float>(-kConeSlack);
+    return above;
 }
 
-/// Notes how far the pairs of a row are apart.
-inline void setDue(const PlacedLanes& placed, PairTable& pairs, int row, Real distance, Looked& looked) {
-    const Real due = placed.gone + distance - Real(kReserve);
-    store(due, pairs.due(row) + placed.slot);
-    looked.due = min(looked.due, due);
+inline Plane planeOf(const PlacedLanes& placed, const PairTable& pairs, int row, int c) {
+    return {pairThree(pairs, row, kPlanes + 4 * c, placed.slot),
+            load(pairs.field(row, kPlanes + 4 * c + 3) + placed.slot)};
 }
 
 inline void lookAtVertices(TrialLanes& group, const PlacedLanes& placed, PairTable& pairs, Looked& looked) {
-    for (int row = 0; row < pairs.rows(); ++row) {
-        if (isFar(placed, pairs, row, looked)) continue;
-        const auto planeOf = [&](int c) {
-            return Plane{pairThree(pairs, row, kPlanes + 4 * c, placed.slot),
-                         load(pairs.field(row, kPlanes + 4 * c + 3) + placed.slot)};
-        };
-        const Triple arm = placed.axes * pairThree(pairs, row, kVertexX, placed.slot);
-        const Triple point = placed.away + arm;
-        const Plane plane = planeOf(0);
-        const Plane sides[3] = {planeOf(1), planeOf(2), planeOf(3)};
-        const VertexTest test = testVertex(point, plane, sides, placed.margin);
-        setDue(placed, pairs, row, test.clear, looked);
-        if (!any(test.over)) continue;
+    int* rows = group.rowsToLookAt(pairs.rows());
+    const int due = listDue(placed, pairs, rows);
+    int count = 0;
+    for (int i = 0; i < due; ++i) {
+        const int row = rows[i];
+        const Triple point = placed.away + placed.axes * pairThree(pairs, row, kVertexX, placed.slot);
+        const Plane sides[3] = {planeOf(placed, pairs, row, 1), planeOf(placed, pairs, row, 2),
+                                planeOf(placed, pairs, row, 3)};
+        const VertexTest test = testVertex(point, planeOf(placed, pairs, row, 0), sides, placed.margin);
+        setDue(placed, pairs, row, test.clear);
+        rows[count] = row;
+        count += any(test.over) ? 1 : 0;
+    }
+    looked.due = min(looked.due, findNextDue(placed, pairs));
 
+    for (int i = 0; i < count; ++i) {
+        const int row = rows[i];
+        const Triple arm = placed.axes * pairThree(pairs, row, kVertexX, placed.slot);
+        const Plane plane = planeOf(placed, pairs, row, 0);
+        const Plane sides[3] = {planeOf(placed, pairs, row, 1), planeOf(placed, pairs, row, 2),
+                                planeOf(placed, pairs, row, 3)};
+        const VertexTest test = testVertex(placed.away + arm, plane, sides, placed.margin);
         // The part must lie above the plane: otherwise the vertex passes by (along the border of the face
         // that the part lies on) or touches the other flank of a thin wall.
-        alignas(64) float inPart[3][kWidestVector];
         const Triple up = multiplyTransposed(placed.axes, plane.normal);
-        store(up.x, inPart[0]);
-        store(up.y, inPart[1]);
-        store(up.z, inPart[2]);
-        const std::uint32_t* trackFeature = pairs.trackFeature(row) + placed.slot;
-        const std::uint32_t* partFeature = pairs.partFeature(row) + placed.slot;
-        looked.carries |= addContacts(
-            group, placed, {test.over, arm, plane.normal, test.gap},
-            [&](int i) { return nameContact(trackFeature[i], partFeature[i]); },
-            [&](int i, const float* /*normal*/) {
-                const PackedPiece& piece = group.model().body->pieces[pieceOf(trackFeature[i])];
-                const float direction[3] = {inPart[0][i], inPart[1][i], inPart[2][i]};
-                const std::uint32_t vertex = partFeature[i];
-                bool above = true;
-                for (int e = piece.firstEdge[vertex]; e < piece.firstEdge[vertex + 1]; ++e)
-                    above &=
-                        dotThree(direction, piece.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) >=
-                        static_cast<float>(-kConeSlack);
-                return above;
-            });
+        Mask touching = test.over;
+        for (int e = 0; e < kConeEdges; ++e)
+            touching =
+                touching && dot(up, pairThree(pairs, row, kCone + 3 * e, placed.slot)) >= Real(-kConeSlack);
+        stage(group, placed, row, {touching, arm, plane.normal, test.gap});
     }
+    looked.carries |= addStaged(
+        group, placed,
+        [&](int row, int i) {
+            return nameContact(pairs.trackFeature(row)[placed.slot + i],
+                               pairs.partFeature(row)[placed.slot + i] & ~kManyEdges);
+        },
+        [&](int row, int i, const float* values) {
+            const std::uint32_t vertex = pairs.partFeature(row)[placed.slot + i];
+            if ((vertex & kManyEdges) == 0) return true;
+            const float normal[3] = {values[kNormalX * kWidestVector], values[kNormalY * kWidestVector],
+                                     values[kNormalZ * kWidestVector]};
+            return liesAbove(group, placed, pairs.trackFeature(row)[placed.slot + i], vertex & ~kManyEdges, i,
+                             normal);
+        });
 }
 
 inline void lookAtEdges(TrialLanes& group, const PlacedLanes& placed, PairTable& pairs, Looked& looked) {
-    for (int row = 0; row < pairs.rows(); ++row) {
-        if (isFar(placed, pairs, row, looked)) continue;
-        const auto three = [&](int field) { return pairThree(pairs, row, field, placed.slot); };
-        const auto one = [&](int field) { return load(pairs.field(row, field) + placed.slot); };
-        Edge part;
-        part.direction = placed.axes * three(kOwnDirectionX);
-        part.length = one(kOwnLength);
-        const Triple arm = placed.axes * three(kOwnFromX);
-        part.from = placed.away + arm;
-        const Triple apart = three(kApartX);
-        const Real ahead = part.length * dot(apart, part.direction);
-        const Real distance = dot(apart, part.from) + min(ahead, Real(0.0)) + one(kApartOffset);
-        setDue(placed, pairs, row, distance, looked);
-        const Mask near = distance < placed.margin;
-        if (!any(near)) continue;
-
-        part.into[0] = placed.axes * three(kOwnInto0X);
-        part.into[1] = placed.axes * three(kOwnInto1X);
-        const Edge track = {three(kTrackFromX),
-                            three(kTrackDirectionX),
-                            one(kTrackLength),
-                            {three(kTrackInto0X), three(kTrackInto1X)}};
-        const EdgeTest test = testEdges(part, track, three(kOutwardX), placed.margin);
-        const Mask touching = test.touching && near;
-        if (!any(touching)) continue;
-        const std::uint32_t* trackFeature = pairs.trackFeature(row) + placed.slot;
-        const std::uint32_t* partFeature = pairs.partFeature(row) + placed.slot;
-        looked.carries |= addContacts(
-            group, placed, {touching, mulAdd(test.alongPart, part.direction, arm), test.normal, test.gap},
-            [&](int i) { return nameContact(trackFeature[i], partFeature[i]); },
-            [](int /*lane*/, const float* /*normal*/) { return true; });
+    const auto three = [&](int row, int field) { return pairThree(pairs, row, field, placed.slot); };
+    const auto one = [&](int row, int field) { return load(pairs.field(row, field) + placed.slot); };
+    int* rows = group.rowsToLookAt(pairs.rows());
+    const int due = listDue(placed, pairs, rows);
+    int count = 0;
+    for (int i = 0; i < due; ++i) {
+        const int row = rows[i];
+        const Triple apart = three(row, kApartX);
+        const Real ahead = one(row, kOwnLength) * dot(apart, placed.axes * three(row, kOwnDirectionX));
+        const Triple from = placed.away + placed.axes * three(row, kOwnFromX);
+        const Real distance = dot(apart, from) + min(ahead, Real(0.0)) + one(row, kApartOffset);
+        setDue(placed, pairs, row, distance);
+        rows[count] = row;
+        count += any(distance < placed.margin) ? 1 : 0;
     }
+    looked.due = min(looked.due, findNextDue(placed, pairs));
+
+    for (int i = 0; i < count; ++i) {
+        const int row = rows[i];
+        const Triple arm = placed.axes * three(row, kOwnFromX);
+        const Edge part = {placed.away + arm,
+                           placed.axes * three(row, kOwnDirectionX),
+                           one(row, kOwnLength),
+                           {placed.axes * three(row, kOwnInto0X), placed.axes * three(row, kOwnInto1X)}};
+        const Edge track = {three(row, kTrackFromX),
+                            three(row, kTrackDirectionX),
+                            one(row, kTrackLength),
+                            {three(row, kTrackInto0X), three(row, kTrackInto1X)}};
+        const EdgeTest test = testEdges(part, track, three(row, kOutwardX), placed.margin);
+        const Mask near = load(pairs.due(row) + placed.slot) < placed.gone + placed.margin - Real(kReserve);
+        stage(group, placed, row,
+              {test.touching && near, mulAdd(test.alongPart, part.direction, arm), test.normal, test.gap});
+    }
+    looked.carries |= addStaged(
+        group, placed,
+        [&](int row, int i) {
+            return nameContact(pairs.trackFeature(row)[placed.slot + i],
+                               pairs.partFeature(row)[placed.slot + i]);
+        },
+        [](int /*row*/, int /*lane*/, const float* /*values*/) { return true; });
 }
 
 /// The face of its piece that a point of each lane is farthest beyond, and how far.
@@ -280,40 +345,46 @@ inline FarthestFace findFarthestFace(const PackedBody& body, const std::uint32_t
 }
 
 inline void lookAtFaces(TrialLanes& group, const PlacedLanes& placed, PairTable& pairs, Looked& looked) {
-    for (int row = 0; row < pairs.rows(); ++row) {
-        if (isFar(placed, pairs, row, looked)) continue;
+    int* rows = group.rowsToLookAt(pairs.rows());
+    const int due = listDue(placed, pairs, rows);
+    for (int i = 0; i < due; ++i) {
+        const int row = rows[i];
         const Triple arm = pairThree(pairs, row, kPointX, placed.slot) - placed.away;
         const Triple point = multiplyTransposed(placed.axes, arm);
         const Real distance = distanceBeyond(
             {pairThree(pairs, row, kFaceX, placed.slot), load(pairs.field(row, kFaceOffset) + placed.slot)},
             point);
-        setDue(placed, pairs, row, distance, looked);
+        setDue(placed, pairs, row, distance);
         const Mask near = distance < placed.margin;
         if (!any(near)) continue;
 
-        const std::uint32_t* trackFeature = pairs.trackFeature(row) + placed.slot;
         const FarthestFace farthest =
-            findFarthestFace(*group.model().body, trackFeature, bitsOf(near), point);
+            findFarthestFace(*group.model().body, pairs.trackFeature(row) + placed.slot, bitsOf(near), point);
         const Mask touching = near && farthest.gap < placed.margin && farthest.gap > Real(-kDeepest);
-        if (!any(touching)) continue;
-        alignas(64) float faces[kWidestVector];
-        store(farthest.face, faces);
-        looked.carries |= addContacts(
-            group, placed, {touching, arm, Real(-1.0) * (placed.axes * farthest.normal), farthest.gap},
-            [&](int i) { return nameContact(trackFeature[i], static_cast<std::uint32_t>(faces[i])); },
-            [&](int i, const float* normal) {
-                // The track must lie below the face: a part that slides level over a border is not stopped by
-                // it.
-                const PackedTrack& track = *group.track[placed.lane + i];
-                const PackedVertex& vertex = track.vertices[indexOf(trackFeature[i])];
-                bool below = true;
-                for (int e = vertex.firstEdge; e < vertex.firstEdge + vertex.edgeCount; ++e)
-                    below &=
-                        dotThree(normal, track.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) <=
-                        static_cast<float>(kConeSlack);
-                return below;
-            });
+        // Which face it is belongs to the contact's name.
+        store(farthest.face, pairs.faces(row) + placed.slot);
+        stage(group, placed, row,
+              {touching, arm, Real(-1.0) * (placed.axes * farthest.normal), farthest.gap});
     }
+    looked.due = min(looked.due, findNextDue(placed, pairs));
+    looked.carries |= addStaged(
+        group, placed,
+        [&](int row, int i) {
+            return nameContact(pairs.trackFeature(row)[placed.slot + i],
+                               static_cast<std::uint32_t>(pairs.faces(row)[placed.slot + i]));
+        },
+        [&](int row, int i, const float* values) {
+            // The track must lie below the face: a part that slides level over a border is not stopped by it.
+            const float normal[3] = {values[kNormalX * kWidestVector], values[kNormalY * kWidestVector],
+                                     values[kNormalZ * kWidestVector]};
+            const PackedTrack& track = *group.track[placed.lane + i];
+            const PackedVertex& vertex = track.vertices[indexOf(pairs.trackFeature(row)[placed.slot + i])];
+            bool below = true;
+            for (int e = vertex.firstEdge; e < vertex.firstEdge + vertex.edgeCount; ++e)
+                below &= dotThree(normal, track.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) <=
+                         static_cast<float>(kConeSlack);
+            return below;
+        });
 }
 
 /// Fills the lists of contacts of a vector of lanes; returns the bits of those that an impulse acts on.

@@ -179,7 +179,8 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
         const trial::TrialBatch& like = batches[members.front()];
         const PackedBody body(contact::prepareBody(like.parts.front()->pieces));
-        const LaneModel model(*like.parts.front(), body, like.gravity, step_, anyBowl(batches, members));
+        const LaneModel model(*like.parts.front(), body, like.gravity, like.stepOr(step_),
+                              anyBowl(batches, members));
         TrialQueue queue(batches, std::move(members));
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
@@ -195,7 +196,8 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
                                                      double interval, base::RunControl control) const {
     if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
     const PackedBody body(contact::prepareBody(batch.parts.front()->pieces));
-    const LaneModel model(*batch.parts.front(), body, batch.gravity, step_, anyBowl({&batch, 1}, {0}));
+    const double step = batch.stepOr(step_);
+    const LaneModel model(*batch.parts.front(), body, batch.gravity, step, anyBowl({&batch, 1}, {0}));
     const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].phase);
     RunningTrials trials(model, 1);
     trials.add(std::make_shared<const Scene>(batch), 0, index);
@@ -209,14 +211,14 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
         beginStep(trials.group());
         trial::TrajectorySample sample = sampleOf(trials, drive);
         sample.forces = forces;
-        if (ended || sample.time + 0.5 * step_ >= static_cast<double>(trajectory.samples.size()) * interval)
+        if (ended || sample.time + 0.5 * step >= static_cast<double>(trajectory.samples.size()) * interval)
             trajectory.samples.push_back(sample);
         if (ended) break;
         recorded.clear();
         const base::Vec3 centre = trials.group().poseInTrack(0).position;
         const contact::TrackPlacement placement = drive.placement(trials.time(0));
         trials.finish();
-        const double rate = batch.parts.front()->massProperties.mass / step_;
+        const double rate = batch.parts.front()->massProperties.mass / step;
         forces.clear();
         for (const RecordedImpulse& given : recorded)
             forces.push_back(

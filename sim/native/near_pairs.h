@@ -13,6 +13,7 @@ namespace trapwright::native {
 enum VertexPairField : int {
     kVertexX, kVertexY, kVertexZ,                                // part frame [m]
     kPlanes, kPlanesLast = kPlanes + 15,                         // of the triangle, of its sides: normal, offset
+    kCone, kConeLast = kCone + 8,                                // its edges away from it, if there are at most three
     kVertexPairFields
 };
 /// Of a part's edge near an edge of the track.
@@ -31,9 +32,13 @@ enum EdgePairField : int {
 enum FacePairField : int {
     kPointX, kPointY, kPointZ,                                   // of the track [m]
     kFaceX, kFaceY, kFaceZ, kFaceOffset,                         // the face that it was farthest beyond, part frame
+    kFaceFound,                                                  // which face was touched last
     kFacePairFields
 };
 // clang-format on
+
+/// In NearPair::partFeature: the vertex has more edges than kCone has room for.
+inline constexpr std::uint32_t kManyEdges = 1U << 31U;
 
 /// Of a pair that is not there. [m]
 inline constexpr float kUntouchable = 1e6F;
@@ -68,6 +73,8 @@ class PairTable {
     [[nodiscard]] const float* due(int row) const {
         return due_.data() + static_cast<std::ptrdiff_t>(row) * kWidestVector;
     }
+    /// Of faces: kFaceFound, to be written.
+    [[nodiscard]] float* faces(int row) { return &at(row, kFaceFound, 0); }
     [[nodiscard]] const std::uint32_t* trackFeature(int row) const {
         return trackFeatures_.data() + static_cast<std::ptrdiff_t>(row) * kWidestVector;
     }

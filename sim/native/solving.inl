@@ -165,6 +165,16 @@ inline void beginSolving(TrialLanes& group, int lane) {
     await(group, group.carrying, lane);
 }
 
+/// Has a lane solved for what it hits later in the step.
+inline void awaitNextMoment(TrialLanes& group, int lane) {
+    const auto place = static_cast<std::size_t>(lane);
+    ContactList& found = group.found[place];
+    for (std::size_t i = 0; i < found.size(); ++i)
+        std::fill_n(found[i].values.begin() + kNormalImpulse, 3, 0.0F);
+    group.plastic[place] = 0;
+    await(group, group.carrying, lane);
+}
+
 /// Takes up from the round before; impacts of `plastic` lanes are plastic.
 inline void goOn(ContactConstraint* rows, SolveBatch& batch, Mask plastic) {
     for (int r = 0; r < batch.rows; ++r) {
@@ -195,7 +205,7 @@ inline void remember(TrialLanes& group, const SolveBatch& batch, const ContactCo
         alignas(64) float along[kWidestVector];
         alignas(64) float across[kWidestVector];
         // The impulse of an impact says nothing about the next step's.
-        const Mask impact = row.target > Real(0.0);
+        const Mask impact = row.impactTime <= Real(1.0);
         store(select(impact, Real(0.0), row.normal), normal);
         store(select(impact, Real(0.0), row.tangential.x), along);
         store(select(impact, Real(0.0), row.tangential.y), across);
@@ -226,8 +236,14 @@ inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, co
         store(impulse.y, values[2]);
         store(impulse.z, values[3]);
         if (values[0][0] <= 0.0F) continue;
-        recorded.push_back({{batch.touch(r, kArmX)[0], batch.touch(r, kArmY)[0], batch.touch(r, kArmZ)[0]},
-                            {values[1][0], values[2][0], values[3][0]}});
+        const base::Vec3 arm(batch.touch(r, kArmX)[0], batch.touch(r, kArmY)[0], batch.touch(r, kArmZ)[0]);
+        const base::Vec3 given(values[1][0], values[2][0], values[3][0]);
+        const auto known = std::find_if(recorded.begin(), recorded.end(),
+                                        [&](const RecordedImpulse& other) { return other.arm == arm; });
+        if (known != recorded.end())
+            known->impulse += given;
+        else
+            recorded.push_back({arm, given});
     }
 }
 
@@ -273,10 +289,12 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
     const Scaling scaling{{{gatherThree(group, kAxes, lanes), gatherThree(group, kAxes + 3, lanes),
                             gatherThree(group, kAxes + 6, lanes)}},
                           &group.model()};
-    const Motion before = {gatherThree(group, kVelocityX, lanes),
-                           scaling.scale(gatherThree(group, kSpinX, lanes))};
-    const Motion free = {gatherThree(group, kAfterX, lanes),
-                         scaling.scale(gatherThree(group, kAfterSpinX, lanes))};
+    const auto gatherMotion = [&](int velocity, int spin) {
+        return Motion{gatherThree(group, velocity, lanes), scaling.scale(gatherThree(group, spin, lanes))};
+    };
+    const Motion free = gatherMotion(kAfterX, kAfterSpinX);
+    const StepMotion motion = {gatherMotion(kVelocityX, kSpinX), free,
+                               gatherMotion(kAdvanceX, kAdvanceSpinX) - free};
     const Law law = {gather(group, kStaticFriction, lanes), gather(group, kKineticFriction, lanes),
                      gather(group, kRestitution, lanes)};
     const TrackMotion track = gatherTrackMotion(group, lanes);
@@ -284,7 +302,8 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
     const Real dt = group.model().dt;
     ContactConstraint rows[kMostContacts];
     for (int row = 0; row < batch.rows; ++row)
-        prepareConstraint(rows[row], loadContact(group, batch, row, track), turns, before, free, law, dt);
+        prepareConstraint(rows[row], loadContact(group, batch, row, track), turns, motion, law, dt);
+    takeFirstImpacts(rows, batch.rows, dt);
     std::uint32_t plastic = 0;
     if (batch.shaped) {
         for (int slot = 0; slot < batch.filled; ++slot) {
@@ -296,18 +315,30 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
 
     const std::uint32_t there = (1U << static_cast<unsigned>(batch.filled)) - 1U;
     const int iterations = batch.shaped ? kMaxIterations - kFirstRound : kFirstRound;
-    const auto solved = iterate(rows, batch.rows, free, !maskOf(there), iterations, batch.shaped);
+    const auto solved =
+        iterate(rows, batch.rows, free, !maskOf(there), iterations, batch.shaped ? kFirstRound : 0);
     const Motion& after = solved.motion;
     const std::uint32_t converged = batch.shaped ? there : bitsOf(solved.converged) & there;
     const std::uint32_t energetic = bitsOf(createsEnergy(rows, batch.rows, after)) & converged & ~plastic;
     const std::uint32_t settled = converged & ~energetic;
-    const Motion advance = advancePose(rows, batch.rows, free, after, dt);
+    const bool last = group.moment + 1 == kMostMoments;
+    const Motion own = advancePose(rows, batch.rows, free, after, dt, last);
+    const Motion advance = motion.offset + own;
+    const std::uint32_t more = last ? 0 : bitsOf(reachesLater(rows, batch.rows, own, dt)) & settled;
 
     scatterThree(group, batch, settled, kAfterX, after.velocity);
     scatterThree(group, batch, settled, kAfterSpinX, scaling.unscale(after.spin));
     scatterThree(group, batch, settled, kAdvanceX, advance.velocity);
     scatterThree(group, batch, settled, kAdvanceSpinX, scaling.unscale(advance.spin));
-    remember(group, batch, rows, settled);
+    // What carries over a step shows before its first impact.
+    if (group.moment == 0) remember(group, batch, rows, settled);
+    if (more != 0) {
+        const Motion before = goOnAfter(motion, after, advance).before;
+        scatterThree(group, batch, more, kVelocityX, before.velocity);
+        scatterThree(group, batch, more, kSpinX, scaling.unscale(before.spin));
+        forEachBit(more,
+                   [&](int slot) { awaitNextMoment(group, batch.lanes[static_cast<std::size_t>(slot)]); });
+    }
     if (group.recorded != nullptr && settled != 0) record(*group.recorded, batch, rows);
     if (settled != there) awaitAgain(group, batch, rows, there & ~settled, energetic);
     batch.filled = 0;
@@ -353,12 +384,18 @@ inline void solveRound(TrialLanes& group, LanesByContacts& byContacts, bool shap
     }
 }
 
-/// Solves all lanes on which impulses act.
+inline bool anyOf(const LanesByContacts& byContacts) {
+    return std::any_of(byContacts.begin(), byContacts.end(),
+                       [](const std::vector<std::int32_t>& lanes) { return !lanes.empty(); });
+}
+
+/// Solves all lanes on which impulses act, impact after impact.
 inline void solveCarrying(TrialLanes& group) {
-    solveRound(group, group.carrying, false);
-    const auto isEmpty = [](const std::vector<std::int32_t>& lanes) { return lanes.empty(); };
-    while (!std::all_of(group.unfinished.begin(), group.unfinished.end(), isEmpty))
-        solveRound(group, group.unfinished, true);
+    for (group.moment = 0; anyOf(group.carrying); ++group.moment) {
+        solveRound(group, group.carrying, false);
+        while (anyOf(group.unfinished))
+            solveRound(group, group.unfinished, true);
+    }
 }
 
 /// Remembers contacts that touch but carry nothing.

@@ -20,20 +20,32 @@ void store(const Mat3& from, float (&to)[3][3]) {
     }
 }
 
-/// Whether no two of them can be one (contact::kSamePlace).
-bool areApart(const ContactList& found) {
-    constexpr auto kApart = static_cast<float>(1.01 * contact::kSamePlace);
+float dotThree(const float* a, const float* b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Of contacts that say the same keeps the lowest, as contact::reduceManifold does.
+void keepDistinct(ContactList& found) {
+    constexpr auto kSamePlace = static_cast<float>(contact::kSamePlace);
+    std::uint64_t dropped = 0;
     for (std::size_t i = 1; i < found.size(); ++i) {
+        const float* a = found[i].values.data();
         for (std::size_t k = 0; k < i; ++k) {
-            float square = 0.0F;
-            for (std::size_t f = kArmX; f <= kArmZ; ++f) {
-                const float d = found[i].values[f] - found[k].values[f];
-                square += d * d;
-            }
-            if (square < kApart * kApart) return false;
+            const float* b = found[k].values.data();
+            const float apart[3] = {a[kArmX] - b[kArmX], a[kArmY] - b[kArmY], a[kArmZ] - b[kArmZ]};
+            const bool same = dotThree(apart, apart) < kSamePlace * kSamePlace &&
+                              dotThree(a + kNormalX, b + kNormalX) > static_cast<float>(contact::kSameNormal);
+            if (same) dropped |= std::uint64_t{1} << (a[kGap] < b[kGap] ? k : i);
         }
     }
-    return true;
+    if (dropped == 0) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if ((dropped >> i & 1U) != 0) continue;
+        if (kept != i) found[kept] = found[i];
+        ++kept;
+    }
+    found.shrink(kept);
 }
 
 std::uint32_t toTurns(double turns) {
@@ -175,7 +187,8 @@ base::Pose TrialLanes::poseInTrack(int lane) const {
 }
 
 void reduceContacts(ContactList& found) {
-    if (found.size() <= WarmStartCache::kMost && areApart(found)) return;
+    if (found.size() <= 64) keepDistinct(found);
+    if (found.size() <= WarmStartCache::kMost) return;
     std::vector<contact::ManifoldPoint> points;
     points.reserve(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) {

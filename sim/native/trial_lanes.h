@@ -78,17 +78,6 @@ enum Field : int {
 /// Of one part, after thinning out.
 inline constexpr int kMostContacts = contact::ImpulseSolver::kMaxContacts;
 
-/// Impulses that the last step left at the contacts of one part.
-struct WarmStartCache {
-    static constexpr int kMost = kMostContacts;
-    int count = 0;
-    int carrying = 0;  // with an impulse
-    std::uint64_t feature[kMost];
-    float normal[kMost];
-    float along[kMost], across[kMost];
-    bool slid[kMost];
-};
-
 /// What a contact is made of, in its track's axes, arms from the centre of mass.
 enum ContactField : int {
     kArmX,
@@ -107,6 +96,44 @@ enum ContactField : int {
     kDirectionAlong,
     kDirectionAcross,
     kContactFields
+};
+
+/// Contacts of a vector of lanes on their way into the lanes' lists.
+struct StagedContacts {
+    std::vector<int> rows;                // of the pairs, one after the other
+    std::vector<std::uint32_t> overlaps;  // bits of the lanes in which they overlap at the step's end
+    AlignedVector<float> values;          // ContactField of each row, of kWidestVector lanes
+    std::vector<std::int32_t> codes;      // place among `rows` times kWidestVector, plus lane: the contacts
+    int count = 0;
+
+    /// Room for the values of one more.
+    [[nodiscard]] float* valuesOf(int place) {
+        const auto needed = static_cast<std::size_t>(place + 1) * (kGap + 1) * kWidestVector;
+        if (values.size() < needed) values.resize(2 * needed);
+        return values.data() + static_cast<std::ptrdiff_t>(place) * (kGap + 1) * kWidestVector;
+    }
+    /// Where the next ones go, a whole vector of them.
+    [[nodiscard]] std::int32_t* reserveCodes() {
+        const auto needed = static_cast<std::size_t>(count + kWidestVector);
+        if (codes.size() < needed) codes.resize(2 * needed);
+        return codes.data() + count;
+    }
+    void clear() {
+        rows.clear();
+        overlaps.clear();
+        count = 0;
+    }
+};
+
+/// Impulses that the last step left at the contacts of one part.
+struct WarmStartCache {
+    static constexpr int kMost = kMostContacts;
+    int count = 0;
+    int carrying = 0;  // with an impulse
+    std::uint64_t feature[kMost];
+    float normal[kMost];
+    float along[kMost], across[kMost];
+    bool slid[kMost];
 };
 
 /// What the last step left of a contact.
@@ -210,6 +237,12 @@ class TrialLanes {
         cycle;  // of the drive at the step after the next, per step: [turn / 2^32]
     std::vector<const PackedTrack*> track;
     std::vector<NearPair> collected;
+    StagedContacts staged;
+    /// Room for the numbers of so many rows.
+    [[nodiscard]] int* rowsToLookAt(int rows) {
+        if (static_cast<int>(rows_.size()) <= rows) rows_.resize(2 * rows + 1);
+        return rows_.data();
+    }
     std::vector<WarmStartCache> warmStarts;
     std::vector<ContactList> found;     // of each lane
     LanesByContacts carrying;           // that wait to be solved
@@ -217,6 +250,7 @@ class TrialLanes {
     std::vector<std::int32_t> waiting;  // the same, one after the other
     std::vector<std::uint8_t> plastic;  // whether the impacts of the lane create energy
     SolveBatch solveBatch;
+    int moment = 0;                                    // of impacts in the present step
     trial::CostLaps* laps = nullptr;                   // if the costs are to be told apart
     std::vector<RecordedImpulse>* recorded = nullptr;  // if they are wanted, of a group of one
 
@@ -228,6 +262,7 @@ class TrialLanes {
     AlignedVector<double> positions_;
     AlignedVector<double> origins_;
     std::vector<NearPairs> pairs_;
+    std::vector<int> rows_;
 };
 
 /// More contacts than this are looked through for those that say the same.

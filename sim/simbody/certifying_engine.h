@@ -19,7 +19,7 @@ class CertifyingEngine : public trial::Engine {
     explicit CertifyingEngine(const trial::EngineOptions& options = {});
 
     [[nodiscard]] std::string name() const override { return kName; }
-    [[nodiscard]] double defaultStep() const override { return kDefaultStep; }
+    [[nodiscard]] double step() const override { return step_; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;
     [[nodiscard]] base::Result<trial::Trajectory> replay(const trial::TrialBatch& batch, std::size_t index,

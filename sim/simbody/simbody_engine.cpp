@@ -124,7 +124,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
         const int bodies = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kBodiesPerSystem));
         try {
             base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
-                Worker(like, queue, bodies, step_, outcomes).run(control, costs_.get());
+                Worker(like, queue, bodies, like.stepOr(step_), outcomes).run(control, costs_.get());
             });
         } catch (const std::exception& e) {
             return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
@@ -140,19 +140,20 @@ base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& b
     try {
         const geometry::MassProperties& mass = batch.parts.front()->massProperties;
         FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);
-        TrialLane lane(std::make_shared<const Scene>(batch), index, bodies, 0, step_);
+        const double step = batch.stepOr(step_);
+        TrialLane lane(std::make_shared<const Scene>(batch), index, bodies, 0, step);
         trial::CostLaps laps(nullptr);
         trial::Trajectory trajectory;
         while (true) {
             if (!control.mayGoOn()) return base::Error{"The replay was cancelled."};
-            bodies.beginStep(step_);
+            bodies.beginStep(step);
             const trial::TrajectorySample sample = lane.sample(bodies, 0);
             const bool ended = lane.step(bodies, 0, laps).has_value();
             if (ended ||
-                sample.time + 0.5 * step_ >= static_cast<double>(trajectory.samples.size()) * interval)
+                sample.time + 0.5 * step >= static_cast<double>(trajectory.samples.size()) * interval)
                 trajectory.samples.push_back(sample);
             if (ended) break;
-            bodies.endStep(step_);
+            bodies.endStep(step);
         }
         trajectory.outcome = lane.outcome();
         control.advance(1);

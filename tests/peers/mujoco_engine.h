@@ -12,7 +12,6 @@ class MujocoEngine : public PeerEngine {
     explicit MujocoEngine(const trial::EngineOptions& options = {}) : PeerEngine(options, kDefaultStep) {}
 
     [[nodiscard]] std::string name() const override { return "mujoco"; }
-    [[nodiscard]] double defaultStep() const override { return kDefaultStep; }
 
  private:
     [[nodiscard]] base::Result<std::unique_ptr<PeerScene>> prepare(

@@ -12,7 +12,6 @@ class OdeEngine : public PeerEngine {
     explicit OdeEngine(const trial::EngineOptions& options = {}) : PeerEngine(options, kDefaultStep) {}
 
     [[nodiscard]] std::string name() const override { return "ode"; }
-    [[nodiscard]] double defaultStep() const override { return kDefaultStep; }
 
  private:
     [[nodiscard]] base::Result<std::unique_ptr<PeerScene>> prepare(

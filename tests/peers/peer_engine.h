@@ -43,6 +43,7 @@ class PeerScene {
 /// Trapwright's own.
 class PeerEngine : public trial::Engine {
  public:
+    [[nodiscard]] double step() const override { return step_; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;
     [[nodiscard]] base::Result<trial::Trajectory> replay(const trial::TrialBatch& batch, std::size_t index,
@@ -51,8 +52,6 @@ class PeerEngine : public trial::Engine {
 
  protected:
     PeerEngine(const trial::EngineOptions& options, double defaultStep);
-
-    [[nodiscard]] double step() const { return step_; }
 
  private:
     /// An error that says why the simulator cannot do this batch, which must outlive the scene.

@@ -23,6 +23,13 @@ QString objectiveText(const study::EvolutionSettings& evolution) {
     return QString::fromStdString(list ? objectives::describeSum(*list) : evolution.objectives);
 }
 
+QString stepText(const study::Settings& settings) {
+    const double step = study::chooseLearningStep(settings);
+    if (step == 0.0) return EvolveSummary::tr("the engine's own");
+    const QString text = EvolveSummary::tr("%1 ms while learning").arg(look::numberText(step * 1e3));
+    return settings.evolution.learningStep > 0.0 ? text : EvolveSummary::tr("%1 (automatic)").arg(text);
+}
+
 Facts factsOf(const study::Settings& settings) {
     const study::TrackSettings& track = settings.track;
     const study::EvolutionSettings& evolution = settings.evolution;
@@ -59,6 +66,7 @@ Facts factsOf(const study::Settings& settings) {
              ? EvolveSummary::tr("genetic, tournaments of %1").arg(evolution.tournamentSize)
              : EvolveSummary::tr("random")},
         {EvolveSummary::tr("Objective"), objectiveText(evolution)},
+        {EvolveSummary::tr("Step"), stepText(settings)},
         {EvolveSummary::tr("Seed"), QString::number(evolution.seed)},
     };
 }

@@ -25,13 +25,41 @@ constexpr double kStickSpeed = 1e-3;
 /// The impact time of what does not collide in this step: no share of a step.
 constexpr double kNoImpact = 2.0;
 
+/// What is nearer at the moment of an impact touches: a part that falls flat hits with all corners at once.
+/// [m]
+constexpr double kTouchingGap = 1e-6;
+/// Of what is left for later: a velocity that is never fallen short of. [m/s]
+constexpr double kNoTarget = -1e6;
+/// How many moments of impact one step can have; what comes after them waits for the next.
+constexpr int kMostMoments = 4;
+
 /// Velocity of the centre of mass and scaled angular velocity, or the impulses that change them.
 struct Motion {
     Triple velocity, spin;
 };
 
+inline Motion operator+(const Motion& a, const Motion& b) {
+    return {a.velocity + b.velocity, a.spin + b.spin};
+}
+inline Motion operator-(const Motion& a, const Motion& b) {
+    return {a.velocity - b.velocity, a.spin - b.spin};
+}
 inline Motion select(Mask mask, const Motion& yes, const Motion& no) {
     return {select(mask, yes.velocity, no.velocity), select(mask, yes.spin, no.spin)};
+}
+
+/// A part on its way through a step. In both motions velocities belong to the middles of steps, as if nothing
+/// had been hit between: so they stay when a step is gone through impact by impact.
+struct StepMotion {
+    Motion before;  // in the step before
+    Motion free;    // in this one, if nothing is hit (any more)
+    /// What the way of the whole step is more than `free`, by what was hit already. Zero to begin with.
+    Motion offset;
+};
+
+/// What is left of the step after impacts that make `free` become `after`, and the step's way `advance`.
+inline StepMotion goOnAfter(const StepMotion& motion, const Motion& after, const Motion& advance) {
+    return {motion.before + (after - motion.free), after, advance - after};
 }
 
 /// A contact at the begin of a step. Zeros with a positive gap are a contact that does nothing.
@@ -53,7 +81,7 @@ struct ContactConstraint {
     Triple axis[3];  // normal and two tangents
     Triple turn[3];  // scaled arm x axis
     Real track[3];   // velocity of the track along the axes, mean over the step
-    Real gap;
+    Real gap;  // at the step's begin, as if the part had always moved as it does now (StepMotion::offset)
     Real normalInverse, normalMass;    // change of normal velocity by a unit normal impulse, and 1 / that
     Real tangentInverse, tangentMass;  // largest eigenvalue of the tangential inverse mass, and 1 / that
     Pair coupling;                     // change of tangential velocity by a unit normal impulse
@@ -67,6 +95,7 @@ struct ContactConstraint {
     Pair slipTarget;  // tangential velocity of what sticks
     FrictionShape shape;
     Mask sliding;
+    Mask later;  // not before the step's first impact
 };
 
 inline Real velocityAlong(const ContactConstraint& row, const Motion& motion, int k) {
@@ -98,7 +127,6 @@ inline Motion blend(Real early, const Motion& first, const Motion& second) {
 }
 
 inline void setAxes(ContactConstraint& row, const MovingContact& touch) {
-    row.gap = touch.gap;
     row.axis[0] = touch.normal;
     // Any tangents will do, as long as the same normal always gives the same ones.
     const Mask steep = abs(touch.normal.x) < Real(0.7);
@@ -117,8 +145,8 @@ struct InverseMass {
     Pair normalCoupling;  // along the tangents by the normal impulse
 };
 
-/// What is to be solved for at a contact whose axes and `speed` are set. `speedBefore`: along the axes, in
-/// the step before.
+/// What is to be solved for at a contact whose axes, `gap` and `speed` are set. `speedBefore`: along the
+/// axes, in the step before.
 inline void applyLaw(ContactConstraint& row, const MovingContact& touch, const InverseMass& inverse,
                      const Real (&speedBefore)[3], const Law& law, Real dt) {
     row.normalInverse = inverse.along[0];
@@ -130,19 +158,18 @@ inline void applyLaw(ContactConstraint& row, const MovingContact& touch, const I
     row.coupling = inverse.normalCoupling;
 
     // Not deeper than touching at the step's end; an impact inside the step rebounds.
-    const Real open = max(touch.gap, Real(0.0));
+    const Real open = max(row.gap, Real(0.0));
     const Real approach = -speedBefore[0];
     const Pair slipBefore = {speedBefore[1], speedBefore[2]};
     const Pair slip = {row.speed[1], row.speed[2]};
-    const Mask reaches = approach > Real(kRestSpeed) && touch.gap + dt * row.speed[0] < Real(0.0);
+    const Mask impact = approach > Real(kRestSpeed) && row.gap + dt * row.speed[0] < Real(0.0);
     const Real share = min(open / max(-dt * row.speed[0], Real(kNoSpeed) * dt), Real(1.0));
     // Velocities belong to the middles of steps; the impact lies between two of them.
     const Real speed = approach + (Real(0.5) + share) * (-row.speed[0] - approach);
     // From the impact to the middle of this step the part goes on being pulled.
     const Real rebound =
         speed * calcRestitution(speed, law.restitution) + (Real(0.5) - share) * (row.speed[0] + approach);
-    const Mask impact = reaches && rebound > Real(0.0);
-    row.target = select(impact, rebound, -open / dt);
+    row.target = select(impact, max(rebound, Real(0.0)), -open / dt);
     row.impactTime = select(impact, share, Real(kNoImpact));
     // An impact is over in no time: what sticks has the track's velocity of that moment, and no slip has time
     // to turn round.
@@ -157,25 +184,115 @@ inline void applyLaw(ContactConstraint& row, const MovingContact& touch, const I
     row.friction = select(row.sliding, law.kineticFriction, law.staticFriction);
 }
 
-/// `scale`: S^T in the axes of the contacts. before: motion in the step before. free: before plus what
-/// gravity and gyroscopic torque add in this step. dt [s].
+/// `scale`: S^T in the axes of the contacts. motion.free to begin with: motion.before and what gravity and
+/// gyroscopic torque add in this step. dt [s].
 inline void prepareConstraint(ContactConstraint& row, const MovingContact& touch, const Matrix& scale,
-                              const Motion& before, const Motion& free, const Law& law, Real dt) {
+                              const StepMotion& motion, const Law& law, Real dt) {
     setAxes(row, touch);
     Real speedBefore[3];
     InverseMass inverse;
     for (int k = 0; k < 3; ++k) {
         row.turn[k] = scale * cross(touch.arm, row.axis[k]);
         row.track[k] = dot(row.axis[k], touch.trackVelocity);
-        row.speed[k] = velocityAlong(row, free, k);
-        speedBefore[k] =
-            dot(row.axis[k], before.velocity - touch.trackVelocityBefore) + dot(row.turn[k], before.spin);
+        row.speed[k] = velocityAlong(row, motion.free, k);
+        speedBefore[k] = dot(row.axis[k], motion.before.velocity - touch.trackVelocityBefore) +
+                         dot(row.turn[k], motion.before.spin);
         inverse.along[k] = Real(1.0) + dot(row.turn[k], row.turn[k]);
     }
+    row.gap =
+        touch.gap + dt * (dot(row.axis[0], motion.offset.velocity) + dot(row.turn[0], motion.offset.spin));
     inverse.coupling = dot(row.turn[1], row.turn[2]);
     inverse.normalCoupling = {dot(row.turn[0], row.turn[1]), dot(row.turn[0], row.turn[2])};
     applyLaw(row, touch, inverse, speedBefore, law, dt);
 }
+
+/// Of a step with impacts, only the first count, and what touches at that moment: they change how fast the
+/// rest is hit, and whether at all. A part that lands a little aslant hits with one corner, turns, and hits
+/// with the next: with all corners at once its turning would be lost, the more the larger the step.
+template <class Row>
+void takeFirstImpacts(Row* rows, int count, Real dt) {
+    Real first = Real(kNoImpact);
+    for (int i = 0; i < count; ++i)
+        first = min(first, rows[i].impactTime);
+    const Mask impact = first <= Real(1.0);
+    for (int i = 0; i < count; ++i) {
+        Row& row = rows[i];
+        const Real then = row.gap + first * dt * row.speed[0];
+        row.later = impact && then > Real(kTouchingGap);
+        row.target = select(row.later, Real(kNoTarget), row.target);
+        row.impactTime = select(row.later, Real(kNoImpact), row.impactTime);
+        row.normal = select(row.later, Real(0.0), row.normal);
+        row.tangential = select(row.later, Pair{Real(0.0), Real(0.0)}, row.tangential);
+    }
+}
+
+/// Whether what was left for later is hit on this way.
+template <class Row, class State>
+Mask reachesLater(const Row* rows, int count, const State& advance, Real dt) {
+    Mask reaches = Real(0.0) > Real(1.0);
+    for (int i = 0; i < count; ++i) {
+        const Row& row = rows[i];
+        reaches = reaches || (row.later && row.gap + dt * velocityAlong(row, advance, 0) < Real(0.0));
+    }
+    return reaches;
+}
+
+/// Impulses are noted after iterations 3 and 5 and carried on after 7, then the same six later, and so on.
+constexpr int kTrendPeriod = 6;
+/// Contacts of which impulses are carried on; no more than that of one part.
+constexpr int kMostInTrend = 12;
+/// Changes that shrink by a factor out of this range from one time to the next tell nothing.
+constexpr double kLeastRate = 0.1;
+constexpr double kGreatestRate = 0.97;
+
+/// Impacts of several corners begin from nothing and converge slowly. Once it is clear which contacts slide,
+/// what two sweeps there and back change shrinks by about the same factor each time: the impulses can be
+/// carried on to where that leads (Aitken's extrapolation, with one factor for all).
+struct ImpulseTrend {
+    Real before[kMostInTrend][3], last[kMostInTrend][3];
+    int noted = 0;
+
+    template <class Row>
+    void note(const Row* rows, int count) {
+        auto& to = noted == 0 ? before : last;
+        for (int i = 0; i < count; ++i) {
+            to[i][0] = rows[i].normal;
+            to[i][1] = rows[i].tangential.x;
+            to[i][2] = rows[i].tangential.y;
+        }
+        ++noted;
+    }
+
+    /// Carries on the impulses of these lanes, and begins anew.
+    template <class Row, class State>
+    void follow(Row* rows, int count, State& motion, Mask lanes) {
+        Real along = Real(0.0);
+        Real square = Real(0.0);
+        for (int i = 0; i < count; ++i) {
+            const Real now[3] = {rows[i].normal, rows[i].tangential.x, rows[i].tangential.y};
+            for (int k = 0; k < 3; ++k) {
+                const Real change = last[i][k] - before[i][k];
+                along = mulAdd(now[k] - last[i][k], change, along);
+                square = mulAdd(change, change, square);
+            }
+        }
+        const Real rate = along / max(square, Real(kNoSpeed * kNoSpeed));
+        const Mask tells = lanes && rate > Real(kLeastRate) && rate < Real(kGreatestRate);
+        const Real share = select(tells, rate / max(Real(1.0) - rate, Real(1.0 - kGreatestRate)), Real(0.0));
+        for (int i = 0; i < count; ++i) {
+            Row& row = rows[i];
+            const Real normal = max(Real(0.0), row.normal + share * (row.normal - last[i][0]));
+            const Pair tangential = {share * (row.tangential.x - last[i][1]),
+                                     share * (row.tangential.y - last[i][2])};
+            applyImpulse(row, motion, 0, normal - row.normal);
+            applyImpulse(row, motion, 1, tangential.x);
+            applyImpulse(row, motion, 2, tangential.y);
+            row.normal = normal;
+            row.tangential = row.tangential + tangential;
+        }
+        noted = 0;
+    }
+};
 
 /// What iterating led to.
 template <class State>
@@ -185,11 +302,17 @@ struct Iterated {
 };
 
 /// Changes the rows' impulses until all targets are met, at most so often; `motion` is the one that they lead
-/// to from `freeMotion`. Lanes of `frozen` keep their impulses. shaped: how friction turns within the step is
-/// known in all lanes.
+/// to from `freeMotion`. Lanes of `frozen` keep their impulses. first: how many iterations there were before;
+/// they told how friction turns within the step.
 template <class Row, class State>
 Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask frozen, int iterations,
-                        bool shaped = false) {
+                        int first = 0) {
+    const bool shaped = first > 0;
+    ImpulseTrend trend;
+    Mask impact = Real(0.0) > Real(1.0);
+    for (int i = 0; i < count; ++i)
+        impact = impact || rows[i].impactTime <= Real(1.0);
+    const bool anyImpact = count <= kMostInTrend && any(impact);
     State motion = freeMotion;
     for (int i = 0; i < count; ++i) {
         applyImpulse(rows[i], motion, 0, rows[i].normal);
@@ -233,6 +356,12 @@ Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask froz
             change = max(change, dot(slipChange, slipChange));
         }
         done = done || change < tolerance;
+        if (!anyImpact) continue;
+        const int turn = (first + iteration) % kTrendPeriod;
+        if (turn == 1 && trend.noted == 2)
+            trend.follow(rows, count, motion, impact && !done);
+        else if (turn == 3 || turn == 5)
+            trend.note(rows, count);
     }
     return {motion, done};
 }
@@ -244,7 +373,7 @@ Mask createsEnergy(const Row* rows, int count, const State& motion) {
     Real work = Real(0.0);
     for (int i = 0; i < count; ++i) {
         const Row& row = rows[i];
-        impact = impact || row.target > Real(0.0);
+        impact = impact || row.impactTime <= Real(1.0);
         const Real impulse[3] = {row.normal, row.tangential.x, row.tangential.y};
         for (int k = 0; k < 3; ++k)
             work =
@@ -279,12 +408,13 @@ State solve(Row* rows, int count, const State& free) {
 
 /// What moves the pose over the step: the free motion up to the earliest impact, the solved one from there
 /// on, and whatever keeps the pose that this leads to from overlapping more than before, without giving the
-/// part speed.
+/// part speed. last: what was left for later is not looked at any more in this step, and kept from
+/// overlapping, too.
 template <class Row, class State>
-State advancePose(const Row* rows, int count, const State& free, const State& after, Real dt) {
+State advancePose(const Row* rows, int count, const State& free, const State& after, Real dt, bool last) {
     Real impactTime = Real(kNoImpact);
     for (int i = 0; i < count; ++i)
-        impactTime = select(rows[i].target > Real(0.0), min(impactTime, rows[i].impactTime), impactTime);
+        impactTime = min(impactTime, rows[i].impactTime);
     const Real early = select(impactTime <= Real(1.0), impactTime, Real(0.0));
     State advance = blend(early, free, after);
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -293,7 +423,8 @@ State advancePose(const Row* rows, int count, const State& free, const State& af
             const Row& row = rows[i];
             const Real allowed = min(row.gap, Real(0.0)) * Real(1.0 - kRecovery);
             const Real overlap = allowed - (row.gap + dt * velocityAlong(row, advance, 0));
-            const Mask deep = overlap > Real(kOverlapTolerance);
+            Mask deep = overlap > Real(kOverlapTolerance);
+            if (!last) deep = deep && !row.later;
             applyImpulse(row, advance, 0, select(deep, overlap / dt * row.normalMass, Real(0.0)));
             overlapping = overlapping || deep;
         }

@@ -16,7 +16,7 @@ class HalfEngine : public trial::Engine {
         : name_(std::move(name)), options_(std::move(options)), calls_(calls) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
-    [[nodiscard]] double defaultStep() const override { return 2e-3; }
+    [[nodiscard]] double step() const override { return options_.step > 0.0 ? options_.step : 2e-3; }
 
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override {

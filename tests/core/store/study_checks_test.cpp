@@ -152,14 +152,16 @@ class StudyChecksTest : public QObject {
         // Learned without a race, and to the last digit with what it had.
         study::Settings expected = sample::settings();
         expected.evolution.learningStuckTime = expected.simulation.termination.stuckTime;
+        expected.evolution.learningStep = 0.2e-3;
         QVERIFY(study->loadSettings().value() == expected);
         QCOMPARE(study->loadSettings().value().evolution.racingTrials, 0);
         QVERIFY(study->loadChecks().value() == std::vector{sampleCheck(1)});
         SQLite::Database database(path_.string(), SQLite::OPEN_READONLY);
         QCOMPARE(database.execAndGet("PRAGMA user_version").getInt(), store::currentSchemaVersion());
         const std::string json = database.execAndGet("SELECT settings FROM study").getString();
-        for (const char* pinned : {"\"racingTrials\":0", "\"racingShare\":0.3",
-                                   "\"commonRandomNumbers\":false", "\"learningStuckTime_s\":1.5"}) {
+        for (const char* pinned :
+             {"\"racingTrials\":0", "\"racingShare\":0.3", "\"commonRandomNumbers\":false",
+              "\"learningStuckTime_s\":1.5", "\"learningStep_ms\":0.2"}) {
             QVERIFY2(json.find(pinned) != std::string::npos, json.c_str());
         }
     }

@@ -36,7 +36,7 @@ class FakeEngine : public trial::Engine {
     std::string title = "fake";
 
     [[nodiscard]] std::string name() const override { return title; }
-    [[nodiscard]] double defaultStep() const override { return 1e-3; }
+    [[nodiscard]] double step() const override { return 1e-3; }
 
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override {

@@ -76,6 +76,7 @@ class SettingsCheckTest : public QObject {
         QVERIFY(s.evolution.simulateOverlapping);
         QCOMPARE(s.evolution.racingTrials, 0);
         QVERIFY(!s.evolution.commonRandomNumbers);
+        QCOMPARE(s.evolution.learningStep, 0.2e-3);
         QCOMPARE(s.evolution.learningStuckTime, s.simulation.termination.stuckTime);
         QCOMPARE(s.simulation.engine, std::string("simbody"));
     }

@@ -52,6 +52,7 @@ Settings unusualSettings() {
                    1.0 / 3.0,
                    true,
                    0.7,
+                   0.7e-3 / 3.0,
                    12,
                    0xFFFFFFFFFFFFFFFFULL};
     s.simulation.drive = {60.25, 0.7e-3 / 9.0, 13.7 * base::kDegree};

@@ -246,6 +246,32 @@ class ValidationTest : public QObject {
         QCOMPARE(study::makeLearningBatch(scene, {0, 0}, 1).termination.stuckTime, 0.3);
     }
 
+    void learningTakesLargerSteps_data() {
+        QTest::addColumn<double>("frequency");
+        QTest::addColumn<double>("set");
+        QTest::addColumn<double>("expected");
+        QTest::newRow("mains") << 50.0 << 0.0 << 0.3e-3;
+        QTest::newRow("slow") << 20.0 << 0.0 << 0.3e-3;
+        QTest::newRow("60 Hz") << 60.0 << 0.0 << 0.25e-3;
+        QTest::newRow("as fine as it is anyway") << 100.0 << 0.0 << 0.0;
+        QTest::newRow("set") << 100.0 << 0.4e-3 << 0.4e-3;
+        QTest::newRow("set finer") << 50.0 << 0.1e-3 << 0.1e-3;
+    }
+    void learningTakesLargerSteps() {
+        QFETCH(double, frequency);
+        QFETCH(double, set);
+        QFETCH(double, expected);
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.simulation.drive.frequency = frequency;
+        inputs.settings.evolution.learningStep = set;
+        const auto track = std::make_shared<const track::Track>(
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.design).value());
+        const study::TrialScene scene = study::makeScene(inputs.settings, inputs.part, track);
+        QVERIFY(std::abs(study::makeLearningBatch(scene, {0, 0}, 1).step - expected) < 1e-12);
+        QCOMPARE(study::makeSelectionBatch(scene, {0, 0}, 1).step, 0.0);
+        QCOMPARE(study::makeValidationBatch(scene, {0, 0}, 0, 1).step, 0.0);
+    }
+
     void partWithoutPosesIsRefused() {
         study::StudyInputs inputs = fake::waveInputs();
         part::Part part = *inputs.part;

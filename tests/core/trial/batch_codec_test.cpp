@@ -124,6 +124,7 @@ trial::TrialBatch makeBatch() {
     batch.partsContact = {next(), next(), next()};
     batch.termination = {next(), next(), next()};
     batch.gravity = next();
+    batch.step = next();
     for (std::uint32_t i = 0; i < 3; ++i) {
         trial::TrialSpec spec;
         spec.stream = {0x8000000000000001U + i, 7 + i, 0xfffffffeU, 9 + i, base::Purpose::validation};
@@ -246,7 +247,7 @@ bool same(const trial::TrialBatch& a, const trial::TrialBatch& b) {
            same(a.termination.timeLimit, b.termination.timeLimit) &&
            same(a.termination.stuckTime, b.termination.stuckTime) &&
            same(a.termination.stuckProgress, b.termination.stuckProgress) && same(a.gravity, b.gravity) &&
-           allSame(a.trials, b.trials, kSame);
+           same(a.step, b.step) && allSame(a.trials, b.trials, kSame);
 }
 
 bool same(const std::vector<trial::Outcome>& a, const std::vector<trial::Outcome>& b) {
@@ -388,8 +389,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 514, and this program "
-                         "knows version 2; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 515, and this program "
+                         "knows version 3; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

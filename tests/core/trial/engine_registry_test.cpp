@@ -15,7 +15,7 @@ class NamedEngine : public trial::Engine {
         : name_(std::move(name)), step_(options.step) {}
 
     [[nodiscard]] std::string name() const override { return name_; }
-    [[nodiscard]] double defaultStep() const override { return step_; }
+    [[nodiscard]] double step() const override { return step_; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch>, base::RunControl) const override {
         return base::Error{"none"};
@@ -52,7 +52,7 @@ class EngineRegistryTest : public QObject {
         const auto engine = registry().make("new", {1, 0.25});
         QVERIFY(engine.ok());
         QCOMPARE((*engine)->name(), std::string("new"));
-        QCOMPARE((*engine)->defaultStep(), 0.25);
+        QCOMPARE((*engine)->step(), 0.25);
         QCOMPARE(registry().quick().name, std::string("fast"));
         QCOMPARE(registry().reference().name, std::string("sure"));
     }

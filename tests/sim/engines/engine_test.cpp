@@ -55,6 +55,23 @@ class EngineTest : public QObject {
         outcomes_ = outcomes[0];
     }
 
+    // Also beside batches that ask for none.
+    void aBatchHasItsOwnStep() {
+        trial::TrialBatch coarse = batch_;
+        coarse.trials.resize(10);
+        const auto expected = testing::makeEngine({1, 0.4e-3})->run({&coarse, 1}, {});
+        QVERIFY(expected.ok());
+        coarse.step = 0.4e-3;
+        const Outcomes both = simulate({batch_, coarse}, 2);
+        QCOMPARE(both.size(), std::size_t{2});
+        QVERIFY(both[0] == outcomes_);
+        QVERIFY(both[1] == expected->front());
+        QVERIFY(both[1] != std::vector(outcomes_.begin(), outcomes_.begin() + 10));
+        const auto replayed = testing::makeEngine()->replay(coarse, 3, 0.01, {});
+        QVERIFY(replayed.ok());
+        QVERIFY(replayed->outcome == both[1][3]);
+    }
+
     // Otherwise comparing them below would mean nothing.
     void trialsDiffer() {
         QCOMPARE(outcomes_.size(), batch_.trials.size());
