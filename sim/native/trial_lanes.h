@@ -114,7 +114,7 @@ struct StagedContacts {
     }
     /// Where the next ones go, a whole vector of them.
     [[nodiscard]] std::int32_t* reserveCodes() {
-        const auto needed = static_cast<std::size_t>(count + kWidestVector);
+        const std::size_t needed = static_cast<std::size_t>(count) + kWidestVector;
         if (codes.size() < needed) codes.resize(2 * needed);
         return codes.data() + count;
     }
