@@ -179,7 +179,8 @@ std::vector<Choice> engineChoices(const trial::EngineRegistry& engines) {
 
 QString unitOf(std::string_view key) {
     static const std::pair<std::string_view, const char*> kUnits[] = {
-        {"_kg_m3", "kg/m³"}, {"_m_s2", "m/s²"}, {"_mm", "mm"}, {"_deg", "°"}, {"_Hz", "Hz"}, {"_s", "s"}};
+        {"_kg_m3", "kg/m³"}, {"_m_s2", "m/s²"}, {"_mm", "mm"}, {"_deg", "°"},
+        {"_Hz", "Hz"},       {"_ms", "ms"},     {"_s", "s"}};
     for (const auto& [ending, unit] : kUnits)
         if (key.ends_with(ending)) return QString::fromUtf8(unit);
     return {};

@@ -65,6 +65,7 @@ class FieldTextsTest : public QObject {
         QCOMPARE(pages::unitOf("track.segmentWidth_mm"), QString("mm"));
         QCOMPARE(pages::unitOf("part.density_kg_m3"), QString("kg/m³"));
         QCOMPARE(pages::unitOf("simulation.drive.angle_deg"), QString("°"));
+        QCOMPARE(pages::unitOf("evolution.learningStep_ms"), QString("ms"));
         QCOMPARE(pages::unitOf("evolution.tournamentSize"), QString());
     }
 
