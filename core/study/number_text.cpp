@@ -11,7 +11,7 @@ namespace trapwright::study {
 
 namespace {
 
-constexpr int kMillimetreShift = 3;
+constexpr int kMilliShift = 3;
 
 /// digits[0].digits[1]... x 10^exponent, the shortest that gives the value back.
 struct Decimal {
@@ -95,7 +95,7 @@ std::string fileText(double value, FileUnit unit) {
     switch (unit) {
         case FileUnit::millimetre:
         case FileUnit::millisecond:
-            return shiftedText(value, kMillimetreShift);
+            return shiftedText(value, kMilliShift);
         case FileUnit::degree:
             return degreeText(value);
         case FileUnit::none:
@@ -121,7 +121,7 @@ std::optional<double> siValue(std::string_view text, FileUnit unit) {
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
         if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
     }
-    return parse(std::string(text.substr(0, mark)) + "e" + std::to_string(exponent - kMillimetreShift));
+    return parse(std::string(text.substr(0, mark)) + "e" + std::to_string(exponent - kMilliShift));
 }
 
 }  // namespace trapwright::study

@@ -45,8 +45,8 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
         makeLearningBatch(makeScene(inputs.settings, inputs.part, track), winner, countCheckTrials(winner))};
     const auto learned = runTrials(*inputs.engine, batches, control);
     if (!learned) return learned.error();
-    batches.front().step =
-        0.0;  // the reference's own: that the step was no larger than it may be is checked, too
+    // The reference in its own step, so that a step that was too large shows.
+    batches.front().step = 0.0;
     const auto judged = runTrials(reference, batches, control);
     if (!judged) return judged.error();
 

@@ -24,6 +24,9 @@ float dotThree(const float* a, const float* b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// Contacts of which keepDistinct can mark some, a bit each.
+constexpr std::size_t kMostMarked = 64;
+
 /// Of contacts that say the same keeps the lowest, as contact::reduceManifold does.
 void keepDistinct(ContactList& found) {
     constexpr auto kSamePlace = static_cast<float>(contact::kSamePlace);
@@ -187,7 +190,7 @@ base::Pose TrialLanes::poseInTrack(int lane) const {
 }
 
 void reduceContacts(ContactList& found) {
-    if (found.size() <= 64) keepDistinct(found);
+    if (found.size() <= kMostMarked) keepDistinct(found);
     if (found.size() <= WarmStartCache::kMost) return;
     std::vector<contact::ManifoldPoint> points;
     points.reserve(found.size());

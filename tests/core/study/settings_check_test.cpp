@@ -150,6 +150,9 @@ class SettingsCheckTest : public QObject {
             "evolution.racingTrials is 1; F_O compares two parts at least, so it must be 0 (no race) or at "
             "least 2.");
         row(
+            "step that never ends", [](Settings& s) { s.evolution.learningStep = 1e-6; },
+            "evolution.learningStep_ms is 0.001; it must be 0 (chosen by the program) or from 0.01 to 1.");
+        row(
             "race for fewer than the statistics show", [](Settings& s) { s.evolution.racingShare = 0.25; },
             "evolution.racingShare is 0.25; it must be from 0.3 to 1.");
         row(
