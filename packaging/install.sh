@@ -31,8 +31,8 @@ packages=(
 )
 # for making Debian packages and looking at them
 debs=(file librsvg2-bin lintian)
-# other simulators that tests/peers measures against
-peers=(libmujoco-dev libode-dev)
+# other simulators that tests/peers measures against, and what draws its chart
+peers=(gnuplot-nox libbullet-dev libmujoco-dev libode-dev)
 
 usage() {
     cat <<USAGE

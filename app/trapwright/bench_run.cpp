@@ -49,29 +49,6 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
     return names;
 }
 
-/// The engines in the order in which they were named; the first is what the others are compared with.
-Attempt<std::vector<trial::EngineKind>> chooseContenders(const std::string& wanted,
-                                                         std::span<const trial::EngineKind> known) {
-    std::vector<trial::EngineKind> chosen;
-    if (wanted == "all") std::ranges::copy_if(known, std::back_inserter(chosen), std::not_fn(isSlow));
-    std::vector<std::string> names = splitAtCommas(wanted == "all" ? "" : wanted);
-    if (wanted == trial::kHybrid)
-        names = {engines::registry().quick().name, engines::registry().reference().name};
-    for (const std::string& name : names) {
-        const auto found = std::find_if(known.begin(), known.end(), [&](const trial::EngineKind& contender) {
-            return contender.name == name;
-        });
-        if (found == known.end()) {
-            return Failure{ExitCode::usage,
-                           fmt::format("--engine {}: there is no engine named \"{}\". The engines are: {}.",
-                                       wanted, name, listNames(known))};
-        }
-        chosen.push_back(*found);
-    }
-    if (chosen.empty()) return Failure{ExitCode::usage, "--engine names no engine."};
-    return chosen;
-}
-
 Attempt<std::vector<bench::Scene>> chooseScenes(const std::string& filter) {
     auto scenes = bench::makeScenes();
     if (!scenes) return Failure{ExitCode::badInput, scenes.error().message};
@@ -160,6 +137,28 @@ void addBenchOptions(Command command, BenchOptions& options) {
                       fmt::format("Engines side by side: A,B, {} for the two that it stands for, or "
                                   "\"all\", which leaves {} out (all)",
                                   trial::kHybrid, listNames(std::span<const trial::EngineKind>(slow))));
+}
+
+Attempt<std::vector<trial::EngineKind>> chooseContenders(const std::string& wanted,
+                                                         std::span<const trial::EngineKind> known) {
+    std::vector<trial::EngineKind> chosen;
+    if (wanted == "all") std::ranges::copy_if(known, std::back_inserter(chosen), std::not_fn(isSlow));
+    std::vector<std::string> names = splitAtCommas(wanted == "all" ? "" : wanted);
+    if (wanted == trial::kHybrid)
+        names = {engines::registry().quick().name, engines::registry().reference().name};
+    for (const std::string& name : names) {
+        const auto found = std::find_if(known.begin(), known.end(), [&](const trial::EngineKind& contender) {
+            return contender.name == name;
+        });
+        if (found == known.end()) {
+            return Failure{ExitCode::usage,
+                           fmt::format("--engine {}: there is no engine named \"{}\". The engines are: {}.",
+                                       wanted, name, listNames(known))};
+        }
+        chosen.push_back(*found);
+    }
+    if (chosen.empty()) return Failure{ExitCode::usage, "--engine names no engine."};
+    return chosen;
 }
 
 Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const trial::EngineKind> known,

@@ -23,8 +23,13 @@ struct BenchOptions {
 /// Adds --trials, --repeats, --scene, --step and --engine to a command.
 void addBenchOptions(Command command, BenchOptions& options);
 
+/// The engines in the order in which they were named, commas between; the first is what the others are
+/// compared with. "all" leaves out what is too slow to learn with.
+Attempt<std::vector<trial::EngineKind>> chooseContenders(const std::string& wanted,
+                                                         std::span<const trial::EngineKind> known);
+
 /// Times the engines that the options name among `known` on the scenes that they name, with progress and
-/// Ctrl-C, and prints the table. "all" leaves out what is too slow to learn with.
+/// Ctrl-C, and prints the table.
 Attempt<ExitCode> runBench(const BenchOptions& options, std::span<const trial::EngineKind> known,
                            const Console& console);
 

@@ -11,13 +11,6 @@ namespace trapwright::bench {
 
 namespace {
 
-/// What this process has computed so far. [s]
-double readCpuClock() {
-    timespec now{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// A quarter is enough for shares.
 int countShareTrials(const Plan& plan) {
     return (plan.trials + 3) / 4;
@@ -91,6 +84,12 @@ class SceneRun {
 };
 
 }  // namespace
+
+double readCpuClock() {
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 int countAllTrials(const Plan& plan, std::size_t contenders) {
     return static_cast<int>(contenders) * (plan.repeats * plan.trials + countShareTrials(plan));

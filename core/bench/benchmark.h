@@ -19,6 +19,9 @@ struct Plan {
     double step = 0.0;  // of all engines [s]; 0: each one's own
 };
 
+/// What this process has computed so far. [s]
+double readCpuClock();
+
 /// How many trials one scene takes, those for the shares included.
 int countAllTrials(const Plan& plan, std::size_t contenders);
 

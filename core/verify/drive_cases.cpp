@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/verify/cases.h"
+#include "core/verify/known_motions.h"
 #include "core/verify/predicted_speed.h"
 #include "core/verify/scenes.h"
 
@@ -24,15 +26,29 @@ trial::TrialBatch makeLying(const trial::Vibration& drive, double duration) {
     return scene;
 }
 
-/// Mean speed along x between two whole numbers of periods. [m/s]
-double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene, int fromPeriod, int toPeriod,
-                    const base::RunControl& control) {
-    const double period = scene.drive.period();
-    const trial::Trajectory trajectory = replayScene(engine, scene, period, control);
+/// Mean speed along x between two whole numbers of periods, of samples one period apart. [m/s]
+double calcSpeed(const trial::Trajectory& trajectory, double period, int fromPeriod, int toPeriod) {
     const auto& samples = trajectory.samples;
     if (static_cast<int>(samples.size()) <= toPeriod) return std::nan("");
     return (samples[toPeriod].parts[0].room.position.x() - samples[fromPeriod].parts[0].room.position.x()) /
            ((toPeriod - fromPeriod) * period);
+}
+
+double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene, int fromPeriod, int toPeriod,
+                    const base::RunControl& control) {
+    const double period = scene.drive.period();
+    return calcSpeed(replayScene(engine, scene, period, control), period, fromPeriod, toPeriod);
+}
+
+/// The row of a speed that must be right within a share.
+Row judgeSpeed(const KnownMotion& motion, const trial::Engine& engine, double tolerance, int decimals,
+               const base::RunControl& control) {
+    const double got = motion.measure(replayScene(engine, motion.batch, motion.interval, control));
+    const double error = got / motion.expected - 1.0;
+    return {motion.name,
+            fmt::format("{:.{}f} mm/s within {:g} %", motion.expected * 1e3, decimals, tolerance * 100),
+            fmt::format("{:.{}f} mm/s ({:+.2f} %)", got * 1e3, decimals, error * 100),
+            std::abs(error) < tolerance};
 }
 
 /// Whether the lying cuboid ever loses contact within ten periods.
@@ -74,47 +90,62 @@ double measureFlight(const trial::Engine& engine, double throwNumber, const base
 
 }  // namespace
 
-std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control) {
-    const auto engine = kind.make({});
-    std::vector<Row> rows;
+std::vector<KnownMotion> makeStickSlip() {
+    constexpr int kSettled = 25;
+    constexpr int kEnd = 50;
+    std::vector<KnownMotion> motions;
     for (const double halfStroke : {0.25e-3, 0.35e-3, 0.45e-3}) {
         for (const double friction : {0.3, 0.5}) {
             trial::Vibration drive;
             drive.halfStroke = halfStroke;
-            trial::TrialBatch scene = makeLying(drive, 1.01);
+            const double period = drive.period();
+            trial::TrialBatch scene = makeLying(drive, (kEnd + 0.5) * period);
             scene.contact = {friction, friction, 0.3};
-            const double got = measureSpeed(*engine, scene, 25, 50, control);
             const double expected = calcStickSlipSpeed(drive, friction, scene.gravity);
-            rows.push_back(
+            motions.push_back(
                 {fmt::format("stick-slip, half-stroke {:g} mm, friction {:g}", halfStroke * 1e3, friction),
-                 fmt::format("{:.3f} mm/s within 2 %", expected * 1e3),
-                 fmt::format("{:.3f} mm/s ({:+.2f} %)", got * 1e3, (got / expected - 1.0) * 100),
-                 std::abs(got / expected - 1.0) < 0.02});
+                 std::move(scene), period, expected, [period](const trial::Trajectory& trajectory) {
+                     return calcSpeed(trajectory, period, kSettled, kEnd);
+                 }});
         }
     }
-    return rows;
+    return motions;
 }
 
-// Half-strokes at which the motion becomes periodic; a chaotic one has no speed to agree on.
-std::vector<Row> runHopping(const trial::EngineKind& kind, const base::RunControl& control) {
-    const auto engine = kind.make({});
-    std::vector<Row> rows;
+std::vector<KnownMotion> makeHopping() {
     constexpr int kPeriods = 50;
+    std::vector<KnownMotion> motions;
     for (const double halfStroke : {0.62e-3, 0.7e-3, 0.8e-3}) {
         for (const double restitution : {0.0, 0.2, 0.4}) {
             trial::Vibration drive;
             drive.halfStroke = halfStroke;
-            trial::TrialBatch scene = makeLying(drive, (2 * kPeriods + 1) * drive.period());
+            const double period = drive.period();
+            trial::TrialBatch scene = makeLying(drive, (2 * kPeriods + 1) * period);
             scene.contact = {0.5, 0.5, restitution};
-            const double got = measureSpeed(*engine, scene, kPeriods, 2 * kPeriods, control);
             const double expected = calcHoppingSpeed(drive, 0.5, restitution, scene.gravity, kPeriods);
-            rows.push_back(
+            motions.push_back(
                 {fmt::format("hopping, half-stroke {:g} mm, e = {:g}", halfStroke * 1e3, restitution),
-                 fmt::format("{:.2f} mm/s within 3 %", expected * 1e3),
-                 fmt::format("{:.2f} mm/s ({:+.2f} %)", got * 1e3, (got / expected - 1.0) * 100),
-                 std::abs(got / expected - 1.0) < 0.03});
+                 std::move(scene), period, expected, [period](const trial::Trajectory& trajectory) {
+                     return calcSpeed(trajectory, period, kPeriods, 2 * kPeriods);
+                 }});
         }
     }
+    return motions;
+}
+
+std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
+    std::vector<Row> rows;
+    for (const KnownMotion& motion : makeStickSlip())
+        rows.push_back(judgeSpeed(motion, *engine, 0.02, 3, control));
+    return rows;
+}
+
+std::vector<Row> runHopping(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
+    std::vector<Row> rows;
+    for (const KnownMotion& motion : makeHopping())
+        rows.push_back(judgeSpeed(motion, *engine, 0.03, 2, control));
     return rows;
 }
 

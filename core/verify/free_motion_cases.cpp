@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/verify/cases.h"
+#include "core/verify/known_motions.h"
 #include "core/verify/scenes.h"
 
 namespace trapwright::verify {
@@ -13,27 +14,27 @@ using base::Vec3;
 
 namespace {
 
-/// Rebound over impact speed of a part dropped so that it hits a plane at `speed`: from the heights of its
+/// The cuboid, dropped so that it hits a plane at `speed` [m/s]; the rebound is told from the heights of its
 /// centre.
-double measureRebound(const trial::Engine& engine, const base::Quaternion& rotation, double speed,
-                      double restitution, const base::RunControl& control) {
+KnownMotion makeBounce(const std::string& name, const base::Quaternion& rotation, double speed,
+                       double restitution) {
     const auto part = makePaperCuboid();
-    const auto track = makeFlat();
     double lowest = 0.0;
     for (const Vec3& vertex : part->hull.vertices)
         lowest = std::min(lowest, (rotation * vertex).z());
     const double rest = 15.0 * kMillimetre - lowest;
     const double drop = speed * speed / (2.0 * base::kStandardGravity);
     const double flight = speed / base::kStandardGravity;
-    trial::TrialBatch scene = makeStillScene(track, part, {rotation, Vec3(0.1, 0.0, rest + drop)},
+    trial::TrialBatch scene = makeStillScene(makeFlat(), part, {rotation, Vec3(0.1, 0.0, rest + drop)},
                                              flight + restitution * 2.0 * flight + 2e-3);
     scene.contact.restitution = restitution;
-    const trial::Trajectory trajectory = replayScene(engine, scene, 1e-4, control);
-    double apex = 0.0;
-    for (const trial::TrajectorySample& sample : trajectory.samples)
-        if (sample.time > flight + 0.25 * restitution * flight + 5e-4)
-            apex = std::max(apex, sample.parts[0].room.position.z() - rest);
-    return std::sqrt(std::max(apex, 0.0) / drop);
+    return {name, std::move(scene), 1e-4, restitution, [=](const trial::Trajectory& trajectory) {
+                double apex = 0.0;
+                for (const trial::TrajectorySample& sample : trajectory.samples)
+                    if (sample.time > flight + 0.25 * restitution * flight + 5e-4)
+                        apex = std::max(apex, sample.parts[0].room.position.z() - rest);
+                return std::sqrt(std::max(apex, 0.0) / drop);
+            }};
 }
 
 }  // namespace
@@ -67,20 +68,33 @@ std::vector<Row> runTumbling(const trial::EngineKind& kind, const base::RunContr
              fmt::format("{:.1e}", momentumError), whole && momentumError < tolerance}};
 }
 
-std::vector<Row> runBounce(const trial::EngineKind& kind, const base::RunControl& control) {
-    const auto engine = kind.make({});
-    std::vector<Row> rows;
+std::vector<KnownMotion> makeBounces() {
+    std::vector<KnownMotion> motions;
     const base::Quaternion onCorner = base::Quaternion::FromTwoVectors(Vec3(2, 4, 6), Vec3::UnitZ());
     for (const double restitution : {0.0, 0.3, 0.6}) {
         for (const double speed : {0.03, 0.1, 0.5}) {
-            const double flat =
-                measureRebound(*engine, base::Quaternion::Identity(), speed, restitution, control);
-            const double corner = measureRebound(*engine, onCorner, speed, restitution, control);
-            rows.push_back({fmt::format("bounce at {:g} m/s, e = {:g}", speed, restitution),
-                            fmt::format("{:g} within 0.03", restitution),
-                            fmt::format("flat {:.3f}, on a corner {:.3f}", flat, corner),
-                            std::abs(flat - restitution) < 0.03 && std::abs(corner - restitution) < 0.03});
+            const std::string name = fmt::format("bounce at {:g} m/s, e = {:g}", speed, restitution);
+            motions.push_back(makeBounce(name, base::Quaternion::Identity(), speed, restitution));
+            motions.push_back(makeBounce(name, onCorner, speed, restitution));
         }
+    }
+    return motions;
+}
+
+std::vector<Row> runBounce(const trial::EngineKind& kind, const base::RunControl& control) {
+    const auto engine = kind.make({});
+    std::vector<Row> rows;
+    const std::vector<KnownMotion> motions = makeBounces();
+    const auto measure = [&](const KnownMotion& motion) {
+        return motion.measure(replayScene(*engine, motion.batch, motion.interval, control));
+    };
+    for (std::size_t i = 0; i < motions.size(); i += 2) {
+        const double expected = motions[i].expected;
+        const double flat = measure(motions[i]);
+        const double corner = measure(motions[i + 1]);
+        rows.push_back({motions[i].name, fmt::format("{:g} within 0.03", expected),
+                        fmt::format("flat {:.3f}, on a corner {:.3f}", flat, corner),
+                        std::abs(flat - expected) < 0.03 && std::abs(corner - expected) < 0.03});
     }
     return rows;
 }

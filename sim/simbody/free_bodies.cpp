@@ -112,30 +112,22 @@ void FreeBodies::adopt(int slot, const FreeBodies& other, int otherSlot) {
 }
 
 void FreeBodies::beginStep(double dt) {
-    // The gyroscopic torque wants the angular velocity at the pose's time: half a step on.
-    SimTK::Vector& u = model_->state.updU();
-    for (int i = 0; i < count(); ++i) {
-        const Model::Slot& s = model_->slots[i];
-        const Vec3 now = s.motion.angularVelocity +
-                         dt * (0.875 * s.lastAngularAcceleration - 0.375 * s.priorAngularAcceleration);
-        for (int k = 0; k < 3; ++k) {
-            u[kU * i + k] = now[k];
-            u[kU * i + 3 + k] = s.motion.velocity[k];
-        }
-    }
-    // Simbody's forces over Simbody's inertia. Realizing its accelerations would also build the
-    // articulated-body inertias, which for free bodies are their own: 2.4 times the time.
-    model_->system.realize(model_->state, SimTK::Stage::Dynamics);
-    const SimTK::Vector_<SimTK::SpatialVec>& forces =
-        model_->system.getRigidBodyForces(model_->state, SimTK::Stage::Dynamics);
+    // Simbody's gravity and inertia; the gyroscopic torque is Euler's. Realizing velocities and dynamics too,
+    // for the same numbers, would take as long as all the rest of a step.
+    model_->system.realize(model_->state, SimTK::Stage::Position);
+    const SimTK::Vector_<SimTK::SpatialVec>& gravity = model_->gravity.getBodyForces(model_->state);
     for (int i = 0; i < count(); ++i) {
         Model::Slot& s = model_->slots[i];
         const SimTK::MobilizedBody& body = model_->bodies[i];
-        const SimTK::SpatialVec force =
-            forces[body.getMobilizedBodyIndex()] -
-            model_->matter.getGyroscopicForce(model_->state, body.getMobilizedBodyIndex());
+        // The gyroscopic torque wants the angular velocity at the pose's time: half a step on.
+        const Vec3 spin = s.motion.angularVelocity +
+                          dt * (0.875 * s.lastAngularAcceleration - 0.375 * s.priorAngularAcceleration);
+        const SimTK::Vec3 now = toSimbody(spin);
+        const SimTK::SpatialInertia& inertia = body.getBodySpatialInertiaInGround(model_->state);
+        const SimTK::SpatialVec& force = gravity[body.getMobilizedBodyIndex()];
+        const SimTK::Vec3 gyroscopic = inertia.getMass() * (now % (inertia.getUnitInertia() * now));
         const SimTK::Rotation& rotation = body.getBodyRotation(model_->state);
-        const Vec3 torque = fromSimbody(~rotation * force[0]);
+        const Vec3 torque = fromSimbody(~rotation * (force[0] - gyroscopic));
         s.priorAngularAcceleration = s.lastAngularAcceleration;
         s.lastAngularAcceleration = fromSimbody(rotation * toSimbody(Vec3(model_->inverseInertia * torque)));
         s.advance.angularVelocity = s.motion.angularVelocity + dt * s.lastAngularAcceleration;
@@ -144,9 +136,8 @@ void FreeBodies::beginStep(double dt) {
 }
 
 base::Pose FreeBodies::pose(int slot) const {
-    const SimTK::Vector& q = model_->state.getQ();
-    const int o = kQ * slot;
-    return {base::Quaternion(q[o], q[o + 1], q[o + 2], q[o + 3]),
+    const double* q = model_->state.getQ().getContiguousScalarData() + static_cast<std::ptrdiff_t>(kQ) * slot;
+    return {base::Quaternion(q[0], q[1], q[2], q[3]),
             fromSimbody(model_->bodies[slot].getBodyOriginLocation(model_->state))};
 }
 
@@ -175,6 +166,7 @@ void FreeBodies::resolve(int slot, const contact::StepResult& result) {
 
 void FreeBodies::endStep(double dt) {
     model_->advanceU.resize(kU * count());
+    double* u = model_->advanceU.updContiguousScalarData();
     for (int i = 0; i < count(); ++i) {
         Model::Slot& s = model_->slots[i];
         // A rotation whose axis wanders is not the mean angular velocity times the step: the next terms of
@@ -183,12 +175,13 @@ void FreeBodies::endStep(double dt) {
         s.advance.angularVelocity += dt * dt / 12.0 * acceleration.cross(s.advance.angularVelocity) +
                                      dt / 24.0 * (acceleration - s.priorAngularAcceleration);
         for (int k = 0; k < 3; ++k) {
-            model_->advanceU[kU * i + k] = s.advance.angularVelocity[k];
-            model_->advanceU[kU * i + 3 + k] = s.advance.velocity[k];
+            u[kU * i + k] = s.advance.angularVelocity[k];
+            u[kU * i + 3 + k] = s.advance.velocity[k];
         }
     }
     model_->matter.multiplyByN(model_->state, false, model_->advanceU, model_->advanceQ);
-    SimTK::Vector& q = model_->state.updQ();
+    const double* rate = model_->advanceQ.getContiguousScalarData();
+    double* q = model_->state.updQ().updContiguousScalarData();
     for (int i = 0; i < count(); ++i) {
         // The rate is tangent to the unit sphere: go along it by the tangent of the angle, then back onto the
         // sphere.
@@ -196,14 +189,14 @@ void FreeBodies::endStep(double dt) {
         const double tangent = dt * (1.0 + half * half / 3.0);
         double square = 0.0;
         for (int k = kQ * i; k < kQ * i + 4; ++k) {
-            q[k] += tangent * model_->advanceQ[k];
+            q[k] += tangent * rate[k];
             square += q[k] * q[k];
         }
         const double scale = 1.0 / std::sqrt(square);
         for (int k = kQ * i; k < kQ * i + 4; ++k)
             q[k] *= scale;
         for (int k = kQ * i + 4; k < kQ * (i + 1); ++k)
-            q[k] += dt * model_->advanceQ[k];
+            q[k] += dt * rate[k];
     }
 }
 

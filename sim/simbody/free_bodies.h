@@ -8,8 +8,7 @@
 namespace trapwright::simbody {
 
 /// A number of like, free, non-interacting bodies in one SimTK::MultibodySystem under Simbody's gravity: the
-/// cheapest way to step many parts. Simbody owns state, kinematics, mass properties and unconstrained
-/// accelerations; the stepping is semi-explicit with velocities at the middles of steps. Slots are
+/// cheapest way to step many parts. Simbody owns state, kinematics, mass properties and gravity; the stepping is semi-explicit with velocities at the middles of steps. Slots are
 /// independent of each other to the last bit.
 class FreeBodies {
  public:

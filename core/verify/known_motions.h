@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/trial/batch.h"
+#include "core/trial/outcome.h"
+
+namespace trapwright::verify {
+
+/// A scene of one trial with a number in it of which the truth is known, in closed form or from an
+/// event-driven solution that shares no code with the engines (predicted_speed.h).
+struct KnownMotion {
+    std::string name;
+    trial::TrialBatch batch;
+    double interval = 0.0;  // of the samples that the number is told from [s]
+    double expected = 0.0;
+    std::function<double(const trial::Trajectory&)> measure;  // not a number if the trial ended too early
+};
+
+/// Speeds of the lying cuboid along a level track, below lift-off. [m/s]
+std::vector<KnownMotion> makeStickSlip();
+/// The same above lift-off, at half-strokes at which the motion becomes periodic: a chaotic one has no speed
+/// to agree on. [m/s]
+std::vector<KnownMotion> makeHopping();
+/// Rebound over impact speed of the cuboid, dropped flat and on a corner in turn. [1]
+std::vector<KnownMotion> makeBounces();
+
+}  // namespace trapwright::verify
