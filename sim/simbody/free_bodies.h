@@ -27,7 +27,7 @@ class FreeBodies {
     /// Takes body `slot` of `other` over, bit for bit.
     void adopt(int slot, const FreeBodies& other, int otherSlot);
 
-    /// Realizes all bodies' unconstrained accelerations at the step's begin.
+    /// Tells what gravity and gyroscopic torque do to all bodies in the coming step.
     void beginStep(double dt);
     [[nodiscard]] base::Pose pose(int slot) const;             // at the step's begin
     [[nodiscard]] contact::BodyMotion before(int slot) const;  // motion of the step before
