@@ -2,7 +2,9 @@
 
 #include <QElapsedTimer>
 #include <QtTest>
+#include <algorithm>
 #include <future>
+#include <iterator>
 #include <set>
 
 #include "core/study/runner.h"
@@ -101,6 +103,30 @@ class ReferenceCheckTest : public QObject {
             QCOMPARE(given[i + 100].stream, given[i].stream);
             QVERIFY(given[i + 100].parts[0].pose == given[i].parts[0].pose);
             QCOMPARE(given[i + 100].phase, given[i].phase);
+        }
+    }
+
+    /// A step of learning that is too large shows: the reference does not share it.
+    void referenceHasItsOwnStep() {
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.evolution.generations = 1;
+        inputs.settings.evolution.learningStep = 0.4e-3;
+        std::vector<double> steps;
+        const auto keep = [&](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+            steps.push_back(batch.step);
+            return perfectLaw(batch, spec);
+        };
+        inputs.engine = engineOf(keep, "quick");
+        const Individual winner = winnerOf(learn(inputs, nullptr).front());
+        QVERIFY(!steps.empty());
+        QVERIFY(std::ranges::count(steps, 0.4e-3) == std::ssize(steps));
+        steps.clear();
+        VERIFY_OK(study::checkWinner(inputs, *engineOf(keep, "slow"), winner, {}));
+        const auto own = static_cast<std::size_t>(winner.record.trials);
+        QCOMPARE(steps.size(), 2 * own);
+        for (std::size_t i = 0; i < own; ++i) {
+            QCOMPARE(steps[i], 0.4e-3);
+            QCOMPARE(steps[i + own], 0.0);
         }
     }
 
