@@ -76,15 +76,9 @@ std::string describeAttainable(const part::Part& part, const study::EvolutionSet
     return fmt::format("{}", fmt::join(texts, " and "));
 }
 
-/// Of simulated time in learning trials. [s]
-double stepOf(const study::Settings& settings, const trial::Engine& engine) {
-    const double chosen = study::chooseLearningStep(settings);
-    return chosen > 0.0 ? chosen : engine.step();
-}
-
 /// "0.3 ms (automatic)"
-std::string describeStep(const study::Settings& settings, const trial::Engine& engine) {
-    return fmt::format("{:g} ms{}", stepOf(settings, engine) * 1e3,
+std::string describeStep(const study::Settings& settings) {
+    return fmt::format("{:g} ms{}", study::chooseLearningStep(settings) * 1e3,
                        settings.evolution.learningStep > 0.0 ? "" : " (automatic)");
 }
 
@@ -96,8 +90,8 @@ std::string describeStart(const OpenStudy& study, const study::StudyInputs& inpu
         "A perfect feeder scores {}.\n{}",
         study.file.path().string(), study.part->name, study.part->symmetry.name, evolution.populationSize,
         evolution.trialsPerEvaluation, evolution.seed, describeEngines(study, inputs),
-        describeStep(study.settings, *inputs.engine), inputs.threads,
-        describeAttainable(*study.part, evolution), learningHeading(inputs.settings.evolution));
+        describeStep(study.settings), inputs.threads, describeAttainable(*study.part, evolution),
+        learningHeading(inputs.settings.evolution));
 }
 
 std::string_view endName(study::LearningEnd end) {
@@ -146,7 +140,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   {"engine", inputs->engine->name()},
                   {"reference_engine",
                    reference != nullptr ? nlohmann::ordered_json(reference->name) : nlohmann::ordered_json()},
-                  {"learning_step_ms", stepOf(study->settings, *inputs->engine) * 1e3},
+                  {"learning_step_ms", study::chooseLearningStep(study->settings) * 1e3},
                   {"threads", inputs->threads},
                   {"end", endName(report.end)},
                   {"trials", report.trials},

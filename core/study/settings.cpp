@@ -10,8 +10,7 @@ namespace {
 
 // decisions.md#steps-while-learning
 constexpr double kStepsPerPeriod = 66.0;
-constexpr double kLargestStep = 0.3e-3;          // [s]
-constexpr double kFinestAutomaticStep = 0.2e-3;  // what engines take of themselves [s]
+constexpr double kLargestStep = 0.3e-3;  // [s]
 
 }  // namespace
 
@@ -41,10 +40,7 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
 
 double chooseLearningStep(const Settings& settings) {
     if (settings.evolution.learningStep > 0.0) return settings.evolution.learningStep;
-    // Whole steps of 10 us: times of outcomes are stored in microseconds.
-    const double share = settings.simulation.drive.period() / kStepsPerPeriod;
-    const double step = std::floor(std::min(share, kLargestStep) * 1e5 + 1e-6) / 1e5;
-    return step > kFinestAutomaticStep ? step : 0.0;
+    return std::min(kLargestStep, trial::calcLongestStep(settings.simulation.drive, kStepsPerPeriod));
 }
 
 void takePoseWeights(PartSettings& part, const PartSettings& other) {

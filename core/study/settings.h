@@ -44,7 +44,7 @@ struct EvolutionSettings {
     // Termination::stuckTime, which counts in selection and validation. [s]
     double learningStuckTime = 0.6;
     // Of simulated time in learning trials; 0: chosen by evidence (chooseLearningStep). Selection and
-    // validation go by the engine's own. [s]
+    // validation go by the engine's own (TrialBatch::stepOf). [s]
     double learningStep = 0.0;
     int generations = 200;
     std::uint64_t seed = 1;

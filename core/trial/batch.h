@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -43,6 +44,9 @@ struct TrialSpec {
     double restitutionScale = 1.0;
 };
 
+/// How many steps a period has at least, where nothing else is asked for.
+inline constexpr double kStepsPerPeriod = 100.0;
+
 /// One track and N trials on it. Immutable values.
 struct TrialBatch {
     std::shared_ptr<const track::Track> track;
@@ -55,8 +59,13 @@ struct TrialBatch {
     double step = 0.0;  // of simulated time, in engines that go in equal steps; 0: the engine's own [s]
     std::vector<TrialSpec> trials;
 
-    /// `step`, or the engine's where none is asked for. [s]
-    [[nodiscard]] double stepOr(double engines) const { return step > 0.0 ? step : engines; }
+    /// The step of an engine that was made to take `asked` (0: whatever is right) and takes `own` for slow
+    /// drives: that of the batch, the one asked for, or `own` but at least a hundred steps in a period. By
+    /// similarity that is as right at any frequency as at 50 Hz. [s]
+    [[nodiscard]] double stepOf(double asked, double own) const {
+        if (step > 0.0) return step;
+        return asked > 0.0 ? asked : std::min(own, calcLongestStep(drive, kStepsPerPeriod));
+    }
 };
 
 /// Why no engine can simulate this batch, or its trial `index` alone; none if it can.

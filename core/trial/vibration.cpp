@@ -1,8 +1,15 @@
 #include "core/trial/vibration.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trapwright::trial {
+
+double calcLongestStep(const Vibration& drive, double stepsPerPeriod) {
+    constexpr double kPerSecond = 1e5;
+    constexpr double kRounding = 1e-6;  // a share that is a whole number stays one
+    return std::max(std::floor(drive.period() / stepsPerPeriod * kPerSecond + kRounding), 1.0) / kPerSecond;
+}
 
 double calcThrowNumber(const Vibration& drive, double gravity) {
     const double omega = drive.angularFrequency();

@@ -15,6 +15,10 @@ struct Vibration {
     [[nodiscard]] double period() const { return 1.0 / frequency; }                        // [s]
 };
 
+/// The longest step of simulated time of which a period of the drive has at least so many. In whole 10 us, as
+/// times of outcomes are stored in microseconds, and at least that. [s]
+double calcLongestStep(const Vibration& drive, double stepsPerPeriod);
+
 /// Peak vertical acceleration over gravity: half-stroke x omega^2 x sin(angle) / g. Parts lift off above 1.
 double calcThrowNumber(const Vibration& drive, double gravity = base::kStandardGravity);
 

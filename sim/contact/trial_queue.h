@@ -56,7 +56,7 @@ class TrialQueue {
     std::size_t total_ = 0;
 };
 
-/// The places of the batches, those with the same parts, gravity and step together.
+/// The places of the batches, those with the same parts, gravity and steps together.
 inline std::vector<std::vector<std::size_t>> groupByPart(std::span<const trial::TrialBatch> batches) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t b = 0; b < batches.size(); ++b) {
@@ -64,7 +64,7 @@ inline std::vector<std::vector<std::size_t>> groupByPart(std::span<const trial::
         for (std::vector<std::size_t>& group : groups) {
             const trial::TrialBatch& like = batches[group.front()];
             if (like.parts != batches[b].parts || like.gravity != batches[b].gravity ||
-                like.step != batches[b].step)
+                like.step != batches[b].step || like.drive.frequency != batches[b].drive.frequency)
                 continue;
             group.push_back(b);
             placed = true;

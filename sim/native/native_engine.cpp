@@ -162,7 +162,7 @@ trial::TrajectorySample sampleOf(RunningTrials& trials, const contact::DriveMoti
 
 NativeEngine::NativeEngine(const trial::EngineOptions& options)
     : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
-      step_(options.step > 0.0 ? options.step : kDefaultStep),
+      step_(options.step),
       costs_(options.costs) {}
 
 std::string NativeEngine::instructionSet() const {
@@ -179,7 +179,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
         const trial::TrialBatch& like = batches[members.front()];
         const PackedBody body(contact::prepareBody(like.parts.front()->pieces));
-        const LaneModel model(*like.parts.front(), body, like.gravity, like.stepOr(step_),
+        const LaneModel model(*like.parts.front(), body, like.gravity, like.stepOf(step_, kDefaultStep),
                               anyBowl(batches, members));
         TrialQueue queue(batches, std::move(members));
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
@@ -196,7 +196,7 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
                                                      double interval, base::RunControl control) const {
     if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
     const PackedBody body(contact::prepareBody(batch.parts.front()->pieces));
-    const double step = batch.stepOr(step_);
+    const double step = batch.stepOf(step_, kDefaultStep);
     const LaneModel model(*batch.parts.front(), body, batch.gravity, step, anyBowl({&batch, 1}, {0}));
     const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].phase);
     RunningTrials trials(model, 1);

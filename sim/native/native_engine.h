@@ -20,7 +20,7 @@ class NativeEngine : public trial::Engine {
     [[nodiscard]] std::string name() const override { return kName; }
     /// That of the kernel, which is never less than what the system's mathematics takes.
     [[nodiscard]] std::string instructionSet() const override;
-    [[nodiscard]] double step() const override { return step_; }
+    [[nodiscard]] double step() const override { return step_ > 0.0 ? step_ : kDefaultStep; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;
     [[nodiscard]] base::Result<trial::Trajectory> replay(const trial::TrialBatch& batch, std::size_t index,

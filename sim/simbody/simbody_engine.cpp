@@ -105,7 +105,7 @@ class Worker {
 
 SimbodyEngine::SimbodyEngine(const trial::EngineOptions& options)
     : threads_(options.threads > 0 ? options.threads : base::availableThreads()),
-      step_(options.step > 0.0 ? options.step : kDefaultStep),
+      step_(options.step),
       costs_(options.costs) {}
 
 base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
@@ -124,7 +124,8 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
         const int bodies = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kBodiesPerSystem));
         try {
             base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
-                Worker(like, queue, bodies, like.stepOr(step_), outcomes).run(control, costs_.get());
+                Worker(like, queue, bodies, like.stepOf(step_, kDefaultStep), outcomes)
+                    .run(control, costs_.get());
             });
         } catch (const std::exception& e) {
             return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
@@ -140,7 +141,7 @@ base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& b
     try {
         const geometry::MassProperties& mass = batch.parts.front()->massProperties;
         FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);
-        const double step = batch.stepOr(step_);
+        const double step = batch.stepOf(step_, kDefaultStep);
         TrialLane lane(std::make_shared<const Scene>(batch), index, bodies, 0, step);
         trial::CostLaps laps(nullptr);
         trial::Trajectory trajectory;

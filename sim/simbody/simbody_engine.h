@@ -21,7 +21,7 @@ class SimbodyEngine : public trial::Engine {
     explicit SimbodyEngine(const trial::EngineOptions& options = {});
 
     [[nodiscard]] std::string name() const override { return kName; }
-    [[nodiscard]] double step() const override { return step_; }
+    [[nodiscard]] double step() const override { return step_ > 0.0 ? step_ : kDefaultStep; }
     [[nodiscard]] base::Result<std::vector<std::vector<trial::Outcome>>> run(
         std::span<const trial::TrialBatch> batches, base::RunControl control) const override;
     [[nodiscard]] base::Result<trial::Trajectory> replay(const trial::TrialBatch& batch, std::size_t index,

@@ -228,7 +228,7 @@ std::unique_ptr<PeerTrial> BulletScene::start(std::size_t trial) const {
 base::Result<std::unique_ptr<PeerScene>> BulletEngine::prepare(const trial::TrialBatch& batch) const {
     if (batch.contact.staticFriction != batch.contact.kineticFriction)
         return base::Error{"Bullet has one coefficient of friction; this batch has two that differ."};
-    return std::unique_ptr<PeerScene>(std::make_unique<BulletScene>(batch, batch.stepOr(step())));
+    return std::unique_ptr<PeerScene>(std::make_unique<BulletScene>(batch, batch.stepOf(step(), step())));
 }
 
 }  // namespace trapwright::peers

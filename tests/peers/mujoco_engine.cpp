@@ -169,7 +169,7 @@ std::unique_ptr<PeerTrial> MujocoScene::start(std::size_t trial) const {
 base::Result<std::unique_ptr<PeerScene>> MujocoEngine::prepare(const trial::TrialBatch& batch) const {
     if (batch.contact.staticFriction != batch.contact.kineticFriction)
         return base::Error{"MuJoCo has one coefficient of friction; this batch has two that differ."};
-    const auto xml = writeMujocoModel(batch, batch.stepOr(step()));
+    const auto xml = writeMujocoModel(batch, batch.stepOf(step(), step()));
     if (!xml) return xml.error();
     auto model = compileModel(*xml);
     if (!model) return model.error();

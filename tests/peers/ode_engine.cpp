@@ -300,7 +300,7 @@ std::unique_ptr<PeerTrial> OdeScene::start(std::size_t trial) const {
 base::Result<std::unique_ptr<PeerScene>> OdeEngine::prepare(const trial::TrialBatch& batch) const {
     if (batch.contact.staticFriction != batch.contact.kineticFriction)
         return base::Error{"ODE has one coefficient of friction; this batch has two that differ."};
-    return std::unique_ptr<PeerScene>(std::make_unique<OdeScene>(batch, batch.stepOr(step())));
+    return std::unique_ptr<PeerScene>(std::make_unique<OdeScene>(batch, batch.stepOf(step(), step())));
 }
 
 }  // namespace trapwright::peers

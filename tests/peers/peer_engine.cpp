@@ -70,7 +70,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> PeerEngine::run(
         std::vector<trial::Outcome>& slots = outcomes.emplace_back(batch.trials.size());
         base::parallelFor(slots.size(), threads_, [&](std::size_t i, unsigned) {
             trial::CostLaps laps(costs_.get());
-            if (const auto done = simulate({batch, **scene, batch.stepOr(step_), control}, i, 0.0, laps)) {
+            if (const auto done = simulate({batch, **scene, batch.stepOf(step_, step_), control}, i, 0.0, laps)) {
                 slots[i] = done->outcome;
                 control.advance(1);
             }
@@ -86,7 +86,7 @@ base::Result<trial::Trajectory> PeerEngine::replay(const trial::TrialBatch& batc
     const auto scene = prepare(batch);
     if (!scene) return scene.error();
     trial::CostLaps laps(nullptr);
-    auto trajectory = simulate({batch, **scene, batch.stepOr(step_), control}, index, interval, laps);
+    auto trajectory = simulate({batch, **scene, batch.stepOf(step_, step_), control}, index, interval, laps);
     if (!trajectory) return base::Error{"The replay was cancelled."};
     control.advance(1);
     return *std::move(trajectory);

@@ -24,9 +24,8 @@ QString objectiveText(const study::EvolutionSettings& evolution) {
 }
 
 QString stepText(const study::Settings& settings) {
-    const double step = study::chooseLearningStep(settings);
-    if (step == 0.0) return EvolveSummary::tr("the engine's own");
-    const QString text = EvolveSummary::tr("%1 ms while learning").arg(look::numberText(step * 1e3));
+    const QString text = EvolveSummary::tr("%1 ms while learning")
+                             .arg(look::numberText(study::chooseLearningStep(settings) * 1e3));
     return settings.evolution.learningStep > 0.0 ? text : EvolveSummary::tr("%1 (automatic)").arg(text);
 }
 

@@ -65,7 +65,7 @@ const RawText kTexts[] = {
     {"evolution.racingShare", TEXT("Racing share"), TEXT("Share of the population that gets all trials in a race.")},
     {"evolution.commonRandomNumbers", TEXT("Starts of parts"), TEXT("Whether all individuals of a generation meet the same random starts."), {TEXT("Differ"), TEXT("Same for all")}},
     {"evolution.learningStuckTime_s", TEXT("Stuck while learning"), TEXT("A part that makes no progress for this long counts as stuck while learning; it saves time.")},
-    {"evolution.learningStep_ms", TEXT("Step while learning"), TEXT("Of simulated time. 0 takes the largest with which parts end as they do at finer steps: 0.3 ms up to 50 Hz, less at higher frequencies. Winners are checked, selected and validated at 0.2 ms.")},
+    {"evolution.learningStep_ms", TEXT("Step while learning"), TEXT("Of simulated time. 0 takes the largest with which parts end as they do at finer steps: 0.3 ms up to 50 Hz, a 66th of a period above. Winners are checked, selected and validated at 0.2 ms, or a hundredth of a period if that is less.")},
     {"evolution.generations", TEXT("Generations"), TEXT("When learning ends; it can be raised later.")},
     {"evolution.seed", TEXT("Seed"), TEXT("Of all random numbers: the same seed and settings give the same tracks.")},
 

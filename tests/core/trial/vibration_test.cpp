@@ -20,6 +20,15 @@ class VibrationTest : public QObject {
         const trial::Vibration fast{50.0, 0.8e-3, 12.0 * base::kDegree};
         QVERIFY(std::abs(trial::calcThrowNumber(fast) / trial::calcThrowNumber(slow) - 4.0) < 1e-12);
     }
+    void stepsAreSharesOfThePeriod() {
+        const auto longest = [](double frequency, double steps) {
+            return trial::calcLongestStep({frequency, 0.8e-3, 0.2}, steps);
+        };
+        QCOMPARE(longest(50.0, 100.0), 0.2e-3);
+        QCOMPARE(longest(100.0, 100.0), 0.1e-3);
+        QCOMPARE(longest(60.0, 100.0), 0.16e-3);
+        QCOMPARE(longest(50000.0, 100.0), 0.01e-3);
+    }
     void endingsHaveNames() {
         using trial::Ending;
         QCOMPARE(trial::endingName(Ending::finished), std::string_view("finished"));

@@ -3,12 +3,15 @@
 #include <QtTest>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <map>
 #include <string>
 #include <thread>
 
 #include "core/trial/batch_codec.h"
+#include "core/verify/known_motions.h"
+#include "core/verify/predicted_speed.h"
 #include "tests/sim/engines/each_engine.h"
 #include "tests/sim/engines/engine_scenes.h"
 
@@ -70,6 +73,49 @@ class EngineTest : public QObject {
         const auto replayed = testing::makeEngine()->replay(coarse, 3, 0.01, {});
         QVERIFY(replayed.ok());
         QVERIFY(replayed->outcome == both[1][3]);
+    }
+
+    // A hundred of them in a period, but never longer than at 50 Hz; what was asked for counts more.
+    void stepsFollowTheDrive_data() {
+        QTest::addColumn<double>("frequency");
+        QTest::addColumn<double>("step");
+        QTest::newRow("25 Hz") << 25.0 << 0.2e-3;
+        QTest::newRow("50 Hz") << 50.0 << 0.2e-3;
+        QTest::newRow("100 Hz") << 100.0 << 0.1e-3;
+    }
+    void stepsFollowTheDrive() {
+        QFETCH(double, frequency);
+        QFETCH(double, step);
+        trial::TrialBatch batch = batch_;
+        batch.trials.resize(6);
+        batch.drive.frequency = frequency;
+        const auto expected = testing::makeEngine({1, step})->run({&batch, 1}, {});
+        const auto finer = testing::makeEngine({1, 0.5 * step})->run({&batch, 1}, {});
+        QVERIFY(expected.ok() && finer.ok());
+        const Outcomes both = simulate({batch_, batch}, 2);
+        QVERIFY(both[0] == outcomes_);
+        QVERIFY(both[1] == expected->front());
+        QVERIFY(both[1] != finer->front());
+    }
+
+    // At 0.2 ms, which is right at 50 Hz, it would be up to 4 % off.
+    void hopsRightlyAtMainsTwice() {
+        for (const verify::KnownMotion& known : verify::makeHopping()) {
+            trial::TrialBatch scene = known.batch;
+            scene.drive.frequency *= 2.0;
+            scene.drive.halfStroke *= 0.25;
+            const double period = scene.drive.period();
+            const auto trajectory = testing::makeEngine()->replay(scene, 0, period, {});
+            QVERIFY(trajectory.ok());
+            const auto x = [&](std::size_t i) { return trajectory->samples[i].parts[0].room.position.x(); };
+            QVERIFY(trajectory->samples.size() > 100);
+            const double speed = (x(100) - x(50)) / (50.0 * period);
+            const double expected = verify::calcHoppingSpeed(scene.drive, scene.contact.kineticFriction,
+                                                             scene.contact.restitution, scene.gravity, 50);
+            QVERIFY2(std::abs(speed / expected - 1.0) < 0.02,
+                     qPrintable(
+                         QString("%1: %2 %").arg(known.name.c_str()).arg(100.0 * (speed / expected - 1.0))));
+        }
     }
 
     // Otherwise comparing them below would mean nothing.
