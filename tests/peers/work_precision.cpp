@@ -115,7 +115,7 @@ std::string quote(const std::filesystem::path& path) {
 std::string writeScript(const std::vector<PrecisionPoint>& points, const std::filesystem::path& folder) {
     std::string script = fmt::format("set output {}\ndata = {}\n", quote(folder / "work-precision.svg"),
                                      quote(folder / "work-precision.csv"));
-    script += R"(set terminal svg size 1320,520 font "DejaVu Sans,13" background "white"
+    script += R"(set terminal svg size 1320,580 font "DejaVu Sans,13" background "white"
 set datafile separator ","
 set datafile missing NaN
 set logscale xy
@@ -128,14 +128,14 @@ set border 3 linecolor "#555555"
 set tics nomirror textcolor "#333333"
 set xlabel "processor time per simulated second [s]"
 set label "At each point: the step in ms" at screen 0.99,0.05 right textcolor "#555555"
-set multiplot layout 1,3 margins 0.06,0.99,0.24,0.9 spacing 0.05
+set multiplot layout 1,3 margins 0.06,0.99,0.29,0.91 spacing 0.05
 )";
     const std::vector<Subject> subjects = makeSubjects();
     const std::vector<std::string> engines = listEngines(points);
     for (std::size_t s = 0; s < subjects.size(); ++s) {
         script += fmt::format("set title \"{}\"\n", subjects[s].title);
         script += s == 0 ? "set ylabel \"largest error [%]\"\n" : "unset ylabel\n";
-        script += s == 1 ? "set key at screen 0.5,0.04 center bottom horizontal maxrows 1 samplen 2 width 2\n"
+        script += s == 1 ? "set key at screen 0.5,0.02 center bottom horizontal samplen 2 width 2\n"
                          : "unset key\n";
         std::string plots;
         for (std::size_t e = 0; e < engines.size(); ++e) {
