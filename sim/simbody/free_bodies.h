@@ -8,8 +8,9 @@
 namespace trapwright::simbody {
 
 /// A number of like, free, non-interacting bodies in one SimTK::MultibodySystem under Simbody's gravity: the
-/// cheapest way to step many parts. Simbody owns state, kinematics, mass properties and gravity; the stepping is semi-explicit with velocities at the middles of steps. Slots are
-/// independent of each other to the last bit.
+/// cheapest way to step many parts. Simbody owns state, kinematics, mass properties and gravity; the stepping
+/// is semi-explicit with velocities at the middles of steps. Slots are independent of each other to the last
+/// bit.
 class FreeBodies {
  public:
     /// inertia: about the centre of mass, in body axes [kg m^2]; gravity along -z [m/s^2].

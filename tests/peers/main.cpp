@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <exception>
+#include <iterator>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "app/trapwright/bench_run.h"
 #include "sim/engines/registry.h"
@@ -29,10 +31,11 @@ app::Attempt<app::ExitCode> runWorkPrecision(const std::string& folder, const ap
     const auto contenders = app::chooseContenders(options.engines, known);
     if (!contenders) return contenders.error();
     console.print("Engine       Subject      Step ms     Largest       RMS   CPU s per s simulated\n");
+    std::vector<double> steps(std::begin(kSteps), std::end(kSteps));
+    if (options.step > 0.0) steps = {options.step * 1e-3};
     std::vector<peers::PrecisionPoint> points;
     for (const trial::EngineKind& kind : *contenders) {
-        for (const double step : kSteps) {
-            if (options.step > 0.0 && options.step * 1e-3 != step) continue;
+        for (const double step : steps) {
             const auto measured = peers::measurePrecision(kind, step);
             if (!measured) return app::Failure{app::ExitCode::fault, measured.error().message};
             console.print(peers::describePrecision(*measured));
@@ -61,7 +64,7 @@ int main(int argc, char** argv) {
         .add_option(
             "--work-precision", folder,
             "Instead: how right the engines are on motions whose truth is known, and what that costs, "
-            "at several steps; a table and a chart into this folder")
+            "at several steps or that of --step; a table and a chart into this folder")
         ->check(CLI::ExistingDirectory);
     CLI11_PARSE(program, argc, argv);
 

@@ -70,7 +70,8 @@ base::Result<std::vector<std::vector<trial::Outcome>>> PeerEngine::run(
         std::vector<trial::Outcome>& slots = outcomes.emplace_back(batch.trials.size());
         base::parallelFor(slots.size(), threads_, [&](std::size_t i, unsigned) {
             trial::CostLaps laps(costs_.get());
-            if (const auto done = simulate({batch, **scene, batch.stepOf(step_, step_), control}, i, 0.0, laps)) {
+            if (const auto done =
+                    simulate({batch, **scene, batch.stepOf(step_, step_), control}, i, 0.0, laps)) {
                 slots[i] = done->outcome;
                 control.advance(1);
             }

@@ -17,10 +17,9 @@ namespace trapwright::peers {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// A cost is measured over at least this much processor time. [s]
-constexpr double kLeastSeconds = 0.5;
-/// As many as the native engine has side by side.
+/// As many trials side by side as learning has, unless that takes longer. [s]
 constexpr int kMostCopies = 256;
+constexpr double kMostSeconds = 8.0;
 
 struct Subject {
     std::string name;
@@ -67,8 +66,7 @@ base::Result<double> measureCost(const trial::Engine& engine, const Subject& sub
         for (const auto& batch : *outcomes)
             for (const trial::Outcome& outcome : batch)
                 simulated += outcome.parts.front().time;
-        if (copies == kMostCopies || (seconds > kLeastSeconds && engine.name() != "native"))
-            return seconds / simulated;
+        if (copies == kMostCopies || 4.0 * seconds > kMostSeconds) return seconds / simulated;
     }
 }
 
