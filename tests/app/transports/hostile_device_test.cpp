@@ -85,8 +85,22 @@ class HostileDeviceTest : public QObject {
         };
         QVERIFY2(isIn(drive::State::idle), loop.snapshot().fault.c_str());
         loop.setTarget(0.5);
-        loop.start();
-        QVERIFY(isIn(drive::State::running));
+        // A machine that stands still for a moment makes an honest device's answer late, which is a fault,
+        // too: begin again as an operator would.
+        for (int attempt = 0; attempt < 3; ++attempt) {
+            loop.start();
+            QVERIFY(QTest::qWaitFor(
+                [&] {
+                    const drive::State state = loop.snapshot().state;
+                    return state == drive::State::running || state == drive::State::faulted;
+                },
+                5000));
+            if (loop.snapshot().state == drive::State::running) break;
+            qInfo("honest, but %s", loop.snapshot().fault.c_str());
+            loop.acknowledge();
+            QVERIFY(isIn(drive::State::idle));
+        }
+        QVERIFY2(isIn(drive::State::running), loop.snapshot().fault.c_str());
         peer.setMood(mood);
         QVERIFY(isIn(drive::State::faulted));
         qInfo("%s", loop.snapshot().fault.c_str());
