@@ -9,7 +9,7 @@ namespace trapwright::study {
 namespace {
 
 // decisions.md#steps-while-learning
-constexpr double kStepsPerPeriod = 66.0;
+constexpr double kLearningStepsPerPeriod = 66.0;
 constexpr double kLargestStep = 0.3e-3;  // [s]
 
 }  // namespace
@@ -40,7 +40,7 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
 
 double chooseLearningStep(const Settings& settings) {
     if (settings.evolution.learningStep > 0.0) return settings.evolution.learningStep;
-    return std::min(kLargestStep, trial::calcLongestStep(settings.simulation.drive, kStepsPerPeriod));
+    return std::min(kLargestStep, trial::calcLongestStep(settings.simulation.drive, kLearningStepsPerPeriod));
 }
 
 void takePoseWeights(PartSettings& part, const PartSettings& other) {

@@ -40,15 +40,21 @@ double measureSpeed(const trial::Engine& engine, const trial::TrialBatch& scene,
     return calcSpeed(replayScene(engine, scene, period, control), period, fromPeriod, toPeriod);
 }
 
-/// The row of a speed that must be right within a share.
-Row judgeSpeed(const KnownMotion& motion, const trial::Engine& engine, double tolerance, int decimals,
-               const base::RunControl& control) {
-    const double got = motion.measure(replayScene(engine, motion.batch, motion.interval, control));
-    const double error = got / motion.expected - 1.0;
-    return {motion.name,
-            fmt::format("{:.{}f} mm/s within {:g} %", motion.expected * 1e3, decimals, tolerance * 100),
-            fmt::format("{:.{}f} mm/s ({:+.2f} %)", got * 1e3, decimals, error * 100),
-            std::abs(error) < tolerance};
+/// A row for each speed, which must be right within a share.
+std::vector<Row> judgeSpeeds(const std::vector<KnownMotion>& motions, const trial::EngineKind& kind,
+                             double tolerance, int decimals, const base::RunControl& control) {
+    const auto engine = kind.make({});
+    std::vector<Row> rows;
+    for (const KnownMotion& motion : motions) {
+        const double got = motion.measure(replayScene(*engine, motion.batch, motion.interval, control));
+        const double error = got / motion.expected - 1.0;
+        rows.push_back(
+            {motion.name,
+             fmt::format("{:.{}f} mm/s within {:g} %", motion.expected * 1e3, decimals, tolerance * 100),
+             fmt::format("{:.{}f} mm/s ({:+.2f} %)", got * 1e3, decimals, error * 100),
+             std::abs(error) < tolerance});
+    }
+    return rows;
 }
 
 /// Whether the lying cuboid ever loses contact within ten periods.
@@ -134,19 +140,11 @@ std::vector<KnownMotion> makeHopping() {
 }
 
 std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control) {
-    const auto engine = kind.make({});
-    std::vector<Row> rows;
-    for (const KnownMotion& motion : makeStickSlip())
-        rows.push_back(judgeSpeed(motion, *engine, 0.02, 3, control));
-    return rows;
+    return judgeSpeeds(makeStickSlip(), kind, 0.02, 3, control);
 }
 
 std::vector<Row> runHopping(const trial::EngineKind& kind, const base::RunControl& control) {
-    const auto engine = kind.make({});
-    std::vector<Row> rows;
-    for (const KnownMotion& motion : makeHopping())
-        rows.push_back(judgeSpeed(motion, *engine, 0.03, 2, control));
-    return rows;
+    return judgeSpeeds(makeHopping(), kind, 0.03, 2, control);
 }
 
 std::vector<Row> runLiftOff(const trial::EngineKind& kind, const base::RunControl& control) {

@@ -88,7 +88,6 @@ std::vector<std::string> listEngines(const std::vector<PrecisionPoint>& points) 
     return names;
 }
 
-/// Blocks of one engine and subject each, as gnuplot numbers them.
 std::string writeTable(const std::vector<PrecisionPoint>& points) {
     std::string text = "engine,subject,step_ms,largest_error,rms_error,cpu_seconds_per_simulated_second\n";
     for (const PrecisionPoint& point : points) {
