@@ -13,6 +13,7 @@
 #include "core/base/parallel.h"
 #include "core/geometry/mass_properties.h"
 #include "core/objectives/paper_scores.h"
+#include "core/part/bundled.h"
 #include "core/part/stable_poses.h"
 #include "core/study/pose_drops.h"
 #include "core/study/presets.h"
@@ -261,8 +262,8 @@ void addPartCommand(CLI::App& program, Invocation& invocation) {
                    [options](const Console& console) { return run(*options, console); });
     command
         .addOption("FILE", options->part.part,
-                   "STL, OBJ, PLY, OFF, 3MF, glTF, STEP or IGES file, or a bundled part: cuboid, cone, "
-                   "bracket, pin, cup, bolt")
+                   "STL, OBJ, PLY, OFF, 3MF, glTF, STEP or IGES file, or a bundled part: " +
+                       part::nameBundledParts())
         .required();
     addPartOptions(command, options->part);
     command.addFlag("--poses", options->everyPose, "Also a row for each of the poses that look the same");

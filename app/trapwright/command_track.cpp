@@ -12,6 +12,7 @@
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
 #include "core/study/evaluator.h"
+#include "core/study/orientation_shares.h"
 #include "core/study/trial_batches.h"
 #include "core/track/track_file.h"
 #include "sim/engines/registry.h"
@@ -58,6 +59,33 @@ std::string describeShare(const char* what, int count, int trials) {
                        count, trials, 100.0 * count / trials, 100.0 * bounds.low, 100.0 * bounds.high);
 }
 
+constexpr std::size_t kMostModes = 12;
+constexpr double kLeans = 10.0 * base::kDegree;  // more than a part rocks by
+
+std::string describeModes(std::span<const study::EndMode> modes, int trials) {
+    if (modes.empty()) return {};
+    std::string text = "Ends, of all trials: stable pose, heading\n";
+    for (const study::EndMode& mode : modes) {
+        text += fmt::format("  {:5.1f} %   pose {:>2}, {:+6.0f} deg", 100.0 * mode.count / trials,
+                            mode.pose + 1, mode.heading / base::kDegree);
+        text +=
+            mode.tilt > kLeans ? fmt::format(", leaning by {:.0f} deg\n", mode.tilt / base::kDegree) : "\n";
+    }
+    return text;
+}
+
+nlohmann::ordered_json listModes(std::span<const study::EndMode> modes) {
+    auto list = nlohmann::ordered_json::array();
+    for (const study::EndMode& mode : modes) {
+        list.push_back({{"pose", mode.pose + 1},
+                        {"heading_deg", mode.heading / base::kDegree},
+                        {"tilt_deg", mode.tilt / base::kDegree},
+                        {"count", mode.count},
+                        {"orientation", toJson(mode.orientation)}});
+    }
+    return list;
+}
+
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto file = track::readTrackFile(options.file);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
@@ -82,6 +110,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const study::TrialCounts counts = study::countTrials(
         outcomes->front(), part->symmetry, file->expectedOrientation, settings.validation.tolerance);
 
+    const std::vector<study::EndMode> modes =
+        study::findEndModes(*part, outcomes->front(), settings.validation.tolerance, kMostModes);
+
     console.print(fmt::format("{}: part {}, half-stroke {:g} mm, throw number {:.3f}, engine {}\n",
                               options.file, part->name, options.halfStroke,
                               trial::calcThrowNumber(batch.drive), (*engine)->name()) +
@@ -91,7 +122,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   describeShare("Success", counts.tally.success, counts.tally.trials()) +
                   fmt::format("Success: finished within {:g} deg of {}.\n", options.tolerance,
                               file->expectedOrientation ? "the orientation that the file expects"
-                                                        : "the most frequent final orientation"));
+                                                        : "the most frequent final orientation") +
+                  describeModes(modes, counts.tally.trials()));
     console.emit({{"track", options.file},
                   {"part", part->name},
                   {"engine", (*engine)->name()},
@@ -103,6 +135,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   {"stuck", shareToJson(counts.tally.stuck, counts.tally.trials())},
                   {"oriented", shareToJson(counts.tally.success, counts.tally.trials())},
                   {"expected_orientation", toJson(counts.expected)},
+                  {"ends", listModes(modes)},
                   {"mean_simulated_s", counts.simulatedTime / counts.tally.trials()}});
     return ExitCode::ok;
 }

@@ -1,5 +1,7 @@
 #include "app/trapwright/engines.h"
 
+#include <cstdlib>
+
 #include "sim/engines/registry.h"
 
 namespace trapwright::app {
@@ -20,6 +22,15 @@ Attempt<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name
 Attempt<std::shared_ptr<const trial::Engine>> makeJudge(const std::string& setting,
                                                         const trial::EngineOptions& options) {
     return makeEngine(engines::registry().nameFor(setting, trial::EngineUse::judging), options);
+}
+
+Attempt<ExitCode> obeyEnvironment() {
+    constexpr const char* kVariable = "TRAPWRIGHT_INSTRUCTION_SET";
+    const char* set = std::getenv(kVariable);
+    if (set == nullptr || *set == '\0') return ExitCode::ok;
+    const base::Status used = engines::useInstructionSet(set);
+    if (!used) return Failure{ExitCode::usage, std::string(kVariable) + ": " + used.error().message};
+    return ExitCode::ok;
 }
 
 }  // namespace trapwright::app

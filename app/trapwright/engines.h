@@ -19,4 +19,8 @@ Attempt<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name
 Attempt<std::shared_ptr<const trial::Engine>> makeJudge(const std::string& setting,
                                                         const trial::EngineOptions& options);
 
+/// The environment's TRAPWRIGHT_INSTRUCTION_SET, where it is set: what the native engine shall take, so that
+/// a machine gives the bits of a lesser one. A failure if this machine has no such instructions.
+Attempt<ExitCode> obeyEnvironment();
+
 }  // namespace trapwright::app

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "app/trapwright/command_line.h"
+#include "app/trapwright/engines.h"
 
 namespace {
 
@@ -19,6 +20,7 @@ bool asksForJson(int count, char** arguments) {
 
 Attempt<ExitCode> perform(const CommandAction& action, const Console& console) {
     try {
+        if (auto obeyed = obeyEnvironment(); !obeyed) return obeyed;
         return action(console);
     } catch (const std::exception& exception) {
         return Failure{ExitCode::fault, std::string("A fault of the program or of a library that it uses: ") +

@@ -42,8 +42,9 @@ struct Objective {
     double shownAs = 1.0;     // in people's unit, from the value: 100 for %
     int decimals = 3;         // in people's unit
     bool moreIsBetter = true;
-    bool isNoisy = true;    // differs from trials to trials
-    bool isDetail = false;  // for those who look into the algorithm
+    bool isNoisy = true;         // differs from trials to trials
+    bool isDetail = false;       // for those who look into the algorithm
+    bool usesTolerance = false;  // differs with the tolerance of success
     /// Of a track that was not simulated no more than what its trials could give at worst.
     Measured (*measure)(const Evaluation& evaluation) = nullptr;
     /// The value of a perfect feeder from random starts. Null: there is no telling.

@@ -9,6 +9,7 @@
 
 #include "core/base/spelling.h"
 #include "core/objectives/conveying_speed.h"
+#include "core/objectives/disorder.h"
 #include "core/objectives/paper_scores.h"
 #include "core/objectives/success_share.h"
 
@@ -34,8 +35,8 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {collisions(), distance(), orientation(), successShare(),
-                                           conveyingSpeed()};
+    static const std::array kObjectives = {collisions(), distance(),     orientation(),
+                                           disorder(),   successShare(), conveyingSpeed()};
     return kObjectives;
 }
 

@@ -33,6 +33,7 @@ Objective successShare() {
     objective.help = "Parts that finish in the expected orientation, of all trials. Higher is better.";
     objective.shownAs = 100.0;
     objective.decimals = 1;
+    objective.usesTolerance = true;
     objective.measure = &measureSuccess;
     objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 1.0; };
     return objective;

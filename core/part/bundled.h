@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -21,6 +22,9 @@ struct BundledPart {
 /// The bundled parts, the two of the paper first.
 std::span<const BundledPart> listBundledParts();
 
+/// "cuboid, cone, ...": all names, for people.
+std::string nameBundledParts();
+
 /// The bundled part with this name. Error: there is none; names those that there are.
 base::Result<BundledPart> findBundledPart(std::string_view name);
 
@@ -29,6 +33,10 @@ geometry::TriangleMesh makeBundledShape(std::string_view name);
 
 /// Where the part's file is (base::findResource).
 std::filesystem::path findBundledFile(const BundledPart& part);
+
+/// Parts without any symmetry, as most are in practice. Each is there as a STEP file, too: "clip.step".
+inline constexpr std::array<std::string_view, 6> kPartsInStep = {"clip",    "wedge",         "plate",
+                                                                 "d-shaft", "holed-bracket", "housing"};
 
 /// The L bracket once more, as a STEP file.
 inline constexpr std::string_view kBracketStepFile = "bracket.step";

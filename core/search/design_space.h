@@ -28,6 +28,8 @@ struct Dimension {
     /// One of the two numbers of a point in a plane. Such dimensions come in twos, with equally many bits; a
     /// search may change both at once.
     bool ofPoint = false;
+    /// 0.5 in all such dimensions is level; the farther from it, the rougher the design.
+    bool isRelief = false;
     /// Where it is drawn: dimensions of one line belong together, as those of a cross-section do.
     int line = 0;
 };

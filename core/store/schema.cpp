@@ -330,7 +330,12 @@ constexpr const char* kVersion11 = R"sql(
 UPDATE study SET settings = json_set(settings, '$.evolution.learningStep_ms', 0.2);
 )sql";
 
-constexpr std::array<Migration, 11> kMigrations = {{{1, kVersion1},
+// The first generation at random.
+constexpr const char* kVersion12 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.evolution.firstGeneration', 'random');
+)sql";
+
+constexpr std::array<Migration, 12> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -340,7 +345,8 @@ constexpr std::array<Migration, 11> kMigrations = {{{1, kVersion1},
                                                     {8, kVersion8, &turnGenesIntoDesigns},
                                                     {9, kVersion9},
                                                     {10, kVersion10},
-                                                    {11, kVersion11}}};
+                                                    {11, kVersion11},
+                                                    {12, kVersion12}}};
 
 }  // namespace
 

@@ -30,4 +30,20 @@ struct OrientationShares {
 OrientationShares calcOrientationShares(const part::Part& part, std::span<const trial::Outcome> outcomes,
                                         const base::Quaternion& expected);
 
+/// A way in which parts end.
+struct EndMode {
+    base::Quaternion orientation = base::Quaternion::Identity();  // mean of those that end so
+    std::size_t pose = 0;                                         // index of the stable pose that is nearest
+    double tilt = 0.0;     // the angle between them; large where parts lean on something [rad]
+    double heading = 0.0;  // of the pose as it is listed, about the vertical [rad], -pi to pi
+    int count = 0;
+};
+
+/// The ways in which those parts end that finish, the most frequent first, until all or `most` are named: the
+/// mode (trial::findModalOrientation), then that of the rest, and so on. What is within `tolerance` [rad]
+/// ends alike. The part has stable poses. The heading of a part that looks the same in several is one of
+/// them; of one with a continuous symmetry about the vertical it says nothing.
+std::vector<EndMode> findEndModes(const part::Part& part, std::span<const trial::Outcome> outcomes,
+                                  double tolerance, std::size_t most);
+
 }  // namespace trapwright::study

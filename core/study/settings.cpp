@@ -55,8 +55,7 @@ bool keepsScores(const Settings& before, const Settings& after) {
     same.validation = before.validation;
     // Where success counts in F, what success is counts as well.
     const auto summed = objectives::readObjectives(before.evolution.objectives);
-    if (summed && std::find(summed->begin(), summed->end(),
-                            objectives::findObjective(objectives::kSuccess)) != summed->end())
+    if (summed && std::ranges::any_of(*summed, &objectives::Objective::usesTolerance))
         same.validation.tolerance = after.validation.tolerance;
     same.feeder = before.feeder;
     return same == before;

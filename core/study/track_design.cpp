@@ -31,6 +31,7 @@ search::SearchParameters searchParameters(const EvolutionSettings& settings) {
     parameters.genetic.tournamentSize = settings.tournamentSize;
     parameters.genetic.transition = {settings.staticMutation, settings.smoothingLimit,
                                      settings.mutationFloor};
+    parameters.genetic.first = settings.firstGeneration;
     return parameters;
 }
 

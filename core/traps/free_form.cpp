@@ -26,15 +26,15 @@ std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
                 "section " + std::to_string(section + 1) + ", point " + std::to_string(point + 1);
             const Interval across = spanAcross(parameters, point);
             dimensions.push_back({place + ", y", "mm", kMillimetres * across.low,
-                                  kMillimetres * (across.low + across.size), kBits, true, section});
-            dimensions.push_back(
-                {place + ", z", "mm", 0.0, kMillimetres * parameters.segmentHeight, kBits, true, section});
+                                  kMillimetres * (across.low + across.size), kBits, true, false, section});
+            dimensions.push_back({place + ", z", "mm", 0.0, kMillimetres * parameters.segmentHeight, kBits,
+                                  true, true, section});
         }
     }
     for (int section = 0; section < parameters.crossSections; ++section) {
         dimensions.push_back({"length of segment " + std::to_string(section + 1), "mm",
                               kMillimetres * parameters.minSegmentLength,
-                              kMillimetres * parameters.maxSegmentLength, kBits, false,
+                              kMillimetres * parameters.maxSegmentLength, kBits, false, false,
                               parameters.crossSections});
     }
     return dimensions;

@@ -1,4 +1,6 @@
 // Writes the bundled parts into the folder given as the only argument.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 
@@ -24,6 +26,10 @@ int main(int argc, char** argv) {
     const std::filesystem::path folder = argv[1];
     for (const part::BundledPart& entry : part::listBundledParts()) {
         if (!succeeded(geometry::writeStl(folder / entry.file, part::makeBundledShape(entry.name)))) return 1;
+    }
+    for (const std::string_view name : part::kPartsInStep) {
+        const std::filesystem::path step = folder / fmt::format("{}.step", name);
+        if (!succeeded(part::writeStepSolid(step, part::makeBundledShape(name)))) return 1;
     }
     const std::filesystem::path step = folder / part::kBracketStepFile;
     return succeeded(part::writeStepPrism(step, part::bracketProfile(), part::bracketWidth())) ? 0 : 1;

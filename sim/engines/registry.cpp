@@ -1,5 +1,6 @@
 #include "sim/engines/registry.h"
 
+#include "sim/native/kernel.h"
 #include "sim/native/native_engine.h"
 #include "sim/simbody/certifying_engine.h"
 #include "sim/simbody/simbody_engine.h"
@@ -30,6 +31,15 @@ const trial::EngineRegistry& registry() {
             "the continuous contact law under an error-controlled integrator, some hundred times slower"),
     });
     return engines;
+}
+
+base::Status useInstructionSet(const std::string& name) {
+    std::string known;
+    for (const std::string& one : native::instructionSets()) {
+        known += (known.empty() ? "" : ", ") + one;
+        if (one == name && native::useInstructionSet(name)) return base::success();
+    }
+    return base::Error{"This machine has no instruction set named \"" + name + "\"; it has " + known + "."};
 }
 
 }  // namespace trapwright::engines

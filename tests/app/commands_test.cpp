@@ -240,8 +240,37 @@ class CommandsTest : public QObject {
                           answer["fell_off"].toObject()["count"].toInt() +
                           answer["stuck"].toObject()["count"].toInt();
         QCOMPARE(ended, 6);
+        // Who finishes ends in one of the ways; the first is the one that most do.
+        int finished = 0;
+        int before = 6;
+        for (const QJsonValue way : answer["ends"].toArray()) {
+            const int count = way["count"].toInt();
+            QVERIFY(count >= 1 && count <= before && way["pose"].toInt() >= 1);
+            QVERIFY(std::abs(way["heading_deg"].toDouble()) <= 180.0);
+            finished += count;
+            before = count;
+        }
+        QCOMPARE(finished, answer["finished"].toObject()["count"].toInt());
         // 1.0 at 0.478 mm (50 Hz, 12 degrees), and proportional to the half-stroke.
         QVERIFY(std::abs(answer["throw_number"].toDouble() - 0.8 / 0.478) < 2e-3);
+    }
+
+    // Told by name, and by those that there are where the name is unknown.
+    void instructionSetIsChosen() {
+        const QStringList verify = {"verify", "--engine", "native", "--case", "lift-off"};
+        const auto askWith = [&](const char* set) {
+            qputenv("TRAPWRIGHT_INSTRUCTION_SET", set);
+            Ran ran = ask(verify);
+            qunsetenv("TRAPWRIGHT_INSTRUCTION_SET");
+            return ran;
+        };
+        const Ran refused = askWith("AVX99");
+        QCOMPARE(refused.code, 2);
+        QVERIFY2(refused.errors.contains("AVX99") && refused.errors.contains("it has "), refused.all());
+        const QByteArray known = refused.errors.mid(refused.errors.indexOf("it has ") + 7).split('.').first();
+        const QByteArray least = known.split(',').last().trimmed();
+        const Ran ran = askWith(least.constData());
+        QVERIFY2(ran.code == 0, ran.all());
     }
 
     void sweep() {

@@ -68,7 +68,8 @@ class CompletionTest : public QObject {
                                    << QStringList{"steel", "stainless"};
         QTest::newRow("kinds") << "trapwright replay one.trap --kind s" << QStringList{"selection"};
         QTest::newRow("studies") << "trapwright settings o" << QStringList{"one.trap"};
-        QTest::newRow("parts") << "trapwright part c" << QStringList{"cuboid", "cone", "cup", "clip.stl"};
+        QTest::newRow("parts") << "trapwright part c"
+                               << QStringList{"cuboid", "cone", "cup", "clip", "clip.stl"};
         QTest::newRow("settings files")
             << "trapwright new a.trap --settings se" << QStringList{"settings.json"};
         QTest::newRow("values") << "trapwright new a.trap --set track.encoding="

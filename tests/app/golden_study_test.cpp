@@ -2,9 +2,11 @@
 // it.
 
 #include <QCryptographicHash>
-#include <QHash>
 #include <QTemporaryDir>
 #include <QTest>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "sim/native/kernel.h"
 #include "tests/app/program.h"
@@ -12,6 +14,9 @@
 using namespace trapwright::test;
 
 namespace {
+
+/// What nearly every machine has; others can take it, too.
+constexpr const char* kInstructionSet = "AVX2";
 
 /// Designs and scores of all individuals, the comparison of the best winners, a validation and the track's
 /// solid.
@@ -44,27 +49,27 @@ class GoldenStudyTest : public QObject {
     void givesTheSameBits_data() {
         QTest::addColumn<QStringList>("learning");
         QTest::addColumn<QString>("trials");
-        QTest::addColumn<QHash<QString, QByteArray>>(
-            "expected");  // by the instruction set of the native engine
+        QTest::addColumn<QByteArray>("expected");
         QTest::newRow("cuboid, linear, native, race")
             << QStringList{"--preset", "cuboid", "--engine", "native",
                            "--trials", "12",     "--set",    "evolution.racingTrials=4"}
-            << "6" << QHash<QString, QByteArray>{{"AVX3", "b4c8f76925ca08a4"}};
+            << "6" << QByteArray("bd83bcfbe1036c3f");
         QTest::newRow("cone, bowl, Simbody, as in the paper")
             << QStringList{"--preset", "cone", "--paper", "--trials", "3"} << "2"
-            << QHash<QString, QByteArray>{{"AVX3", "97eadcc838b98427"}};
+            << QByteArray("e8c261b8afd9d946");
     }
     void givesTheSameBits() {
         QFETCH(QStringList, learning);
         QFETCH(QString, trials);
-        using Expected = QHash<QString, QByteArray>;
-        QFETCH(Expected, expected);
+        QFETCH(QByteArray, expected);
+        const std::vector<std::string> sets = trapwright::native::instructionSets();
+        if (std::find(sets.begin(), sets.end(), kInstructionSet) == sets.end())
+            QSKIP("Known for machines with AVX2 only.");
+        qputenv("TRAPWRIGHT_INSTRUCTION_SET", kInstructionSet);
         const QTemporaryDir folder;
         const QByteArray got = hashStudy(folder.path(), learning, trials);
-        const QString set = QString::fromStdString(trapwright::native::instructionSet());
         QVERIFY2(got.size() == 16, got);
-        if (!expected.contains(set)) QSKIP(qPrintable("Not known for " + set + ": " + got));
-        QCOMPARE(got, expected[set]);
+        QCOMPARE(got, expected);
     }
 };
 

@@ -316,7 +316,7 @@ void TrackPage::refresh() {
         form_->setVisible(key, freeForm);
     const bool genetic = settings.evolution.search == search::Method::genetic;
     for (const char* key : {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
-                            "evolution.smoothingLimit"})
+                            "evolution.smoothingLimit", "evolution.firstGeneration"})
         form_->setVisible(key, genetic);
     const bool locked = design_->locked();
     form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });

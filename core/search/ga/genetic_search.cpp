@@ -44,9 +44,14 @@ std::vector<Proposal> GeneticSearch::ask() {
                 encodeDesign(space_.smooth(decodeDesign(child, space_), probability, random), space_, child);
             return child;
         };
-        asked_ = population_.empty() ? createPopulation(layout_, parameters_.populationSize, parameters_.seed)
-                                     : nextGeneration(population_, scores_, layout_, parameters_.genetic,
-                                                      smooth, parameters_.seed, generation_);
+        if (population_.empty()) {
+            asked_ = createPopulation(layout_, parameters_.populationSize, parameters_.seed);
+            if (parameters_.genetic.first == FirstGeneration::graded)
+                gradePopulation(asked_, space_, parameters_.seed);
+        } else {
+            asked_ = nextGeneration(population_, scores_, layout_, parameters_.genetic, smooth,
+                                    parameters_.seed, generation_);
+        }
     }
     std::vector<Proposal> proposals;
     proposals.reserve(asked_.size());

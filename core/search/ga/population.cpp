@@ -1,6 +1,7 @@
 #include "core/search/ga/population.h"
 
 #include <cassert>
+#include <cmath>
 #include <numeric>
 
 #include "core/search/ga/operators.h"
@@ -33,6 +34,22 @@ std::vector<Chromosome> createPopulation(const ChromosomeLayout& layout, int siz
         population.push_back(createRandomChromosome(layout, random));
     }
     return population;
+}
+
+void gradePopulation(std::vector<Chromosome>& population, const DesignSpace& space, std::uint64_t seed) {
+    for (std::uint32_t i = 0; i < population.size(); ++i) {
+        base::Random random({seed, 0, i, 1, base::Purpose::initialPopulation});
+        const double relief = std::exp(random.uniform(std::log(kLeastRelief), 0.0));
+        Design design = decodeDesign(population[i], space);
+        for (std::size_t k = 0; k < design.size(); ++k) {
+            if (space.dimensions[k].isRelief) design[k] = 0.5 + relief * (design[k] - 0.5);
+        }
+        encodeDesign(design, space, population[i]);
+
+        std::vector<double> values = decodeGray(population[i].strategy, kStrategyBits);
+        values[1] = std::exp(random.uniform(std::log(kLeastFirstMutation), 0.0));
+        population[i].strategy = encodeGray(values, kStrategyBits);
+    }
 }
 
 std::vector<Chromosome> nextGeneration(std::span<const Chromosome> parents, std::span<const double> fitnesses,

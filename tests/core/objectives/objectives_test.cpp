@@ -1,6 +1,7 @@
 #include "core/objectives/objectives.h"
 
 #include <QtTest>
+#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -209,6 +210,45 @@ class ObjectivesTest : public QObject {
         QCOMPARE(scoreOf(objectives::measureAll(wanted, paperObjectives()), "success"), 0.2);
     }
 
+    // So many ways of equal frequency, all further from each other than the tolerance, of parts that finish
+    // and others that do not: the likelihood that two of n end alike, counted.
+    void disorderCountsTheWays_data() {
+        QTest::addColumn<int>("ways");
+        QTest::addColumn<int>("stuck");
+        QTest::addColumn<double>("bits");
+        constexpr double kLeast = 1.0 / 256.0;
+        const auto bits = [](double alike, double pairs) {
+            return -std::log2(kLeast + (1.0 - kLeast) * alike / pairs);
+        };
+        QTest::newRow("one") << 1 << 0 << 0.0;
+        QTest::newRow("two") << 2 << 0 << bits(2 * 30 * 29, 60 * 59);
+        QTest::newRow("four") << 4 << 0 << bits(4 * 15 * 14, 60 * 59);
+        QTest::newRow("one, half are stuck") << 1 << 30 << bits(30 * 29, 60 * 59);
+        QTest::newRow("none finishes") << 1 << 60 << 8.0;
+    }
+
+    void disorderCountsTheWays() {
+        QFETCH(int, ways);
+        QFETCH(int, stuck);
+        QFETCH(double, bits);
+        constexpr int kTrials = 60;
+        std::vector<Outcome> outcomes;
+        outcomes.reserve(kTrials);
+        // Half a turn about three axes and none: all half a turn apart.
+        const std::array ends = {base::Quaternion::Identity(), turn(180.0, base::Vec3::UnitX()),
+                                 turn(180.0, base::Vec3::UnitY()), turn(180.0, base::Vec3::UnitZ())};
+        for (int i = 0; i < kTrials; ++i) {
+            outcomes.push_back(finishedAfter(104e-3, 2.0, ends[static_cast<std::size_t>(i % ways)]));
+            if (i < stuck) outcomes.back().parts[0].ending = trial::Ending::stuck;
+        }
+        const Judge judge;
+        QVERIFY(std::abs(scoreOf(judge.judge(outcomes), "disorder") - bits) < 1e-9);
+        // Less is better: it counts as minus.
+        const auto sum = *objectives::readObjectives("disorder");
+        QCOMPARE(objectives::measureAll(judge.evaluation(outcomes), sum).total,
+                 -scoreOf(judge.judge(outcomes), "disorder"));
+    }
+
     void speedIsThatOfThePartsThatFinish() {
         const Judge judge;
         std::vector<Outcome> outcomes{finishedAfter(104e-3, 1.0, base::Quaternion::Identity()),
@@ -300,9 +340,10 @@ class ObjectivesTest : public QObject {
     void unknownObjectivesAreNamed_data() {
         QTest::addColumn<QString>("text");
         QTest::addColumn<QString>("told");
-        QTest::newRow("unknown") << "F_C, F_Q"
-                                 << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-                                    "success, conveying_speed. Write several with commas between them.";
+        QTest::newRow("unknown")
+            << "F_C, F_Q"
+            << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
+               "disorder, success, conveying_speed. Write several with commas between them.";
         QTest::newRow("empty") << ""
                                << "There is no objective named \"\".";
         QTest::newRow("end") << "F_C,"

@@ -106,6 +106,8 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 12)
+        database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.firstGeneration')");
     if (version < 11)
         database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.learningStep_ms')");
     if (version < 10) database.exec("DROP TABLE outcomes; DROP TABLE outcome_maker");

@@ -206,6 +206,7 @@ class StudyFeederTest : public QObject {
         QVERIFY(sample::equal(study->loadGeneration(0).value(), sample::generationWithoutSuccess(0)));
         study::Settings expected = sample::settings();
         expected.evolution.learningStep = 0.2e-3;  // the only one that there was
+        expected.evolution.firstGeneration = search::ga::FirstGeneration::random;
         QVERIFY(study->loadSettings().value() == expected);
         QVERIFY(study->loadPhysicalValidations().value().empty());
         QVERIFY(study->loadDriveLog(-kForEver, kForEver).value().empty());

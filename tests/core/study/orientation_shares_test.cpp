@@ -1,6 +1,8 @@
 #include "core/study/orientation_shares.h"
 
 #include <QtTest>
+#include <array>
+#include <cmath>
 
 #include "core/part/part_builder.h"
 #include "core/part/shapes.h"
@@ -84,6 +86,40 @@ class OrientationSharesTest : public QObject {
         QVERIFY(std::abs(shares.finishAngles[0]) < 1e-6);  // turned about a symmetry axis
         QVERIFY(std::abs(shares.finishAngles[1] / base::kDegree - 70.0) < 1e-6);
         QVERIFY(std::is_sorted(shares.startAngles.begin(), shares.startAngles.end()));
+    }
+
+    // Three ways of a wedge, 5, 3 and 2 parts, each scattered by less than the tolerance; who does not finish
+    // ends in no way.
+    void endsAreFoundByFrequency() {
+        const std::array corners{base::Vec2(0.0, 0.0), base::Vec2(12e-3, 0.0), base::Vec2(0.0, 7e-3)};
+        const part::Part part = built(part::makePrism(corners, 6e-3));
+        QVERIFY(part.stablePoses.size() >= 3);
+        struct Way {
+            std::size_t pose;
+            double heading, tilt;  // [deg]
+            int count;
+        };
+        const std::array ways{Way{1, 120.0, 0.0, 5}, Way{1, -60.0, 0.0, 3}, Way{2, 30.0, 12.0, 2}};
+        std::vector<trial::Outcome> outcomes{
+            ended(trial::Ending::stuck, base::Quaternion::Identity(), base::Quaternion::Identity())};
+        for (const Way& way : ways) {
+            for (int i = 0; i < way.count; ++i) {
+                const base::Quaternion end = about(base::Vec3::UnitX(), way.tilt) *
+                                             about(base::Vec3::UnitZ(), way.heading + 4.0 * (i % 2)) *
+                                             part.stablePoses[way.pose].rotation;
+                outcomes.push_back(ended(trial::Ending::finished, base::Quaternion::Identity(), end));
+            }
+        }
+        const auto modes = study::findEndModes(part, outcomes, 25.0 * base::kDegree, 12);
+        QCOMPARE(modes.size(), ways.size());
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            QCOMPARE(modes[i].count, ways[i].count);
+            QCOMPARE(modes[i].pose, ways[i].pose);
+            QVERIFY(std::abs(modes[i].tilt / base::kDegree - ways[i].tilt) < 0.5);
+            QVERIFY(std::abs(modes[i].heading / base::kDegree - ways[i].heading - 2.0) < 3.0);
+        }
+        QCOMPARE(study::findEndModes(part, outcomes, 25.0 * base::kDegree, 2).size(), std::size_t{2});
+        QVERIFY(study::findEndModes(part, {}, 25.0 * base::kDegree, 2).empty());
     }
 };
 

@@ -104,7 +104,7 @@ class PoseDropsTest : public QObject {
 
     // A sheet does not stand on its edges; its two faces are alike. A few land on an edge and rock there from
     // one corner of it to the other, which costs a slender block hardly any energy (Housner 1963): they do
-    // not settle.
+    // not settle, or count as standing; which of both hangs on the last bits, so on the instruction set.
     void sheetLies() {
         const SharedPart sheet = build(part::makeBox({20e-3, 20e-3, 0.3e-3}), "sheet");
         const auto result = study::simulateDrops(native_, sheet, drops(100), 2, {});
@@ -112,8 +112,7 @@ class PoseDropsTest : public QObject {
         int flat = 0;
         for (std::size_t i = 0; i < result->counts.size(); ++i)
             if (sheet->stablePoses[i].height < 1e-3) flat += result->counts[i];
-        QCOMPARE(flat + result->unsettled, 100);
-        QVERIFY2(result->unsettled <= 4, qPrintable(QString::number(result->unsettled)));
+        QVERIFY2(flat >= 96, qPrintable(QString::number(flat)));
     }
 
     // No rolling resistance is simulated, so a rod rolls on and on: it lies all the same.

@@ -73,12 +73,35 @@ class SettingsCheckTest : public QObject {
         QVERIFY(s.evolution.orientationDistance == trial::OrientationDistance::plain);
         QCOMPARE(s.evolution.smoothingLimit, 1.0);
         QCOMPARE(s.evolution.mutationFloor, 0.0);
+        QVERIFY(s.evolution.firstGeneration == search::ga::FirstGeneration::random);
         QVERIFY(s.evolution.simulateOverlapping);
         QCOMPARE(s.evolution.racingTrials, 0);
         QVERIFY(!s.evolution.commonRandomNumbers);
         QCOMPARE(s.evolution.learningStep, 0.2e-3);
         QCOMPARE(s.evolution.learningStuckTime, s.simulation.termination.stuckTime);
         QCOMPARE(s.simulation.engine, std::string("simbody"));
+    }
+
+    // A score that counts by the tolerance of success does not outlive a change of it.
+    void toleranceCountsWhereItIsInTheSum_data() {
+        QTest::addColumn<QString>("objectives");
+        QTest::addColumn<bool>("kept");
+        QTest::newRow("paper") << "F_C, F_D, F_O" << true;
+        QTest::newRow("speed") << "F_C, conveying_speed" << true;
+        QTest::newRow("success") << "F_C, success" << false;
+        QTest::newRow("disorder") << "F_C, disorder" << false;
+    }
+
+    void toleranceCountsWhereItIsInTheSum() {
+        QFETCH(QString, objectives);
+        QFETCH(bool, kept);
+        Settings before;
+        before.evolution.objectives = objectives.toStdString();
+        Settings after = before;
+        after.validation.trialsPerPose = 7;
+        QVERIFY(study::keepsScores(before, after));
+        after.validation.tolerance = 0.5 * before.validation.tolerance;
+        QCOMPARE(study::keepsScores(before, after), kept);
     }
 
     // What the presets were before there was a library, to the last bit.

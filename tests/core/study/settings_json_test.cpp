@@ -45,6 +45,7 @@ Settings unusualSettings() {
                    0.1 / 3.0,
                    0.7,
                    1e-7,
+                   search::ga::FirstGeneration::random,
                    "success, F_C",
                    trial::OrientationDistance::plain,
                    true,

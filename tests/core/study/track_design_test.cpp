@@ -159,6 +159,7 @@ class TrackDesignTest : public QObject {
         settings.staticMutation = 0.011;
         settings.smoothingLimit = 0.77;
         settings.mutationFloor = 0.003;
+        settings.firstGeneration = search::ga::FirstGeneration::random;
         settings.populationSize = 17;
         settings.seed = 99;
         QCOMPARE(study::searchParameters(settings).populationSize, 17);
@@ -168,6 +169,7 @@ class TrackDesignTest : public QObject {
         QCOMPARE(parameters.transition.staticMutation, 0.011);
         QCOMPARE(parameters.transition.smoothingLimit, 0.77);
         QCOMPARE(parameters.transition.mutationFloor, 0.003);
+        QVERIFY(parameters.first == search::ga::FirstGeneration::random);
     }
 };
 

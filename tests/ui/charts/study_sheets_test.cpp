@@ -67,7 +67,7 @@ class StudySheetsTest : public QObject {
 
     void fitnessShowsItsScores() {
         const ChartSheet sheet = charts::fitnessSheet({someStudy("a", 0.5)});
-        QCOMPARE(sheet.plots.size(), std::size_t{4});
+        QCOMPARE(sheet.plots.size(), std::size_t{5});
         const PlotSheet& orientation = plotOf(sheet, "F_O");
         QCOMPARE(orientation.curves.size(), std::size_t{3});
         QCOMPARE(orientation.curves[0].points, (std::vector<QPointF>{{0, 0.5}, {1, 0.5}, {2, 0.5}}));
@@ -79,7 +79,7 @@ class StudySheetsTest : public QObject {
         QCOMPARE(plotOf(sheet, "F_D").curves[0].points.front(), QPointF(0, -0.25));
         QCOMPARE(plotOf(sheet, "F_D").yTitle, QString("Distance F<sub>D</sub> [segments]"));
         // What everybody reads is a choice; the means of these studies lack it.
-        QVERIFY(!isOn(sheet, "conveying_speed"));
+        QVERIFY(!isOn(sheet, "conveying_speed") && !isOn(sheet, "disorder"));
         const PlotSheet& speed = plotOf(sheet, "conveying_speed");
         QCOMPARE(speed.curves.size(), std::size_t{1});
         QCOMPARE(speed.curves[0].points.front(), QPointF(0, 50.0));

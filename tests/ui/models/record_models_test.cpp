@@ -162,9 +162,10 @@ class RecordModelsTest : public QObject {
         QCOMPARE(textAt(model, 0, columnOf(model, "p_dm")), QString("0.0020"));
         QCOMPARE(textAt(model, 0, columnOf(model, "p_s")), QString("0.3000"));
         QCOMPARE(columnOf(model, "p_s"), columns - 1);
-        // Speed is for everybody, the paper's scores are details.
-        QCOMPARE(columnOf(model, "Speed [mm/s]"), int(IndividualModel::FirstScore));
-        QCOMPARE(textAt(model, 0, IndividualModel::FirstScore), QString("50.0"));
+        // Disorder and speed are for everybody, the paper's scores are details.
+        QCOMPARE(columnOf(model, "Disorder [bit]"), int(IndividualModel::FirstScore));
+        QCOMPARE(columnOf(model, "Speed [mm/s]"), IndividualModel::FirstScore + 1);
+        QCOMPARE(textAt(model, 0, IndividualModel::FirstScore + 1), QString("50.0"));
         QCOMPARE(columnOf(model, "F"), IndividualModel::firstDetail());
         QVERIFY(columnOf(model, "F_C") > IndividualModel::firstDetail());
         QCOMPARE(textAt(model, 0, IndividualModel::Stuck), QString("2"));

@@ -239,10 +239,13 @@ class ExportPageTest : public QObject {
         QSettings().setValue("print/leastSuccess", 1.0);
         User user(studies_, "learned.trap");
         QVERIFY(user.waitForSolid());
+        user.choose("export.track", "Selected, place 1");
+        QVERIFY(user.waitForSolid());
         const study::SelectionEntry& first = user.session()->runs().selections().back().entries.front();
         QVERIFY(first.oriented < first.trials);
         const QString percent = look::numberText(100.0 * first.oriented / first.trials) + " %";
-        QVERIFY(user.text("print.check.success").contains(percent));
+        QVERIFY2(user.text("print.check.success").contains(percent),
+                 qPrintable(percent + " in: " + user.text("print.check.success")));
         QVERIFY(user.text("print.check.success").contains("below 100 %"));
 
         user.action("export.stl")->trigger();

@@ -1,6 +1,7 @@
 #include "core/search/ga/population.h"
 
 #include <QtTest>
+#include <cmath>
 #include <vector>
 
 #include "core/search/ga/operators.h"
@@ -31,6 +32,52 @@ class PopulationTest : public QObject {
         QVERIFY(std::abs(ones / 40000.0 - 0.5) < 4.0 * 0.5 / 200.0);
         // An individual does not depend on how many there are.
         QVERIFY(ga::createPopulation(kLayout, 3, 9)[2] == population[2]);
+    }
+
+    // From nearly level to rough, and as often mutating rarely as often: both even in their logarithms.
+    void gradedPopulationIsGraded() {
+        search::DesignSpace space;
+        for (int k = 0; k < 40; ++k) {
+            space.dimensions.push_back({"y", "", 0.0, 1.0, 10, true, false});
+            space.dimensions.push_back({"z", "", 0.0, 1.0, 10, true, true});
+        }
+        space.dimensions.push_back({"length", "", 0.0, 1.0, 10});
+        const ga::ChromosomeLayout layout = ga::layOut(space);
+        const auto before = ga::createPopulation(layout, 400, 4);
+        auto population = before;
+        ga::gradePopulation(population, space, 4);
+        int flat = 0;
+        int rare = 0;
+        for (std::size_t i = 0; i < population.size(); ++i) {
+            QVERIFY(ga::fits(population[i], layout));
+            QVERIFY(population[i].singles == before[i].singles);
+            const search::Design old = ga::decodeDesign(before[i], space);
+            const search::Design design = ga::decodeDesign(population[i], space);
+            double relief = 0.0;
+            double whole = 0.0;
+            for (std::size_t k = 0; k + 1 < design.size(); k += 2) {
+                QCOMPARE(design[k], old[k]);
+                QVERIFY((design[k + 1] - 0.5) * (old[k + 1] - 0.5) >= 0.0);
+                relief += std::abs(design[k + 1] - 0.5);
+                whole += std::abs(old[k + 1] - 0.5);
+            }
+            // Ten bits tell no less than half a thousandth.
+            QVERIFY(relief / whole > 0.9 * ga::kLeastRelief && relief / whole <= 1.0);
+            if (relief / whole < std::sqrt(ga::kLeastRelief)) ++flat;
+            const ga::StrategyValues strategy = ga::decodeStrategy(population[i].strategy);
+            const ga::StrategyValues strategyBefore = ga::decodeStrategy(before[i].strategy);
+            QCOMPARE(strategy.crossover, strategyBefore.crossover);
+            QCOMPARE(strategy.smoothing, strategyBefore.smoothing);
+            QVERIFY(strategy.mutation > 0.99 * ga::kLeastFirstMutation && strategy.mutation <= 1.0);
+            if (strategy.mutation < std::sqrt(ga::kLeastFirstMutation)) ++rare;
+        }
+        // Half of each, within four deviations.
+        QVERIFY2(std::abs(flat - 200) < 40 && std::abs(rare - 200) < 40,
+                 qPrintable(QString("%1 %2").arg(flat).arg(rare)));
+        // An individual does not depend on how many there are.
+        std::vector<ga::Chromosome> three(before.begin(), before.begin() + 3);
+        ga::gradePopulation(three, space, 4);
+        QVERIFY(three[2] == population[2]);
     }
 
     void childrenHaveTheirOwnStreams() {
