@@ -185,12 +185,24 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
     // Parts drift back at first; with less room behind them some are lost at the track's beginning.
     constexpr double kRoomBehindStart = 60e-3;
     constexpr double kRounding = 1e-9;
+    std::vector<std::string> recommendations;
     const double behind = settings.track.leadInLength - settings.track.startFromLeadInEnd;
-    if (behind >= kRoomBehindStart - kRounding) return {};
-    return {
-        "Only " + millimetres(behind) +
-        " of lead-in lie behind the start point (track.leadInLength_mm minus "
-        "track.startFromLeadInEnd_mm); at least 60 mm are recommended, because parts drift back at first."};
+    if (behind < kRoomBehindStart - kRounding) {
+        recommendations.push_back(
+            "Only " + millimetres(behind) +
+            " of lead-in lie behind the start point (track.leadInLength_mm minus "
+            "track.startFromLeadInEnd_mm); at least 60 mm are recommended, because parts drift back at "
+            "first.");
+    }
+    const double fall = calcTypicalFall(settings.track);
+    if (fall > 0.5 * settings.track.segmentHeight) {
+        recommendations.push_back(
+            "Traps that fall (track.traps) fall by " + millimetres(std::ceil(1e3 * fall) * 1e-3) +
+            " on a typical track, but only half of track.segmentHeight_mm lies below the lead-in, and what "
+            "would fall deeper is cut off; at least " +
+            millimetres(std::ceil(2e3 * fall) * 1e-3) + " are recommended.");
+    }
+    return recommendations;
 }
 
 }  // namespace trapwright::study

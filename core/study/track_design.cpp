@@ -1,5 +1,7 @@
 #include "core/study/track_design.h"
 
+#include <algorithm>
+
 #include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
@@ -22,6 +24,20 @@ double calcLongestTrack(const TrackSettings& settings) {
     const auto traps = trapsOf(settings);
     const double trap = traps ? traps::calcLongest(*traps, settings) : 0.0;
     return settings.leadInLength + trap + settings.leadOutSegments * settings.maxSegmentLength;
+}
+
+double calcTypicalFall(const TrackSettings& settings) {
+    constexpr double kHighEnough = 100.0;  // [m]
+    const auto traps = trapsOf(settings);
+    if (!traps) return 0.0;
+    traps::TrapParameters high = settings;
+    high.segmentHeight = kHighEnough;
+    const search::Design typical(traps::designSpace(*traps, high).dimensions.size(), 0.5);
+    const std::vector<track::CrossSection> sections = traps::build(*traps, high, typical);
+    double lowest = 0.5 * kHighEnough;
+    for (const base::Vec2& point : sections.back().points)
+        lowest = std::min(lowest, point.y());
+    return 0.5 * kHighEnough - lowest;
 }
 
 search::SearchParameters searchParameters(const EvolutionSettings& settings) {

@@ -16,6 +16,10 @@ search::DesignSpace designSpace(const TrackSettings& settings);
 /// How long a track of these settings can be. [m]
 double calcLongestTrack(const TrackSettings& settings);
 
+/// How much lower than the lead-in a track of these settings ends whose numbers are all in the middle of
+/// their ranges, were the segment as high as needed. 0 if the settings give no track. [m]
+double calcTypicalFall(const TrackSettings& settings);
+
 /// The settings as a search takes them.
 search::SearchParameters searchParameters(const EvolutionSettings& settings);
 

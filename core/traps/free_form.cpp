@@ -40,7 +40,7 @@ std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
     return dimensions;
 }
 
-std::vector<track::CrossSection> buildFreeForm(const TrapParameters& parameters,
+std::vector<track::CrossSection> buildFreeForm(const TrapParameters& parameters, double /*entry*/,
                                                std::span<const double> numbers) {
     const std::size_t points = countPointValues(parameters);
     return decodeTrap(parameters, numbers.first(points), numbers.subspan(points));

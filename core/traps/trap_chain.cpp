@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "core/base/spelling.h"
 #include "core/traps/free_form.h"
+#include "core/traps/groove.h"
 #include "core/traps/step.h"
 
 namespace trapwright::traps {
@@ -23,14 +25,39 @@ base::Error unknownKind(std::string_view name) {
         keys += (keys.empty() ? "" : ", ") + std::string(kind.key);
     return {fmt::format(
         "There is no kind of trap named \"{}\". The kinds are: {}. Write several with commas between "
-        "them.",
+        "them, and those that come more than once as \"3 x drop\".",
         name, keys)};
+}
+
+/// A name of the list, and how often it comes: "3 x drop".
+struct Repeated {
+    std::string_view name;
+    std::size_t times = 1;
+};
+
+Repeated readRepeated(std::string_view word) {
+    Repeated repeated{word};
+    std::size_t times = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), times);
+    if (error != std::errc{}) return repeated;
+    const auto begin = word.find_first_not_of(' ', static_cast<std::size_t>(end - word.data()));
+    if (begin == std::string_view::npos || word[begin] != 'x') return repeated;
+    const auto name = word.find_first_not_of(' ', begin + 1);
+    if (name == std::string_view::npos) return repeated;
+    return {word.substr(name), times};
+}
+
+double findLowest(const track::CrossSection& section) {
+    double lowest = section.points.front().y();
+    for (const base::Vec2& point : section.points)
+        lowest = std::min(lowest, point.y());
+    return lowest;
 }
 
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 2> kinds = {freeForm(), step()};
+    static const std::array<TrapKind, 4> kinds = {freeForm(), step(), groove(), drop()};
     return kinds;
 }
 
@@ -59,23 +86,31 @@ base::Status checkParameters(const TrapParameters& parameters) {
 
 base::Result<TrapChain> readTraps(std::string_view text) {
     TrapChain chain;
-    for (const std::string_view name : base::splitNames(text)) {
+    for (const std::string_view word : base::splitNames(text)) {
+        const auto [name, times] = readRepeated(word);
         const auto kinds = trapKinds();
         const auto found =
             std::find_if(kinds.begin(), kinds.end(), [&](const TrapKind& kind) { return kind.key == name; });
-        if (found == kinds.end()) return unknownKind(name);
-        chain.push_back(&*found);
+        if (found == kinds.end()) return unknownKind(word);
+        if (times < 1 || times > kMostTraps - std::min(kMostTraps, chain.size())) {
+            return base::Error{
+                fmt::format("\"{}\" makes {} traps; a track may have 1 to {} one after the other.", text,
+                            times < 1 ? "no" : "more", kMostTraps)};
+        }
+        chain.insert(chain.end(), times, &*found);
     }
     return chain;
 }
 
 std::string describe(const TrapChain& chain) {
     std::string text;
-    for (const TrapKind* kind : chain) {
-        std::string title(kind->title);
-        if (!text.empty())
+    for (std::size_t i = 0, times = 1; i < chain.size(); i += times) {
+        for (times = 1; i + times < chain.size() && chain[i + times] == chain[i];)
+            ++times;
+        std::string title(chain[i]->title);
+        if (!text.empty() || times > 1)
             title.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(title.front())));
-        text += (text.empty() ? "" : ", ") + title;
+        text += (text.empty() ? "" : ", ") + (times > 1 ? fmt::format("{} x {}", times, title) : title);
     }
     return text;
 }
@@ -117,14 +152,16 @@ std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParamet
                                        const search::Design& design) {
     std::vector<track::CrossSection> sections;
     std::size_t first = 0;
+    double entry = 0.5 * parameters.segmentHeight;  // where the lead-in lies
     for (const TrapKind* kind : chain) {
         const std::size_t count = kind->dimensions(parameters).size();
         const double begin = sections.empty() ? 0.0 : sections.back().x;
         for (track::CrossSection& section :
-             kind->build(parameters, std::span(design).subspan(first, count))) {
+             kind->build(parameters, entry, std::span(design).subspan(first, count))) {
             section.x += begin;
             sections.push_back(std::move(section));
         }
+        entry = findLowest(sections.back());
         first += count;
     }
     return sections;

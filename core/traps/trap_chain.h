@@ -11,10 +11,14 @@ namespace trapwright::traps {
 /// Traps one after the other, at least one. A track is lead-in, chain, lead-out.
 using TrapChain = std::vector<const TrapKind*>;
 
-/// "step, free-form": keys of kinds with commas between them. An error that lists the kinds.
+/// At most so many traps in a chain.
+inline constexpr std::size_t kMostTraps = 100;
+
+/// "groove, 6 x drop": keys of kinds with commas between them, each with how often it comes if more than
+/// once. An error that lists the kinds, or tells that there are too many.
 base::Result<TrapChain> readTraps(std::string_view text);
 
-/// "Step, free form": for people.
+/// "Groove, 6 x drop": for people.
 std::string describe(const TrapChain& chain);
 
 /// The dimensions of all traps one after the other. Where there are several, each dimension's key begins with

@@ -38,7 +38,7 @@ const RawText kTexts[] = {
     {"track.feeder", TEXT("Feeder"), TEXT("A straight track that shakes along a line, or one around a bowl that turns back and forth."), {TEXT("Linear"), TEXT("Bowl")}},
     {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
     {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, or several one after the other.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, or several one after the other.")},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
     {"track.pointsPerSection", TEXT("Points per section"), TEXT("How many points shape each cross-section, from the inner to the outer edge.")},
     {"track.minSegmentLength_mm", TEXT("Shortest segment"), TEXT("Least distance between two cross-sections.")},
@@ -149,10 +149,9 @@ std::vector<Choice> trapChoices() {
     };
     for (const traps::TrapKind& kind : traps::trapKinds())
         add(std::string(kind.key));
-    for (const traps::TrapKind& first : traps::trapKinds()) {
-        for (const traps::TrapKind& second : traps::trapKinds())
-            if (&first != &second) add(std::string(first.key) + ", " + std::string(second.key));
-    }
+    for (const char* chain : {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop",
+                              "groove, 6 x drop", "groove, 10 x drop"})
+        add(chain);
     return choices;
 }
 

@@ -1,8 +1,10 @@
 #include <QtTest>
+#include <cmath>
 #include <limits>
 
 #include "core/study/presets.h"
 #include "core/study/settings.h"
+#include "core/study/track_design.h"
 
 using namespace trapwright;
 using study::Settings;
@@ -263,6 +265,24 @@ class SettingsCheckTest : public QObject {
         QCOMPARE(lines.size(), std::size_t{1});
         QVERIFY2(lines[0].find("59 mm") != std::string::npos, lines[0].c_str());
         QVERIFY(study::findProblems(settings).empty());
+    }
+
+    // A chain of drops needs a higher segment than a free-form trap.
+    void heightForTrapsThatFallIsRecommended() {
+        Settings settings;
+        settings.track.traps = "step, free-form";
+        QVERIFY(study::findRecommendations(settings).empty());
+        settings.track.traps = "groove, 6 x drop";
+        const auto lines = study::findRecommendations(settings);
+        QCOMPARE(lines.size(), std::size_t{1});
+        const double fall = study::calcTypicalFall(settings.track);
+        QVERIFY(fall > 100e-3 && fall < 130e-3);
+        const std::string least = std::to_string(static_cast<int>(std::ceil(2e3 * fall))) + " mm";
+        QVERIFY2(lines[0].find("at least " + least) != std::string::npos, lines[0].c_str());
+        QVERIFY(study::findProblems(settings).empty());
+        settings.track.segmentHeight = std::ceil(2e3 * fall) * 1e-3;
+        QVERIFY(study::findRecommendations(settings).empty());
+        QVERIFY(std::abs(study::calcTypicalFall(settings.track) - fall) < 1e-12);
     }
 
     void partMustFit_data() {

@@ -6,6 +6,7 @@
 
 #include "core/geometry/mesh_check.h"
 #include "core/track/track_builder.h"
+#include "core/traps/groove.h"
 #include "core/traps/step.h"
 #include "core/traps/trap_chain.h"
 
@@ -37,7 +38,7 @@ class TrapKindsTest : public QObject {
         QTest::addColumn<QString>("chain");
         for (const traps::TrapKind& kind : traps::trapKinds())
             QTest::newRow(kind.key.data()) << QString::fromUtf8(kind.key.data());
-        QTest::newRow("several") << "step, free-form,step";
+        QTest::newRow("several") << "step, free-form,step, groove, drop,drop";
     }
     void everyKindGivesATrack() {
         QFETCH(QString, chain);
@@ -86,7 +87,7 @@ class TrapKindsTest : public QObject {
         QCOMPARE(dimensions[0].high, 15.0);
         // 5 mm up, half of the lengths, 10 degrees down to the outer edge.
         const std::vector<double> numbers = {20.0 / 30.0, 0.5, 40.0 / 60.0};
-        const auto sections = step.build(parameters, numbers);
+        const auto sections = step.build(parameters, 0.0, numbers);
         QCOMPARE(sections.size(), std::size_t{2});
         QVERIFY(std::abs(sections[0].x - 1e-3) < 1e-12);
         QVERIFY(std::abs(sections[1].x - 26.5e-3) < 1e-12);
@@ -99,9 +100,69 @@ class TrapKindsTest : public QObject {
         QCOMPARE(sections[0].points.front().x(), -30e-3);
         QCOMPARE(sections[0].points.back().x(), 30e-3);
         // Cut off at the box.
-        const auto steep = step.build(parameters, std::vector<double>{1.0, 0.0, 1.0});
+        const auto steep = step.build(parameters, 0.0, std::vector<double>{1.0, 0.0, 1.0});
         QCOMPARE(steep[0].points.front().y(), 30e-3);
         QVERIFY(step.smooth == nullptr);
+    }
+
+    void aDropIsWhatItsNumbersSay() {
+        const traps::TrapKind drop = traps::drop();
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const auto dimensions = drop.dimensions(parameters);
+        // 22.5 mm long, falling by 8 degrees, walls of 21 degrees; 6 mm down over 0.5 mm; walls of 42 degrees
+        // around y = 5 mm, leaning by 45 degrees outwards, 15 mm long, rising by 6 degrees.
+        const std::vector<double> numbers = {7.5 / 21.0, 0.5,  0.5, 0.5, 6.0 / 18.0, 0.0,
+                                             1.0,        0.75, 1.0, 0.0, 0.0};
+        QCOMPARE(dimensions.size(), numbers.size());
+        QCOMPARE(dimensions[4].high, 18.0);
+        const double entry = 120e-3;
+        const auto sections = drop.build(parameters, entry, numbers);
+        QCOMPARE(sections.size(), std::size_t{5});
+        const double rest = 0.5 * (15e-3 + 36e-3);
+        const double xs[] = {22.5e-3, 23e-3, 38e-3, 38e-3 + 0.5 * rest, 38e-3 + rest};
+        const double first = entry - 22.5e-3 * std::tan(8.0 * base::kDegree);
+        const double behind = first - 6e-3 + 15e-3 * std::tan(6.0 * base::kDegree);
+        const double slip = 0.5 * rest * std::tan(traps::kRestingFall);
+        const double bottoms[] = {first, first - 6e-3, behind, behind - slip, behind - 2.0 * slip};
+        for (std::size_t i = 0; i < 5; ++i) {
+            QVERIFY(std::abs(sections[i].x - xs[i]) < 1e-12);
+            const base::Vec2 bottom = sections[i].points[4];
+            QVERIFY2(std::abs(bottom.y() - bottoms[i]) < 1e-12, qPrintable(QString::number(i)));
+            QVERIFY(std::abs(bottom.x() - (i == 1 || i == 2 ? 5e-3 : 0.0)) < 1e-12);
+            QCOMPARE(sections[i].points.front().x(), -30e-3);
+            QVERIFY(std::abs(sections[i].points.back().x() - 30e-3) < 1e-15);
+        }
+        const double wall = std::tan(21.0 * base::kDegree);
+        QVERIFY(std::abs(sections[0].points.front().y() - (first + 30e-3 * wall)) < 1e-12);
+        // Leaning by more than its walls are steep: the inner wall is the higher one by far.
+        const double inner = std::tan(42.0 * base::kDegree) + std::tan(45.0 * base::kDegree);
+        QVERIFY(std::abs(sections[1].points.front().y() - (bottoms[1] + 35e-3 * inner)) < 1e-12);
+        const double resting = std::tan(traps::kRestingWall);
+        QVERIFY(std::abs(sections[4].points.back().y() - (bottoms[4] + 30e-3 * resting)) < 1e-12);
+        // Cut off at the box.
+        for (const track::CrossSection& section : drop.build(parameters, 1e-3, numbers)) {
+            for (const base::Vec2& point : section.points)
+                QVERIFY(point.y() >= 0.0);
+        }
+    }
+
+    // What follows a trap that falls begins where that one ends.
+    void trapsFollowEachOtherDown() {
+        TrapParameters parameters;
+        parameters.segmentHeight = 400e-3;
+        const auto chain = traps::readTraps("groove, 3 x drop");
+        QVERIFY(chain.ok());
+        const search::Design typical(traps::designSpace(*chain, parameters).dimensions.size(), 0.5);
+        const auto sections = traps::build(*chain, parameters, typical);
+        QCOMPARE(sections.size(), std::size_t{1 + 3 * 5});
+        const auto bottom = [&](std::size_t i) { return sections[i].points[4].y(); };
+        QVERIFY(bottom(0) < 200e-3);
+        const double fall = bottom(0) - bottom(5);
+        QVERIFY(fall > 9e-3);
+        QVERIFY(std::abs(bottom(5) - bottom(10) - fall) < 1e-12);
+        QVERIFY(std::abs(bottom(10) - bottom(15) - fall) < 1e-12);
     }
 
     void chainsAreReadFromText() {
@@ -110,8 +171,18 @@ class TrapKindsTest : public QObject {
         QCOMPARE(chain->size(), std::size_t{2});
         QCOMPARE((*chain)[0]->key, std::string_view("step"));
         QCOMPARE(traps::describe(*chain), std::string("Step, free form"));
-        QVERIFY(messageOf(traps::readTraps("ledge"))
-                    .contains("no kind of trap named \"ledge\". The kinds are: free-form, step"));
+        QVERIFY(
+            messageOf(traps::readTraps("ledge"))
+                .contains("no kind of trap named \"ledge\". The kinds are: free-form, step, groove, drop"));
+        const auto repeated = traps::readTraps("groove, 2 x drop, drop, 1xstep");
+        QVERIFY2(repeated.ok(), qPrintable(messageOf(repeated)));
+        QCOMPARE(repeated->size(), std::size_t{5});
+        QCOMPARE(traps::describe(*repeated), std::string("Groove, 3 x drop, step"));
+        QVERIFY(traps::readTraps("100 x step").ok());
+        QVERIFY(messageOf(traps::readTraps("step, 100 x step")).contains("makes more traps; a track may"));
+        QVERIFY(messageOf(traps::readTraps("0 x step")).contains("makes no traps"));
+        for (const char* wrong : {"3 x", "3 drop", "x drop", "-1 x drop", "99999999999999999999999 x drop"})
+            QVERIFY2(messageOf(traps::readTraps(wrong)).contains("no kind of trap"), wrong);
         QVERIFY(messageOf(traps::readTraps("")).contains("named \"\""));
         QVERIFY(messageOf(traps::readTraps("step,")).contains("named \"\""));
         const search::DesignSpace space = traps::designSpace(*chain, {});
