@@ -13,6 +13,13 @@ base::Result<traps::TrapChain> trapsOf(const TrackSettings& settings) {
     return traps::readTraps(settings.traps);
 }
 
+/// All numbers in the middle of their ranges.
+std::vector<track::CrossSection> buildTypical(const traps::TrapChain& traps,
+                                              const traps::TrapParameters& parameters) {
+    const search::Design typical(traps::designSpace(traps, parameters).dimensions.size(), 0.5);
+    return traps::build(traps, parameters, typical);
+}
+
 }  // namespace
 
 search::DesignSpace designSpace(const TrackSettings& settings) {
@@ -32,8 +39,7 @@ double calcTypicalFall(const TrackSettings& settings) {
     if (!traps) return 0.0;
     traps::TrapParameters high = settings;
     high.segmentHeight = kHighEnough;
-    const search::Design typical(traps::designSpace(*traps, high).dimensions.size(), 0.5);
-    const std::vector<track::CrossSection> sections = traps::build(*traps, high, typical);
+    const std::vector<track::CrossSection> sections = buildTypical(*traps, high);
     double lowest = 0.5 * kHighEnough;
     for (const base::Vec2& point : sections.back().points)
         lowest = std::min(lowest, point.y());
@@ -67,6 +73,7 @@ base::Result<track::Track> decodeTrack(const TrackSettings& settings, const sear
 base::Result<track::Track> buildLayout(const TrackSettings& settings) {
     const auto traps = trapsOf(settings);
     if (!traps) return traps.error();
+    if (calcTypicalFall(settings) > 0.0) return track::buildTrack(settings, buildTypical(*traps, settings));
     std::vector<track::CrossSection> flat;
     for (const double x : traps::layOut(*traps, settings)) {
         track::CrossSection section{x, {}};

@@ -31,7 +31,8 @@ std::unique_ptr<search::Search> makeSearch(const Settings& settings);
 base::Result<track::Track> decodeTrack(const TrackSettings& settings, const search::Design& design);
 
 /// The track before anything is learned: its trap flat at the lead-in's height, all segments of the mean
-/// length (paper, Figure 3). An error if the settings do not give a track.
+/// length (paper, Figure 3); of traps that fall, with all numbers in the middle of their ranges. An error if
+/// the settings do not give a track.
 base::Result<track::Track> buildLayout(const TrackSettings& settings);
 
 }  // namespace trapwright::study

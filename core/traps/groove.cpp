@@ -139,8 +139,7 @@ std::vector<track::CrossSection> buildDrop(const TrapParameters& parameters, dou
     const Form before{within(0.0, kSteepestWall, numbers[2]),
                       within(-kMostInclined, kMostInclined, numbers[3])};
     const Form behind{within(0.0, kSteepestWall, numbers[6]),
-                      within(-kMostInclined, kMostInclined, numbers[8]),
-                      within(-aside, aside, numbers[7])};
+                      within(-kMostInclined, kMostInclined, numbers[8]), within(-aside, aside, numbers[7])};
     Course course(parameters, entry);
     course.add(length(numbers[0]), within(-kSteepestRise, kSteepestFall, numbers[1]), before);
     course.fallBy(within(0.0, highestDrop(parameters), numbers[4]),

@@ -117,6 +117,24 @@ class TrackDesignTest : public QObject {
         QVERIFY(!study::buildLayout(settings).ok());
     }
 
+    // What can be known of a staircase before learning is that it falls.
+    void layoutOfTrapsThatFallFalls() {
+        study::TrackSettings settings;
+        settings.traps = "groove, 2 x drop";
+        settings.segmentHeight = 200e-3;
+        const auto layout = study::buildLayout(settings);
+        VERIFY_OK(layout);
+        const auto lowest = [&](const track::CrossSection& section) {
+            double least = 1.0;
+            for (const base::Vec2& point : section.points)
+                least = std::min(least, point.y());
+            return least;
+        };
+        QVERIFY(qAbs(lowest(layout->sections.front()) - 100e-3) < 1e-12);
+        QVERIFY(qAbs(lowest(layout->sections.back()) - (100e-3 - study::calcTypicalFall(settings))) < 1e-12);
+        QCOMPARE(layout->sections.size(), std::size_t{2 + 1 + 2 * 5 + 2});
+    }
+
     void designsOfAnotherLengthAreRefused() {
         const auto track = study::decodeTrack(
             smallSettings(), designOf(std::vector<double>(26, 0.0), std::vector<double>(3, 0.0)));
