@@ -87,17 +87,17 @@ base::Status checkParameters(const TrapParameters& parameters) {
 base::Result<TrapChain> readTraps(std::string_view text) {
     TrapChain chain;
     for (const std::string_view word : base::splitNames(text)) {
-        const auto [name, times] = readRepeated(word);
+        const Repeated repeated = readRepeated(word);
         const auto kinds = trapKinds();
-        const auto found =
-            std::find_if(kinds.begin(), kinds.end(), [&](const TrapKind& kind) { return kind.key == name; });
+        const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                        [&](const TrapKind& kind) { return kind.key == repeated.name; });
         if (found == kinds.end()) return unknownKind(word);
-        if (times < 1 || times > kMostTraps - std::min(kMostTraps, chain.size())) {
+        if (repeated.times < 1 || repeated.times > kMostTraps - std::min(kMostTraps, chain.size())) {
             return base::Error{
                 fmt::format("\"{}\" makes {} traps; a track may have 1 to {} one after the other.", text,
-                            times < 1 ? "no" : "more", kMostTraps)};
+                            repeated.times < 1 ? "no" : "more", kMostTraps)};
         }
-        chain.insert(chain.end(), times, &*found);
+        chain.insert(chain.end(), repeated.times, &*found);
     }
     return chain;
 }
