@@ -53,6 +53,9 @@ class Situation {
             progress.secondsLeft > 0.0 ? formatDuration(progress.secondsLeft) + " left, " : "";
         const std::string success =
             success_ ? fmt::format("success {:.1f} %, ", kPercent * success_->share()) : "";
+        if (plan_->planningFor > 0)
+            return fmt::format("Planning {} {}{:.0f}/s, {}/{} trials", formatBar(share), left,
+                               progress.trialsPerSecond, trials, plan_->trials);
         return fmt::format("Generation {}/{} {} {}{}{:.0f}/s, {}/{} individuals, {}/{} trials",
                            plan_->generation + 1, generations_, formatBar(share), success, left,
                            progress.trialsPerSecond, progress.individualsDone, plan_->individuals, trials,

@@ -108,7 +108,9 @@ Attempt<study::Individual> findIndividual(const store::StudyFile& file, const In
     }
     auto winners = file.loadWinners();
     if (!winners) return Failure{ExitCode::badInput, winners.error().message};
-    return *study::findBestWinner(*winners);
+    const auto settings = file.loadSettings();
+    if (!settings) return Failure{ExitCode::badInput, settings.error().message};
+    return *study::findBestWinner(*winners, study::forgivesFalls(settings->evolution));
 }
 
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,

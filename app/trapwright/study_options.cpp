@@ -85,7 +85,7 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || surface || settingsFile || paper;
+           contact || surface || settingsFile || paper || sorting;
 }
 
 void addCreationOptions(Command command, CreationOptions& options) {
@@ -104,7 +104,13 @@ void addCreationOptions(Command command, CreationOptions& options) {
         .excludes(contact);
     command.addOption("--settings", options.settingsFile,
                       "Settings in JSON, as `trapwright settings` prints them");
-    command.addFlag("--paper", options.paper, "The paper's own choices where the defaults go past it");
+    const Option paper =
+        command.addFlag("--paper", options.paper, "The paper's own choices where the defaults go past it");
+    command
+        .addFlag("--sorting", options.sorting,
+                 "A track that throws out what lies wrong, in proportion to the part: for parts that nothing "
+                 "turns into one way")
+        .excludes(paper);
 }
 
 void addSettingOptions(Command command, SettingOptions& options) {
@@ -174,6 +180,11 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
         if (!pair) return pair.error();
         settings->simulation.contact = study::contactOf(*pair);
         settings->simulation.surface = pair->surface;
+        applied = applySettings(*settings, options);
+        if (!applied) return applied.error();
+    }
+    if (creation.sorting) {
+        *settings = study::sortingMode(*settings, *loaded->part);
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }

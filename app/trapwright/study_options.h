@@ -22,6 +22,7 @@ struct CreationOptions {
     std::optional<std::string> surface;       // of the track, for the part's material
     std::optional<std::string> settingsFile;  // JSON
     bool paper = false;
+    bool sorting = false;
 
     /// Whether the user gave any of them.
     [[nodiscard]] bool given() const;
@@ -47,8 +48,8 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
 /// True if anything changed.
 Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options);
 
-/// Makes the study file: preset, then `paper`, the settings file, the part, the single settings. Refuses
-/// settings that cannot be used, and a part that does not fit the track.
+/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting`, the single settings.
+/// Refuses settings that cannot be used, and a part that does not fit the track.
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& settings, const Console& console);
 

@@ -19,6 +19,7 @@ enum class Purpose : std::uint8_t {
     virtualFeeder = 8,
     physicalOrder = 9,
     randomDesign = 10,
+    planning = 11,
     test = 255
 };
 

@@ -35,8 +35,8 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {collisions(), distance(),     orientation(),
-                                           disorder(),   successShare(), conveyingSpeed()};
+    static const std::array kObjectives = {collisions(), distance(),     orientation(),  disorder(),
+                                           sorting(),    successShare(), correctShare(), conveyingSpeed()};
     return kObjectives;
 }
 

@@ -23,6 +23,8 @@ using ObjectiveList = std::vector<const Objective*>;
 inline constexpr std::string_view kPaperObjectives = "F_C, F_D, F_O";
 /// Of the objective that counts successes, which people read with exact bounds.
 inline constexpr std::string_view kSuccess = "success";
+/// Of the objective that forgives what falls off.
+inline constexpr std::string_view kSorting = "sorting";
 
 /// Objectives by their keys, commas between them. An error that names what there is not, what is named twice,
 /// and what there is.

@@ -8,4 +8,7 @@ namespace trapwright::objectives {
 /// the binomial's standard error; tables of people show the exact bounds beside it (core/stats/binomial).
 Objective successShare();
 
+/// The same of those that finish alone: what comes out of a track that throws back what lies wrong.
+Objective correctShare();
+
 }  // namespace trapwright::objectives

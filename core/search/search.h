@@ -48,6 +48,9 @@ class Search {
     Search& operator=(const Search&) = delete;
     virtual ~Search() = default;
 
+    /// Designs that the first ask() shall have among its own; before that. A search that cannot makes nothing
+    /// of it.
+    virtual void begin(std::span<const Design> /*designs*/) {}
     /// The next designs, all of the design space; the same until they are told of. At least one.
     virtual std::vector<Proposal> ask() = 0;
     /// One judgement for each of them, in their order.

@@ -168,11 +168,14 @@ LearningProgress estimateProgress(const GenerationPlan& plan, int generations, s
     const std::int64_t here = std::clamp<std::int64_t>(done - plan.doneBefore, 0, plan.trials);
     // What is not simulated is done at once.
     progress.individualsDone = plan.individuals - plan.simulated;
-    if (plan.trials > 0) progress.individualsDone += static_cast<int>(here * plan.simulated / plan.trials);
+    if (plan.trials > 0 && plan.planningFor == 0)
+        progress.individualsDone += static_cast<int>(here * plan.simulated / plan.trials);
     if (done <= 0 || seconds <= 0.0) return progress;
     progress.trialsPerSecond = static_cast<double>(done) / seconds;
-    const std::int64_t generationsLeft = std::max(generations - plan.generation - 1, 0);
-    const std::int64_t trialsLeft = plan.trials - here + generationsLeft * plan.trials;
+    const bool isPlanning = plan.planningFor > 0;
+    const std::int64_t generationsLeft = std::max(generations - plan.generation - (isPlanning ? 0 : 1), 0);
+    const std::int64_t trialsLeft =
+        plan.trials - here + generationsLeft * (isPlanning ? plan.planningFor : plan.trials);
     progress.secondsLeft = static_cast<double>(trialsLeft) / progress.trialsPerSecond;
     return progress;
 }

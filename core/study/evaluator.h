@@ -23,6 +23,9 @@ struct GenerationPlan {
     int simulated = 0;            // of them; the others' surfaces overlap themselves
     std::int64_t trials = 0;      // of all together
     std::int64_t doneBefore = 0;  // RunControl::done() before its first trial
+    /// That chains are planned with, before there is a generation (planDesigns); none of its individuals is
+    /// done then. How many trials each generation is expected to take that follows; 0: this is a generation.
+    std::int64_t planningFor = 0;
 };
 
 /// A copyable handle on a learning run: any copy may stop it, from any thread and from a signal handler.

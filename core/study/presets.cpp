@@ -76,6 +76,31 @@ Settings paperMode(Settings settings) {
     return settings;
 }
 
+Settings sortingMode(Settings settings, const part::Part& part) {
+    // What was right for the wedge, whose bounding radius is 7.5 mm.
+    const auto inProportion = [&](double ofWedge) {
+        constexpr double kWedge = 7.5e-3;
+        return std::max(1.0, std::round(ofWedge * part.boundingRadius / kWedge / 0.5e-3)) * 0.5e-3;
+    };
+    settings.track.traps = "groove, groove, 4 x cut-out";
+    settings.track.pointsPerSection = 9;
+    settings.track.minSegmentLength = inProportion(5e-3);
+    settings.track.maxSegmentLength = inProportion(30e-3);
+    settings.track.segmentWidth = inProportion(60e-3);
+    settings.track.segmentHeight = inProportion(200e-3);
+    settings.track.startFromLeadInEnd = std::max(settings.track.startFromLeadInEnd, inProportion(10e-3));
+    settings.track.leadInLength =
+        std::max(settings.track.leadInLength, settings.track.startFromLeadInEnd + inProportion(60e-3));
+    settings.evolution.search = search::Method::genetic;
+    settings.evolution.objectives = objectives::kSorting;
+    settings.evolution.firstGeneration = search::ga::FirstGeneration::planned;
+    settings.evolution.populationSize = 60;
+    settings.evolution.trialsPerEvaluation = 100;
+    settings.evolution.racingTrials = 20;
+    settings.evolution.generations = 8;
+    return settings;
+}
+
 trial::ContactParameters contactOf(const part::MaterialPair& pair) {
     return {pair.staticFriction.value, pair.kineticFriction.value, pair.restitution.value};
 }

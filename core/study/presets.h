@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/part/materials.h"
+#include "core/part/part.h"
 #include "core/study/settings.h"
 
 namespace trapwright::study {
@@ -22,6 +23,11 @@ base::Result<Settings> presetSettings(const std::string& name);
 /// up to 1, no floor under p_dm, overlapping tracks simulated, all trials for every individual, each with its
 /// own random numbers and as patient as in validation, every trial by Simbody, a bowl of 175 mm.
 Settings paperMode(Settings settings);
+
+/// Changes settings to those of a track that throws out what lies wrong, in proportion to the part: two
+/// grooves and four cut-outs, planned, judged by sorting (decisions.md#sorting), with a few generations
+/// behind the plan. Lengths are whole half millimetres.
+Settings sortingMode(Settings settings, const part::Part& part);
 
 /// What the engines need of a pair of materials.
 trial::ContactParameters contactOf(const part::MaterialPair& pair);

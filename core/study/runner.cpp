@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/search/ranking.h"
+#include "core/study/planning.h"
 #include "core/study/track_design.h"
 
 namespace trapwright::study {
@@ -96,6 +97,13 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
             return base::Error{loaded.error().message, base::ErrorKind::damaged};
     }
 
+    if (!last && isPlanned(settings.evolution)) {
+        const std::size_t most = static_cast<std::size_t>(settings.evolution.populationSize + 1) / 2;
+        const auto designs = planDesigns(inputs, most, events.planned, control.run);
+        if (control.run.cancelled()) return LearningEnd::cancelled;
+        if (!designs) return designs.error();
+        search->begin(*designs);
+    }
     for (int index = last ? last->index + 1 : 0;
          index < control.generationsOr(settings.evolution.generations); ++index) {
         if (control.stopRequested()) return LearningEnd::stopped;

@@ -12,9 +12,12 @@ namespace trapwright::study {
 
 namespace {
 
-bool isBetter(const SelectionEntry& a, const SelectionEntry& b) {
-    return std::make_tuple(-a.oriented, -a.fitness.total, a.generation, a.individual) <
-           std::make_tuple(-b.oriented, -b.fitness.total, b.generation, b.individual);
+bool isBetter(const SelectionEntry& a, const SelectionEntry& b, bool fallsAreForgiven) {
+    const auto rank = [&](const SelectionEntry& entry) {
+        return std::make_tuple(fallsAreForgiven ? 0 : -entry.oriented, -entry.fitness.total, entry.generation,
+                               entry.individual);
+    };
+    return rank(a) < rank(b);
 }
 
 }  // namespace
@@ -35,9 +38,16 @@ std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) 
     return ranked;
 }
 
-const Individual* findBestWinner(std::span<const Individual> winners) {
-    const auto worth = [](const Individual& winner) {
-        const auto success = winner.record.success();
+bool forgivesFalls(const EvolutionSettings& settings) {
+    const objectives::ObjectiveList summed = summedObjectives(settings);
+    return std::any_of(summed.begin(), summed.end(), [](const objectives::Objective* objective) {
+        return objective->key == objectives::kSorting;
+    });
+}
+
+const Individual* findBestWinner(std::span<const Individual> winners, bool fallsAreForgiven) {
+    const auto worth = [&](const Individual& winner) {
+        const auto success = fallsAreForgiven ? std::nullopt : winner.record.success();
         return std::make_pair(success ? success->share() : -1.0, winner.record.fitness.total);
     };
     // The first of the greatest ones.
@@ -88,7 +98,9 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         entry.fitness = objectives::measureAll(evaluation, summed);
         record.entries.push_back(std::move(entry));
     }
-    std::sort(record.entries.begin(), record.entries.end(), isBetter);
+    std::sort(record.entries.begin(), record.entries.end(),
+              [forgives = forgivesFalls(settings.evolution)](
+                  const SelectionEntry& a, const SelectionEntry& b) { return isBetter(a, b, forgives); });
     record.made.maker = makerOf(*inputs.engine);
     for (const SelectionEntry& entry : record.entries) {
         const auto place = std::find_if(ranked.begin(), ranked.end(), [&](const Individual& winner) {

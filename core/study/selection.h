@@ -17,15 +17,20 @@ namespace trapwright::study {
 /// among equals the earlier generation is first).
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count);
 
+/// Whether parts that fall off are thrown back and come again, so that fitness, not the success of all parts,
+/// says which track is best: the objective sorting counts.
+bool forgivesFalls(const EvolutionSettings& settings);
+
 /// The winner that is best by what was counted while learning: the greatest success, then the highest
-/// fitness, then the earliest generation. A success that is not known is below any. Null if there are no
-/// winners.
-const Individual* findBestWinner(std::span<const Individual> winners);
+/// fitness, then the earliest generation; where falls are forgiven fitness comes first. A success that is not
+/// known is below any. Null if there are no winners.
+const Individual* findBestWinner(std::span<const Individual> winners, bool fallsAreForgiven);
 
 /// Selecting the final solution (paper, section 6.1.1; decisions.md#selection-and-success): the highest of
 /// all generations' winners are re-simulated with many fresh trials each. Best first: by the number of parts
 /// that finish within the tolerance of that track's modal orientation, then by fitness, then the earlier
-/// generation. Errors: settings or part that cannot be used, no winners, engine, cancelled.
+/// generation; where falls are forgiven by fitness first. Errors: settings or part that cannot be used, no
+/// winners, engine, cancelled.
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Individual> winners,
                                             base::RunControl control);
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/study/planning.h"
 #include "core/study/pose_weights.h"
 #include "core/study/settings.h"
 #include "core/study/settings_fields.h"
@@ -133,6 +134,10 @@ std::vector<std::string> findProblems(const Settings& settings) {
         problems.emplace_back(
             "evolution.racingTrials is 1; F_O compares two parts at least, so it must be 0 (no race) or at "
             "least 2.");
+    }
+    if (isPlanned(evolution)) {
+        if (const std::string problem = findPlanningProblem(settings.track); !problem.empty())
+            problems.push_back("evolution.firstGeneration is planned. " + problem);
     }
     const trial::ContactParameters& contact = settings.simulation.contact;
     if (contact.kineticFriction > contact.staticFriction) {

@@ -79,8 +79,9 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"evolution.smoothingLimit", none, 0.0, 1.0}, s.evolution.smoothingLimit);
     v.number({"evolution.mutationFloor", none, 0.0, 1.0}, s.evolution.mutationFloor);
     v.choice("evolution.firstGeneration", s.evolution.firstGeneration,
-             Choices<search::ga::FirstGeneration, 2>{{{"graded", search::ga::FirstGeneration::graded},
-                                                      {"random", search::ga::FirstGeneration::random}}});
+             Choices<search::ga::FirstGeneration, 3>{{{"graded", search::ga::FirstGeneration::graded},
+                                                      {"random", search::ga::FirstGeneration::random},
+                                                      {"planned", search::ga::FirstGeneration::planned}}});
     v.text("evolution.objectives", s.evolution.objectives);
     v.choice("evolution.orientationDistance", s.evolution.orientationDistance,
              Choices<trial::OrientationDistance, 2>{{{"symmetric", trial::OrientationDistance::symmetric},

@@ -40,10 +40,7 @@ double calcTypicalFall(const TrackSettings& settings) {
     traps::TrapParameters high = settings;
     high.segmentHeight = kHighEnough;
     const std::vector<track::CrossSection> sections = buildTypical(*traps, high);
-    double lowest = 0.5 * kHighEnough;
-    for (const base::Vec2& point : sections.back().points)
-        lowest = std::min(lowest, point.y());
-    return 0.5 * kHighEnough - lowest;
+    return std::max(0.0, 0.5 * kHighEnough - traps::findLowest(sections.back()));
 }
 
 search::SearchParameters searchParameters(const EvolutionSettings& settings) {

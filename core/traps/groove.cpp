@@ -11,8 +11,9 @@ constexpr double kSteepestWall = 42.0 * base::kDegree;
 constexpr double kMostInclined = 45.0 * base::kDegree;  // across the track
 constexpr double kSteepestRise = 6.0 * base::kDegree;   // along the track: what parts still climb
 constexpr double kSteepestFall = 22.0 * base::kDegree;
-constexpr double kShortestEdge = 0.5e-3;  // along the track, because sections must follow each other [m]
-constexpr double kLongestEdge = 6e-3;     // [m]
+constexpr double kShortestEdge = 0.5e-3;     // along the track, because sections must follow each other [m]
+constexpr double kLongestEdge = 6e-3;        // [m]
+constexpr double kNarrowestBridge = 1.5e-3;  // what a cut-out leaves of the track's width, to be printed [m]
 // Of each number: 0.2 mm, 0.7 degrees. Finer ones would have a mutated bit change nothing that a part feels.
 constexpr int kBits = 7;
 
@@ -25,7 +26,12 @@ struct Form {
     double walls = kRestingWall;  // how steep both are [rad]
     double inclined = 0.0;        // as a whole, positive: down towards the outer edge [rad]
     double middle = 0.0;          // y of its bottom [m]
+    double cut = 0.0;  // how much of the track's width is cut away: from its outer edge, negative: inner [m]
 };
+
+double restingLength(const TrapParameters& parameters) {
+    return 0.5 * (parameters.minSegmentLength + parameters.maxSegmentLength);
+}
 
 /// Sections one after the other, each a groove whose bottom is where the one before leaves it.
 class Course {
@@ -40,7 +46,7 @@ class Course {
         const double wall = std::tan(form.walls);
         const double slope = -std::tan(form.inclined);
         for (int j = 0; j < parameters_->pointsPerSection; ++j) {
-            const double y = placeOf(j, form.middle);
+            const double y = placeOf(j, form);
             const double across = y - form.middle;
             const double z = bottom_ + wall * std::abs(across) + slope * across;
             section.points.emplace_back(y, std::clamp(z, 0.0, parameters_->segmentHeight));
@@ -52,17 +58,28 @@ class Course {
         add(length, std::atan2(height, length), form);
     }
 
+    /// The groove in which parts lie down: its first half turns the surface into it.
+    void rest() {
+        add(0.5 * restingLength(*parameters_), kRestingFall, {});
+        add(0.5 * restingLength(*parameters_), kRestingFall, {});
+    }
+
     std::vector<track::CrossSection> take() { return std::move(sections_); }
 
  private:
     /// y of a section's point. Two points cannot shape a groove: they are the track's edges.
-    [[nodiscard]] double placeOf(int point, double middle) const {
+    [[nodiscard]] double placeOf(int point, const Form& form) const {
         const double half = 0.5 * parameters_->segmentWidth;
+        const double inner = -half + std::max(0.0, -form.cut);
+        const double outer = half - std::max(0.0, form.cut);
         const int last = parameters_->pointsPerSection - 1;
         const int lowest = parameters_->pointsPerSection / 2;
-        if (last < 2) return point == 0 ? -half : half;
-        if (point <= lowest) return within(-half, middle, static_cast<double>(point) / lowest);
-        return within(middle, half, static_cast<double>(point - lowest) / (last - lowest));
+        if (last < 2) return point == 0 ? inner : outer;
+        // Where the bottom itself is cut away, all points are on the wall that is left.
+        if (form.middle <= inner || form.middle >= outer)
+            return within(inner, outer, static_cast<double>(point) / last);
+        if (point <= lowest) return within(inner, form.middle, static_cast<double>(point) / lowest);
+        return within(form.middle, outer, static_cast<double>(point - lowest) / (last - lowest));
     }
 
     const TrapParameters* parameters_;
@@ -70,10 +87,6 @@ class Course {
     double bottom_;
     std::vector<track::CrossSection> sections_;
 };
-
-double restingLength(const TrapParameters& parameters) {
-    return 0.5 * (parameters.minSegmentLength + parameters.maxSegmentLength);
-}
 
 double highestDrop(const TrapParameters& parameters) {
     return 0.5 * parameters.maxSegmentLength;
@@ -89,7 +102,9 @@ search::Dimension lengthOf(const char* key, const TrapParameters& parameters) {
 }
 
 search::Dimension angleOf(const char* key, double low, double high) {
-    return {key, "deg", low / base::kDegree, high / base::kDegree, kBits};
+    search::Dimension dimension{key, "deg", low / base::kDegree, high / base::kDegree, kBits};
+    dimension.isRelief = true;
+    return dimension;
 }
 
 std::vector<search::Dimension> dimensionsOfGroove(const TrapParameters& parameters) {
@@ -145,9 +160,7 @@ std::vector<track::CrossSection> buildDrop(const TrapParameters& parameters, dou
     course.fallBy(within(0.0, highestDrop(parameters), numbers[4]),
                   within(kShortestEdge, kLongestEdge, numbers[5]), behind);
     course.add(length(numbers[9]), within(-kSteepestRise, kSteepestFall, numbers[10]), behind);
-    // The first half turns the surface, the second one is the groove to lie down in.
-    course.add(0.5 * restingLength(parameters), kRestingFall, {});
-    course.add(0.5 * restingLength(parameters), kRestingFall, {});
+    course.rest();
     return course.take();
 }
 
@@ -159,6 +172,51 @@ std::vector<double> layOutDrop(const TrapParameters& parameters) {
 
 double longestDrop(const TrapParameters& parameters) {
     return 2.0 * parameters.maxSegmentLength + kLongestEdge + restingLength(parameters);
+}
+
+std::vector<search::Dimension> dimensionsOfCutOut(const TrapParameters& parameters) {
+    constexpr double kMillimetres = 1.0 / base::kMillimetre;
+    const double deepest = kMillimetres * (parameters.segmentWidth - kNarrowestBridge);
+    search::Dimension depth{"depth", "mm", -deepest, deepest, kBits};
+    depth.isRelief = true;  // from no cut on
+    return {lengthOf("before, length", parameters),
+            angleOf("before, fall", -kSteepestRise, kSteepestFall),
+            angleOf("before, walls", 0.0, kSteepestWall),
+            angleOf("before, inclination", -kMostInclined, kMostInclined),
+            depth,
+            {"length", "mm", kMillimetres * kShortestEdge, kMillimetres * parameters.maxSegmentLength, kBits},
+            angleOf("fall", -kSteepestRise, kSteepestFall)};
+}
+
+std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters, double entry,
+                                             std::span<const double> numbers) {
+    const double deepest = parameters.segmentWidth - kNarrowestBridge;
+    const Form whole{within(0.0, kSteepestWall, numbers[2]),
+                     within(-kMostInclined, kMostInclined, numbers[3])};
+    Form narrow = whole;
+    narrow.cut = within(-deepest, deepest, numbers[4]);
+    const double fall = within(-kSteepestRise, kSteepestFall, numbers[6]);
+    Course course(parameters, entry);
+    course.add(within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[0]),
+               within(-kSteepestRise, kSteepestFall, numbers[1]), whole);
+    course.add(kShortestEdge, fall, narrow);
+    course.add(within(kShortestEdge, parameters.maxSegmentLength, numbers[5]), fall, narrow);
+    course.add(kShortestEdge, fall, whole);
+    course.rest();
+    return course.take();
+}
+
+std::vector<double> layOutCutOut(const TrapParameters& parameters) {
+    const double length = restingLength(parameters);
+    const double cut = within(kShortestEdge, parameters.maxSegmentLength, 0.5);
+    std::vector<double> places{length};
+    for (const double next : {kShortestEdge, cut, kShortestEdge, 0.5 * length, 0.5 * length})
+        places.push_back(places.back() + next);
+    return places;
+}
+
+double longestCutOut(const TrapParameters& parameters) {
+    return 2.0 * parameters.maxSegmentLength + 2.0 * kShortestEdge + restingLength(parameters);
 }
 
 }  // namespace
@@ -173,6 +231,15 @@ TrapKind groove() {
             &longestGroove};
 }
 
+std::vector<double> restingGroove(const TrapParameters& parameters) {
+    std::vector<double> numbers{1.0, (kRestingFall + kSteepestRise) / (kSteepestFall + kSteepestRise),
+                                kRestingWall / kSteepestWall, 0.5};
+    const std::vector<search::Dimension> dimensions = dimensionsOfGroove(parameters);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = search::roundToBits(numbers[i], dimensions[i].bits);
+    return numbers;
+}
+
 TrapKind drop() {
     return {"drop",
             "Drop",
@@ -180,7 +247,21 @@ TrapKind drop() {
             &dimensionsOfDrop,
             &buildDrop,
             &layOutDrop,
-            &longestDrop};
+            &longestDrop,
+            nullptr,
+            true};
+}
+
+TrapKind cutOut() {
+    return {"cut-out",
+            "Cut-out",
+            "A groove that is cut away from one side over a length: parts without support there fall off.",
+            &dimensionsOfCutOut,
+            &buildCutOut,
+            &layOutCutOut,
+            &longestCutOut,
+            nullptr,
+            true};
 }
 
 }  // namespace trapwright::traps

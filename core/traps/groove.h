@@ -18,11 +18,20 @@ inline constexpr double kRestingFall = 6.0 * base::kDegree;
 /// lying along the track. Four numbers: length, fall along the track, how steep its walls are, and how much
 /// it is inclined across the track.
 TrapKind groove();
+/// The numbers of such a groove in which parts lie down, of the longest length.
+std::vector<double> restingGroove(const TrapParameters& parameters);
 
 /// A groove that ends at a sharp edge, and another one below. What comes heavy end first tips over the edge
 /// sooner than what comes light end first, and falls with more spin; a fall of a third to half of its length
 /// turns one of them and lets the other pass (learning.md). A groove in which parts lie down again, of the
 /// form and length that is right for most, ends it, so that one drop can follow another.
 TrapKind drop();
+
+/// A groove that is cut away from one side, over a length, down to nothing: what does not find support on
+/// either end of the cut or on what is left of the width falls off, and back into the bowl. Cut across nearly
+/// all of the width it is the gap of feeders' craft, which the heavier end does not cross; on one side the
+/// ledge, which carries only what lies close to the other (Boothroyd 2005). A groove in which parts lie down
+/// again ends it.
+TrapKind cutOut();
 
 }  // namespace trapwright::traps

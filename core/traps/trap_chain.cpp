@@ -47,17 +47,10 @@ Repeated readRepeated(std::string_view word) {
     return {word.substr(name), times};
 }
 
-double findLowest(const track::CrossSection& section) {
-    double lowest = section.points.front().y();
-    for (const base::Vec2& point : section.points)
-        lowest = std::min(lowest, point.y());
-    return lowest;
-}
-
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 4> kinds = {freeForm(), step(), groove(), drop()};
+    static const std::array<TrapKind, 5> kinds = {freeForm(), step(), groove(), drop(), cutOut()};
     return kinds;
 }
 
@@ -175,6 +168,13 @@ std::vector<double> layOut(const TrapChain& chain, const TrapParameters& paramet
             places.push_back(begin + x);
     }
     return places;
+}
+
+double findLowest(const track::CrossSection& section) {
+    double lowest = section.points.front().y();
+    for (const base::Vec2& point : section.points)
+        lowest = std::min(lowest, point.y());
+    return lowest;
 }
 
 double calcLongest(const TrapChain& chain, const TrapParameters& parameters) {

@@ -32,6 +32,9 @@ std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParamet
 /// Where the cross-sections of a typical one are: x from the lead-in's end. [m]
 std::vector<double> layOut(const TrapChain& chain, const TrapParameters& parameters);
 
+/// z of the lowest point. [m]
+double findLowest(const track::CrossSection& section);
+
 /// The longest that it can be. [m]
 double calcLongest(const TrapChain& chain, const TrapParameters& parameters);
 

@@ -51,6 +51,8 @@ struct TrapKind {
     /// (search::SmoothDesign); null: there is nothing to be smoothed.
     std::vector<double> (*smooth)(const TrapParameters& parameters, std::span<const double> numbers,
                                   double probability, base::Random& random) = nullptr;
+    /// Behind it parts lie in the groove of groove.h, so that what it does with them can be told by itself.
+    bool endsInGroove = false;
 };
 
 /// The kinds that there are. A new one is its own file and its entry in trap_chain.cpp.

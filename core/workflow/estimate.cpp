@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/study/planning.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 
@@ -92,7 +93,11 @@ base::Result<double> timeTrial(const study::StudyInputs& inputs, double budget,
 }
 
 double learningTime(const study::EvolutionSettings& evolution, int generations, double secondsPerTrial) {
-    return secondsPerTrial * evolution.populationSize * evolution.trialsPerEvaluation * generations;
+    double trials =
+        static_cast<double>(evolution.populationSize) * evolution.trialsPerEvaluation * generations;
+    if (generations >= evolution.generations)
+        trials += static_cast<double>(study::estimatePlanningTrials(evolution));
+    return secondsPerTrial * trials;
 }
 
 bool costTheSame(const study::Settings& a, const study::Settings& b) {
@@ -113,7 +118,10 @@ std::optional<study::EvolutionSettings> draftEvolution(const study::EvolutionSet
     for (const DraftSize& size : kDraftSizes) {
         const int population = std::min(size.population, full.populationSize);
         const int each = std::min(size.trials, full.trialsPerEvaluation);
-        const double generations = std::floor(trials / (static_cast<double>(population) * each));
+        study::EvolutionSettings smaller = full;
+        smaller.populationSize = population;
+        const double left = trials - static_cast<double>(study::estimatePlanningTrials(smaller));
+        const double generations = std::floor(left / (static_cast<double>(population) * each));
         const bool last = &size == &kDraftSizes.back();
         const int enough = std::min(last ? kFewestGenerations : kEnoughGenerations, full.generations);
         if (generations < enough) continue;

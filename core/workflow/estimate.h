@@ -16,7 +16,8 @@ namespace trapwright::workflow {
 base::Result<double> timeTrial(const study::StudyInputs& inputs, double budget,
                                const base::RunControl& control);
 
-/// How long so many generations take when a trial takes `secondsPerTrial` [s]. Checks by the reference
+/// How long so many generations take when a trial takes `secondsPerTrial` [s]; if they are all, with the
+/// planning of the first one. Checks by the reference
 /// engine, which go on beside learning, are left out.
 double learningTime(const study::EvolutionSettings& evolution, int generations, double secondsPerTrial);
 

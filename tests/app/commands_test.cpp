@@ -124,6 +124,26 @@ class CommandsTest : public QObject {
         QCOMPARE(settings["part"].toObject()["file"].toString(), "cone");
     }
 
+    // In proportion to the part; what is set one by one comes after it.
+    void sortingMode() {
+        QCOMPARE(ask({"new", "sorting.trap", "--part", "wedge", "--sorting", "--population", "7", "--set",
+                      "evolution.tournamentSize=5"})
+                     .code,
+                 0);
+        const QJsonObject settings = ask({"settings", "sorting.trap", "--json"}).json();
+        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, 4 x cut-out");
+        QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
+        QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
+        QCOMPARE(settings["evolution"].toObject()["populationSize"].toInt(), 7);
+        const double longest = settings["track"].toObject()["maxSegmentLength_mm"].toDouble();
+        const double width = settings["track"].toObject()["segmentWidth_mm"].toDouble();
+        QVERIFY2(longest > 28.0 && longest < 34.0, qPrintable(QString::number(longest)));
+        QVERIFY(std::abs(width / longest - 2.0) < 0.05);
+        const Ran both = ask({"new", "both.trap", "--part", "wedge", "--sorting", "--paper"});
+        QCOMPARE(both.code, 2);
+        QVERIFY(both.errors.contains("--sorting"));
+    }
+
     void selectValidateExportReplay() {
         const QJsonObject selection =
             ask({"select", "study.trap", "--winners", "2", "--trials", "5", "--json"}).json();

@@ -274,7 +274,7 @@ void EvolvePage::stepWinner(int step) {
 
 const study::Individual* EvolvePage::shown() const {
     if (picked_) return &*picked_;
-    return session_ ? study::findBestWinner(session_->runs().winners()) : nullptr;
+    return session_ ? session_->runs().bestWinner() : nullptr;
 }
 
 void EvolvePage::showPicked() {
@@ -312,7 +312,7 @@ QString EvolvePage::captionOf(const study::Individual& individual) const {
     const auto generation = static_cast<std::size_t>(individual.generation);
     const bool winner =
         generation < winners.size() && winners[generation].individual == individual.individual;
-    const study::Individual* best = study::findBestWinner(winners);
+    const study::Individual* best = session_->runs().bestWinner();
     if (winner && best != nullptr && best->generation == individual.generation)
         return tr("Generation %1, best so far").arg(individual.generation);
     return winner ? tr("Generation %1, winner").arg(individual.generation)

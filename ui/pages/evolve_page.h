@@ -61,7 +61,7 @@ class EvolvePage : public Page {
     void askForComparison();
     void changeSettings();
 
-    /// Shows the best winner (study::findBestWinner), now and whenever there is a better one.
+    /// Shows the best winner (StudyRuns::bestWinner), now and whenever there is a better one.
     void follow();
     void pick(const study::Individual& individual);
     void pickWinner(int generation);

@@ -38,7 +38,7 @@ const RawText kTexts[] = {
     {"track.feeder", TEXT("Feeder"), TEXT("A straight track that shakes along a line, or one around a bowl that turns back and forth."), {TEXT("Linear"), TEXT("Bowl")}},
     {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
     {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, or several one after the other.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs that throw out what lies wrong, or several one after the other.")},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
     {"track.pointsPerSection", TEXT("Points per section"), TEXT("How many points shape each cross-section, from the inner to the outer edge.")},
     {"track.minSegmentLength_mm", TEXT("Shortest segment"), TEXT("Least distance between two cross-sections.")},
@@ -52,14 +52,14 @@ const RawText kTexts[] = {
     {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
 
     {"evolution.search", TEXT("Search"), TEXT("How tracks are looked for: bred from the best ones, as in the paper, or drawn at random, which shows what breeding is worth."), {TEXT("Genetic"), TEXT("Random")}},
-    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; disorder, in how many ways parts end, in bits; conveying_speed, in m/s.")},
+    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; disorder, in how many ways parts end, in bits; sorting, the same of the parts that stay on the track, for tracks that throw back what lies wrong; correct, the share of finished parts in the most frequent orientation; conveying_speed, in m/s.")},
     {"evolution.populationSize", TEXT("Population"), TEXT("Individuals in each generation.")},
     {"evolution.trialsPerEvaluation", TEXT("Trials each"), TEXT("Parts that are simulated to judge one individual.")},
     {"evolution.tournamentSize", TEXT("Tournament"), TEXT("Individuals that compete to become a parent; more of them press harder.")},
     {"evolution.staticMutation", TEXT("Static mutation"), TEXT("Chance of each bit of all genes to be drawn anew, beside the chance that adapts itself.")},
     {"evolution.smoothingLimit", TEXT("Most smoothing"), TEXT("The share of points that may be smoothed away at most; 1 in the paper.")},
     {"evolution.mutationFloor", TEXT("Least mutation"), TEXT("The least that the chance which adapts itself can be; 0 in the paper.")},
-    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper."), {TEXT("Level to rough"), TEXT("At random")}},
+    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops and cut-outs are tried by themselves first, and learning begins with the best chains of them."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned")}},
     {"evolution.orientationDistance", TEXT("Alike orientations"), TEXT("Whether orientations that look alike count as the same; the paper does not count them so."), {TEXT("Count as one"), TEXT("Stay apart")}},
     {"evolution.simulateOverlapping", TEXT("Overlapping tracks"), TEXT("Whether tracks that cross themselves are simulated, as in the paper, or scored worst at once."), {TEXT("Score worst"), TEXT("Simulate")}},
     {"evolution.racingTrials", TEXT("Racing trials"), TEXT("Trials for every individual before only the best get all; 0 gives all to everybody.")},
@@ -149,8 +149,9 @@ std::vector<Choice> trapChoices() {
     };
     for (const traps::TrapKind& kind : traps::trapKinds())
         add(std::string(kind.key));
-    for (const char* chain : {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop",
-                              "groove, 6 x drop", "groove, 10 x drop"})
+    for (const char* chain :
+         {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
+          "groove, 10 x drop", "groove, groove, 4 x cut-out", "groove, groove, 4 x drop, 4 x cut-out"})
         add(chain);
     return choices;
 }
@@ -163,6 +164,7 @@ std::vector<Choice> objectiveChoices() {
         {"F_C, F_D, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success"))},
         {"F_C, F_D, F_O, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, success"))},
         {"F_C, F_D, disorder", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Disorder"))},
+        {"sorting", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Sorting"))},
         {"F_C, F_D, success, conveying_speed",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success, speed"))}};
 }

@@ -135,7 +135,7 @@ void RunCard::update() {
 }
 
 void RunCard::showSuccess() {
-    const study::Individual* best = runs_ ? study::findBestWinner(runs_->winners()) : nullptr;
+    const study::Individual* best = runs_ ? runs_->bestWinner() : nullptr;
     success_->setVisible(best != nullptr);
     if (best == nullptr) return;
     const auto success = best->record.success();
@@ -196,6 +196,10 @@ void RunCard::showRun(RunState state) {
     QString detail;
     if (checking) {
         detail = tr("All generations are saved. The last winners are checked in the reference engine.");
+    } else if (progress.isPlanning) {
+        detail = tr("Traps are tried one by one: %L1 of about %L2 trials")
+                     .arg(progress.trialsDone)
+                     .arg(progress.trials);
     } else if (progress.generations > 0) {
         whole = (progress.generation + done) / progress.generations;
         detail = tr("Generation %1 of %2, individual %3 of %4")
@@ -223,7 +227,9 @@ void RunCard::showRun(RunState state) {
             title_->setText(tr("Validating"));
             break;
         default:
-            title_->setText(checking ? tr("Checking winners") : tr("Learning"));
+            title_->setText(checking              ? tr("Checking winners")
+                            : progress.isPlanning ? tr("Planning")
+                                                  : tr("Learning"));
             break;
     }
     detail_->setText(detail);

@@ -113,6 +113,9 @@ QWidget* TrackPage::makeHead() {
     QAction* full = menu->addAction(tr("Full learning, 200 generations of 100 × 100 trials"));
     full->setObjectName("preset.full");
     connect(full, &QAction::triggered, this, &TrackPage::useFullLearning);
+    QAction* sorting = menu->addAction(tr("Throw out what lies wrong, in proportion to the part"));
+    sorting->setObjectName("preset.sorting");
+    connect(sorting, &QAction::triggered, this, &TrackPage::useSorting);
     menu->addSeparator();
     QAction* paper = menu->addAction(tr("The paper's own choices throughout"));
     paper->setObjectName("preset.paper");
@@ -388,6 +391,11 @@ void TrackPage::useFullLearning() {
 
 void TrackPage::usePaperMode() {
     if (design_) edit(study::paperMode(design_->settings()), tr("The paper's own choices"));
+}
+
+void TrackPage::useSorting() {
+    if (!design_ || !design_->part()) return;
+    edit(study::sortingMode(design_->settings(), *design_->part()), tr("Throw out what lies wrong"));
 }
 
 void TrackPage::showTitle() {

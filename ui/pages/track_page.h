@@ -49,6 +49,7 @@ class TrackPage : public Page {
     void edit(const study::Settings& settings, const QString& what);
     void usePreset(const QString& name, const QString& title);
     void usePaperMode();
+    void useSorting();
     void useFullLearning();
     void useDraft();
     void showTime();

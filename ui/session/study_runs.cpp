@@ -63,6 +63,10 @@ const std::vector<study::ValidationRecord>& StudyRuns::validations() const {
     return state_->validations;
 }
 
+const study::Individual* StudyRuns::bestWinner() const {
+    return study::findBestWinner(state_->winners, study::forgivesFalls(state_->settings.evolution));
+}
+
 std::optional<study::TrackSuccess> StudyRuns::findSuccess(const study::Individual& individual) const {
     std::vector<part::PoseGroup> groups;
     const auto& part = state_->part.part;
@@ -94,7 +98,7 @@ std::optional<study::Individual> StudyRuns::chosen() const {
         const study::SelectionEntry& best = state_->selections.back().entries.front();
         if (auto winner = loadIndividual(best)) return *winner;
     }
-    if (const study::Individual* best = study::findBestWinner(state_->winners)) return *best;
+    if (const study::Individual* best = bestWinner()) return *best;
     return std::nullopt;
 }
 
@@ -128,6 +132,7 @@ RunProgress StudyRuns::progress() const {
         progress.individualsDone = learned.individualsDone;
         progress.trialsDone = done - plan.doneBefore;
         progress.trials = plan.trials;
+        progress.isPlanning = plan.planningFor > 0;
         progress.trialsPerSecond = learned.trialsPerSecond;
         progress.secondsLeft = learned.secondsLeft;
     } else if (run->total > 0) {

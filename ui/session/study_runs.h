@@ -41,6 +41,7 @@ struct RunProgress {
     std::int64_t trialsDone = 0;  // of the present generation; of all when it selects or validates
     std::int64_t trials = 0;
     double trialsPerSecond = 0.0;  // since the run began, pauses left out
+    bool isPlanning = false;       // what learning begins with
     double secondsLeft = 0.0;      // 0 while unknown
 };
 
@@ -69,6 +70,8 @@ class StudyRuns : public QObject {
     /// Oldest first.
     [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
     [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
+    /// Of the winners (study::findBestWinner); null if there are none.
+    [[nodiscard]] const study::Individual* bestWinner() const;
     /// What is known of the success of an individual (study::findSuccess).
     [[nodiscard]] std::optional<study::TrackSuccess> findSuccess(const study::Individual& individual) const;
     /// Read from the file, unless it is the newest generation or a winner.
@@ -76,8 +79,7 @@ class StudyRuns : public QObject {
     [[nodiscard]] base::Result<study::Individual> loadIndividual(const study::IndividualId& id) const;
 
     /// The track that is exported and printed in the end: the user's choice, which is kept in the study, else
-    /// the best of the last selection, else the best winner (study::findBestWinner). None without
-    /// generations.
+    /// the best of the last selection, else the best winner. None without generations.
     [[nodiscard]] std::optional<study::Individual> chosen() const;
     void choose(const study::Individual& individual);
 

@@ -158,14 +158,15 @@ void StatusLine::update() {
         generation_->setText(tr("%1 of %2 generations").arg(progress.generation).arg(progress.generations));
     }
     individual_->setText(tr("individual %1 of %2").arg(progress.individualsDone).arg(progress.individuals));
-    individual_->setVisible(progress.individuals > 0);
+    individual_->setVisible(progress.individuals > 0 && !progress.isPlanning);
     speed_->setText(tr("%L1 trials/s").arg(qRound(progress.trialsPerSecond)));
     speed_->setVisible(progress.trialsPerSecond > 0);
     left_->setText(tr("%1 left").arg(look::durationText(progress.secondsLeft)));
     left_->setVisible(progress.secondsLeft > 0);
     const double done = progress.trials > 0 ? double(progress.trialsDone) / double(progress.trials) : 0.0;
-    const double whole =
-        progress.generations > 0 ? (progress.generation + done) / progress.generations : done;
+    const double whole = progress.generations > 0 && !progress.isPlanning
+                             ? (progress.generation + done) / progress.generations
+                             : done;
     constexpr int kSteps = 1000;
     bar_->setMaximum(kSteps);
     bar_->setValue(qRound(std::clamp(whole, 0.0, 1.0) * kSteps));
@@ -173,7 +174,7 @@ void StatusLine::update() {
 
 /// Of the final track: until one is chosen that is the best winner.
 void StatusLine::updateSuccess() {
-    const study::Individual* best = runs_ ? study::findBestWinner(runs_->winners()) : nullptr;
+    const study::Individual* best = runs_ ? runs_->bestWinner() : nullptr;
     const auto chosen = runs_ ? runs_->chosen() : std::nullopt;
     const study::Individual* shown = chosen ? &*chosen : best;
     const auto success = shown != nullptr ? runs_->findSuccess(*shown) : std::nullopt;

@@ -50,7 +50,10 @@ std::optional<study::Individual> findTrack(const store::StudyFile& file,
     }
     const auto winners = file.loadWinners();
     if (!winners) return std::nullopt;
-    const study::Individual* best = study::findBestWinner(*winners);
+    const auto settings = file.loadSettings();
+    if (!settings) return std::nullopt;
+    const study::Individual* best =
+        study::findBestWinner(*winners, study::forgivesFalls(settings->evolution));
     return best != nullptr ? std::optional(*best) : std::nullopt;
 }
 

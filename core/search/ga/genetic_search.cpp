@@ -1,5 +1,6 @@
 #include "core/search/ga/genetic_search.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -37,6 +38,10 @@ MethodInfo describeGeneticSearch() {
 GeneticSearch::GeneticSearch(DesignSpace space, const SearchParameters& parameters)
     : space_(std::move(space)), layout_(layOut(space_)), parameters_(parameters) {}
 
+void GeneticSearch::begin(std::span<const Design> designs) {
+    first_.assign(designs.begin(), designs.end());
+}
+
 std::vector<Proposal> GeneticSearch::ask() {
     if (asked_.empty()) {
         const Smooth smooth = [this](Chromosome child, double probability, base::Random& random) {
@@ -46,8 +51,10 @@ std::vector<Proposal> GeneticSearch::ask() {
         };
         if (population_.empty()) {
             asked_ = createPopulation(layout_, parameters_.populationSize, parameters_.seed);
-            if (parameters_.genetic.first == FirstGeneration::graded)
+            if (parameters_.genetic.first != FirstGeneration::random)
                 gradePopulation(asked_, space_, parameters_.seed);
+            for (std::size_t i = 0; i < std::min(first_.size(), asked_.size()); ++i)
+                encodeDesign(first_[i], space_, asked_[i]);
         } else {
             asked_ = nextGeneration(population_, scores_, layout_, parameters_.genetic, smooth,
                                     parameters_.seed, generation_);

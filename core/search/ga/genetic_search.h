@@ -22,6 +22,8 @@ class GeneticSearch : public Search {
  public:
     GeneticSearch(DesignSpace space, const SearchParameters& parameters);
 
+    /// The first individuals of generation 0 have these designs, as many as there are individuals at most.
+    void begin(std::span<const Design> designs) override;
     std::vector<Proposal> ask() override;
     void tell(std::span<const Judgement> judgements) override;
     [[nodiscard]] std::vector<NamedNumber> report() const override;
@@ -34,6 +36,7 @@ class GeneticSearch : public Search {
     DesignSpace space_;
     ChromosomeLayout layout_;
     SearchParameters parameters_;
+    std::vector<Design> first_;           // of begin()
     std::uint32_t generation_ = 0;        // of the next ask()
     std::vector<Chromosome> population_;  // the last that was told of; none at first
     std::vector<double> scores_;          // theirs

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/objectives/disorder.h"
 #include "core/objectives/paper_scores.h"
 #include "core/track/track_builder.h"
 #include "tests/core/objectives/paper_fitness.h"
@@ -249,6 +250,49 @@ class ObjectivesTest : public QObject {
                  -scoreOf(judge.judge(outcomes), "disorder"));
     }
 
+    // So many of four equally frequent ways are thrown out, whole: what stays has the disorder of its ways,
+    // and each halving of the parts costs a quarter of a bit.
+    void sortingForgivesWhatFallsOff_data() {
+        QTest::addColumn<int>("thrown");
+        QTest::addColumn<int>("stuck");
+        QTest::newRow("none") << 0 << 0;
+        QTest::newRow("one way") << 1 << 0;
+        QTest::newRow("two ways") << 2 << 0;
+        QTest::newRow("three ways") << 3 << 0;
+        QTest::newRow("two ways, and some are stuck") << 2 << 8;
+        QTest::newRow("all") << 4 << 0;
+    }
+    void sortingForgivesWhatFallsOff() {
+        QFETCH(int, thrown);
+        QFETCH(int, stuck);
+        constexpr int kTrials = 400;
+        const std::array ends = {base::Quaternion::Identity(), turn(180.0, base::Vec3::UnitX()),
+                                 turn(180.0, base::Vec3::UnitY()), turn(180.0, base::Vec3::UnitZ())};
+        std::vector<Outcome> outcomes;
+        std::vector<Outcome> staying;
+        for (int i = 0; i < kTrials; ++i) {
+            Outcome outcome = finishedAfter(104e-3, 2.0, ends[static_cast<std::size_t>(i % 4)]);
+            if (i % 4 < thrown) {
+                outcome.parts[0].ending = trial::Ending::fellOff;
+            } else {
+                if (i >= kTrials - stuck) outcome.parts[0].ending = trial::Ending::stuck;
+                staying.push_back(outcome);
+            }
+            outcomes.push_back(outcome);
+        }
+        const Judge judge;
+        const double bits = scoreOf(judge.judge(outcomes), "sorting");
+        if (staying.empty()) {
+            QCOMPARE(bits, 8.0);
+            return;
+        }
+        const double expected = scoreOf(judge.judge(staying), "disorder") +
+                                objectives::kBitsOfHalving * std::log2(4.0 / (4 - thrown));
+        QVERIFY2(std::abs(bits - expected) < 1e-9, qPrintable(QString::number(bits)));
+        // Order is worth what it costs.
+        if (stuck == 0) QVERIFY(std::abs(bits - (2.0 - 0.75 * std::log2(4.0 / (4 - thrown)))) < 0.05);
+    }
+
     void speedIsThatOfThePartsThatFinish() {
         const Judge judge;
         std::vector<Outcome> outcomes{finishedAfter(104e-3, 1.0, base::Quaternion::Identity()),
@@ -340,10 +384,10 @@ class ObjectivesTest : public QObject {
     void unknownObjectivesAreNamed_data() {
         QTest::addColumn<QString>("text");
         QTest::addColumn<QString>("told");
-        QTest::newRow("unknown")
-            << "F_C, F_Q"
-            << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-               "disorder, success, conveying_speed. Write several with commas between them.";
+        QTest::newRow("unknown") << "F_C, F_Q"
+                                 << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
+                                    "disorder, sorting, success, correct, conveying_speed. Write several "
+                                    "with commas between them.";
         QTest::newRow("empty") << ""
                                << "There is no objective named \"\".";
         QTest::newRow("end") << "F_C,"

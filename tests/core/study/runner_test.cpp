@@ -355,6 +355,11 @@ class RunnerTest : public QObject {
         QCOMPARE(some.trialsPerSecond, 50.0);
         QCOMPARE(some.secondsLeft, 43.0);
         QCOMPARE(study::estimateProgress(plan, 3, 2400, 48.0).secondsLeft, 0.0);
+        // Half of 1000 trials of a plan are left, and three generations of 100.
+        const study::LearningProgress planning =
+            study::estimateProgress({0, 10, 10, 1000, 0, 100}, 3, 500, 10.0);
+        QCOMPARE(planning.individualsDone, 0);
+        QCOMPARE(planning.secondsLeft, 16.0);
     }
 };
 

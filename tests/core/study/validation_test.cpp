@@ -66,9 +66,9 @@ class ValidationTest : public QObject {
             made.record.trials = trials;
             return made;
         };
-        QVERIFY(study::findBestWinner({}) == nullptr);
+        QVERIFY(study::findBestWinner({}, false) == nullptr);
         const auto bestOf = [](const std::vector<study::Individual>& winners) {
-            return study::findBestWinner(winners)->generation;
+            return study::findBestWinner(winners, false)->generation;
         };
         // The share counts, not the number; then fitness; then who was first.
         QCOMPARE(bestOf({winner(0, 9, 10, -3.0), winner(1, 17, 20, -1.0)}), 0);
@@ -78,6 +78,10 @@ class ValidationTest : public QObject {
         QCOMPARE(bestOf({winner(0, std::nullopt, 10, 5.0), winner(1, 0, 10, -5.0)}), 1);
         QCOMPARE(bestOf({winner(0, 0, 0, 5.0), winner(1, 0, 10, -5.0)}), 1);
         QCOMPARE(bestOf({winner(0, std::nullopt, 10, -2.0), winner(1, std::nullopt, 10, -1.0)}), 1);
+        // Where parts that fall come again, fitness counts.
+        const std::vector<study::Individual> winners{winner(0, 9, 10, -3.0), winner(1, 2, 10, -1.0)};
+        QCOMPARE(study::findBestWinner(winners, true)->generation, 1);
+        QCOMPARE(study::findBestWinner(winners, false)->generation, 0);
     }
 
     void selectionIsByFreshTrials() {

@@ -38,7 +38,7 @@ class TrapKindsTest : public QObject {
         QTest::addColumn<QString>("chain");
         for (const traps::TrapKind& kind : traps::trapKinds())
             QTest::newRow(kind.key.data()) << QString::fromUtf8(kind.key.data());
-        QTest::newRow("several") << "step, free-form,step, groove, drop,drop";
+        QTest::newRow("several") << "step, free-form,step, groove, drop,drop, cut-out, cut-out";
     }
     void everyKindGivesATrack() {
         QFETCH(QString, chain);
@@ -148,6 +148,49 @@ class TrapKindsTest : public QObject {
         }
     }
 
+    void aCutOutIsWhatItsNumbersSay() {
+        const traps::TrapKind cutOut = traps::cutOut();
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const auto dimensions = cutOut.dimensions(parameters);
+        QCOMPARE(dimensions.size(), std::size_t{7});
+        QCOMPARE(dimensions[4].low, -58.5);
+        QCOMPARE(dimensions[4].high, 58.5);
+        // 15 mm long, falling by 8 degrees, walls of 21 degrees; 20 mm cut away from the outer edge
+        // over 18.25 mm.
+        std::vector<double> numbers = {0.0, 0.5, 0.5, 0.5, 0.5 + 20.0 / 117.0, 0.5, 0.5};
+        const double entry = 120e-3;
+        const auto sections = cutOut.build(parameters, entry, numbers);
+        QCOMPARE(sections.size(), std::size_t{6});
+        const double rest = 0.5 * (15e-3 + 36e-3);
+        const double xs[] = {15e-3, 15.5e-3, 33.75e-3, 34.25e-3, 34.25e-3 + 0.5 * rest, 34.25e-3 + rest};
+        const double outers[] = {30e-3, 10e-3, 10e-3, 30e-3, 30e-3, 30e-3};
+        const double fall = std::tan(8.0 * base::kDegree);
+        const double wall = std::tan(21.0 * base::kDegree);
+        for (std::size_t i = 0; i < 6; ++i) {
+            QVERIFY(std::abs(sections[i].x - xs[i]) < 1e-12);
+            QVERIFY(std::abs(sections[i].points.back().x() - outers[i]) < 1e-12);
+            QCOMPARE(sections[i].points.front().x(), -30e-3);
+            if (i > 3) continue;
+            // What is left of the surface is what it was.
+            for (const base::Vec2& point : sections[i].points)
+                QVERIFY(std::abs(point.y() - (entry - fall * xs[i] + wall * std::abs(point.x()))) < 1e-12);
+            QVERIFY(std::abs(sections[i].points[4].x()) < 1e-15);
+        }
+        // From the other side, and beyond the groove's bottom: a strip along the outer edge is left.
+        numbers[4] = 0.0;
+        const auto inner = cutOut.build(parameters, entry, numbers);
+        QVERIFY(std::abs(inner[1].points.front().x() - 28.5e-3) < 1e-12);
+        QVERIFY(std::abs(inner[2].points.back().x() - 30e-3) < 1e-12);
+        QVERIFY(std::abs(inner[1].points[4].x() - 29.25e-3) < 1e-12);
+        // Not cut at all.
+        numbers[4] = 0.5;
+        for (const track::CrossSection& section : cutOut.build(parameters, entry, numbers))
+            QVERIFY(section.points.front().x() == -30e-3 &&
+                    std::abs(section.points.back().x() - 30e-3) < 1e-15);
+    }
+
     // What follows a trap that falls begins where that one ends.
     void trapsFollowEachOtherDown() {
         TrapParameters parameters;
@@ -173,7 +216,8 @@ class TrapKindsTest : public QObject {
         QCOMPARE(traps::describe(*chain), std::string("Step, free form"));
         QVERIFY(
             messageOf(traps::readTraps("ledge"))
-                .contains("no kind of trap named \"ledge\". The kinds are: free-form, step, groove, drop"));
+                .contains("no kind of trap named \"ledge\". The kinds are: free-form, step, groove, drop, "
+                          "cut-out"));
         const auto repeated = traps::readTraps("groove, 2 x drop, drop, 1xstep");
         QVERIFY2(repeated.ok(), qPrintable(messageOf(repeated)));
         QCOMPARE(repeated->size(), std::size_t{5});

@@ -3,6 +3,7 @@
 #include <QtTest>
 
 #include "core/study/field_text.h"
+#include "core/study/planning.h"
 #include "core/study/settings.h"
 #include "tests/core/workflow/workflow_fixture.h"
 
@@ -52,6 +53,25 @@ class EstimateTest : public QObject {
         small.generations = 5;
         small.tournamentSize = 3;
         QVERIFY(workflow::draftEvolution(small, 1e-3) == small);
+    }
+
+    // Before its first generation, and only then.
+    void aPlanTakesTime() {
+        study::EvolutionSettings graded;
+        study::EvolutionSettings planned = graded;
+        planned.firstGeneration = search::ga::FirstGeneration::planned;
+        QCOMPARE(study::estimatePlanningTrials(graded), std::int64_t{0});
+        const double planning = workflow::learningTime(planned, planned.generations, 1e-3) -
+                                workflow::learningTime(graded, graded.generations, 1e-3);
+        QVERIFY(std::abs(planning - 1e-3 * static_cast<double>(study::estimatePlanningTrials(planned))) <
+                1e-6);
+        QVERIFY(planning > 0.0);
+        QCOMPARE(workflow::learningTime(planned, planned.generations - 1, 1e-3),
+                 workflow::learningTime(graded, graded.generations - 1, 1e-3));
+        // A draft has time for it.
+        const auto draft = workflow::draftEvolution(planned, 1e-3);
+        QVERIFY(draft.has_value());
+        QVERIFY(workflow::learningTime(*draft, draft->generations, 1e-3) <= workflow::kDraftLearningTime);
     }
 
     // Tests of the operators that a draft must not break.

@@ -140,7 +140,7 @@ class EvolvePageTest : public QObject {
         // The newest is on top.
         QCOMPARE(user.rows("generations")->index(0, 0).data(models::ValueRole).toInt(), kGenerations - 1);
         QCOMPARE(user.winners(), kGenerations);
-        const study::Individual best = *study::findBestWinner(user.session()->runs().winners());
+        const study::Individual best = *user.session()->runs().bestWinner();
         QCOMPARE(user.text("filmStrip.caption"), QString("Generation %1, best so far").arg(best.generation));
         QVERIFY(waitUntil([&] { return heightSum(*user.track()) != flat; }));
         // Its success is the number of the page, in the largest letters.
@@ -228,7 +228,7 @@ class EvolvePageTest : public QObject {
         QVERIFY(user.open(studies.path("a.trap")));
         QVERIFY(waitUntil([&] { return user.track() != nullptr; }));
         const auto newest = user.track();
-        const int best = study::findBestWinner(user.session()->runs().winners())->generation;
+        const int best = user.session()->runs().bestWinner()->generation;
         user.show("individuals");
         auto* table = user.find<QTableView>("individuals.table");
         QVERIFY(waitUntil([&] { return table->model()->rowCount() == kIndividuals; }));
@@ -281,8 +281,7 @@ class EvolvePageTest : public QObject {
         QVERIFY(user.waitFor(RunState::idle));
         QVERIFY(waitUntil([&] {
             return user.text("filmStrip.caption") ==
-                   QString("Generation %1, best so far")
-                       .arg(study::findBestWinner(user.session()->runs().winners())->generation);
+                   QString("Generation %1, best so far").arg(user.session()->runs().bestWinner()->generation);
         }));
     }
 
@@ -304,7 +303,7 @@ class EvolvePageTest : public QObject {
         bool stayed = false;
         for (int last = 0; last < kGenerations; ++last) {
             const auto known = std::span(winners).first(static_cast<std::size_t>(last) + 1);
-            const int best = study::findBestWinner(known)->generation;
+            const int best = study::findBestWinner(known, false)->generation;
             QCOMPARE(shown[last], QString("Generation %1, best so far").arg(best));
             stayed = stayed || best < last;
         }

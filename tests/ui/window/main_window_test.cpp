@@ -140,6 +140,13 @@ class MainWindowTest : public QObject {
         QVERIFY(user.session()->design().settings().part == before.part);
         user.action("edit.undo")->trigger();
         QVERIFY(user.session()->design().settings() == before);
+        user.action("preset.sorting")->trigger();
+        const study::Settings sorting = user.session()->design().settings();
+        QCOMPARE(sorting.evolution.objectives, std::string("sorting"));
+        QCOMPARE(sorting.track.traps, std::string("groove, groove, 4 x cut-out"));
+        QVERIFY(user.session()->design().problems().empty());
+        user.action("edit.undo")->trigger();
+        QVERIFY(user.session()->design().settings() == before);
     }
 
     void savedStudiesAreOpenedAgainFromTheRecentOnes() {

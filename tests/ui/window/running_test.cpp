@@ -54,7 +54,7 @@ class RunningTest : public QObject {
         action(window, "run.stopAfterGeneration")->trigger();
         QTRY_COMPARE_WITH_TIMEOUT(session->runs().state(), RunState::idle, kPatience);
         QVERIFY(window.findChild<QLabel*>("status.generation")->text().endsWith("of 100000 generations"));
-        const study::Individual* best = study::findBestWinner(session->runs().winners());
+        const study::Individual* best = session->runs().bestWinner();
         auto* success = window.findChild<QLabel*>("status.success");
         QVERIFY(success->isVisible());
         QCOMPARE(success->text(), "success " + models::successWord(best->record.success()));

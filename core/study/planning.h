@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_control.h"
+#include "core/search/design_space.h"
+#include "core/study/evaluator.h"
+
+namespace trapwright::study {
+
+/// Chains of traps put together from what each trap does by itself, before anything is learned (learning.md).
+/// Parts that lie in a groove do so in a few ways: a stable pose, a heading. A trap between two grooves takes
+/// each way to others, or throws parts out of it, with probabilities that a few trials from each way measure:
+/// a transition matrix, as Boothroyd (2005) tells the effect of a feeder's devices. What a chain does is then
+/// the product of its matrices, without a trial, so that few traps measured by themselves tell of very many
+/// chains.
+
+/// Why a chain of these traps cannot be planned; empty if it can. It begins with two grooves, in which parts
+/// come to lie down and to move on, and goes on with drops and cut-outs.
+std::string findPlanningProblem(const TrackSettings& settings);
+
+/// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
+/// ends, and if the settings sum up the objective sorting by that of those that stay on the track. None if
+/// parts come through no groove. About kTrapsPerIndividual traps for each individual of the population are
+/// tried; the same settings give the same designs. `planned` is told of the work as of generation 0. Errors:
+/// traps that cannot be planned, engine, cancelled.
+base::Result<std::vector<search::Design>> planDesigns(
+    const StudyInputs& inputs, std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
+    base::RunControl control);
+inline constexpr int kTrapsPerIndividual = 20;
+
+/// What a plan costs, in trials of whole tracks; 0 if these settings plan none. An estimate: it depends on
+/// the ways in which parts lie, and on how many traps do something (365 trials of half a track each for the
+/// wedge).
+std::int64_t estimatePlanningTrials(const EvolutionSettings& settings);
+/// Whether generation 0 is planned.
+bool isPlanned(const EvolutionSettings& settings);
+
+}  // namespace trapwright::study

@@ -1,0 +1,191 @@
+// Chains of traps are put together from what each does, told by a law that is known.
+
+#include "core/study/planning.h"
+
+#include <QtTest>
+#include <cmath>
+
+#include "core/study/runner.h"
+#include "core/study/track_design.h"
+#include "tests/core/study/fake_engine.h"
+
+using namespace trapwright;
+
+namespace {
+
+constexpr double kCut = 20e-3;  // of the width: less throws nothing out [m]
+
+/// The heading of what starts so, in quarters of a turn.
+int findWay(const base::Quaternion& rotation) {
+    const base::Vec3 axis = rotation * base::Vec3::UnitX();
+    return (static_cast<int>(std::lround(std::atan2(axis.y(), axis.x()) / (0.5 * base::kPi))) + 4) % 4;
+}
+
+/// Parts lie down with one of four headings. What cuts in from the inner edge throws out 1 and 3, from the
+/// outer edge 2 and 3; nothing turns.
+trial::PartOutcome sieveLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    const track::Track& track = *batch.track;
+    const int way = findWay(spec.parts.front().pose.rotation);
+    bool falls = false;
+    for (const track::CrossSection& section : track.sections) {
+        const double half = 0.5 * track.width;
+        if (section.points.front().x() > -half + kCut) falls = falls || way == 1 || way == 3;
+        if (section.points.back().x() < half - kCut) falls = falls || way == 2 || way == 3;
+    }
+    trial::PartOutcome outcome;
+    outcome.initial = {spec.parts.front().pose.rotation, {track.start, 0.0, 0.0}};
+    outcome.farthest.position = {track.finish, 0.0, 0.0};
+    outcome.farthest.rotation = Eigen::AngleAxisd(way * 0.5 * base::kPi, base::Vec3::UnitZ());
+    outcome.ending = falls ? trial::Ending::fellOff : trial::Ending::finished;
+    outcome.time = 1.0;
+    return outcome;
+}
+
+study::StudyInputs sieveInputs(const char* objectives, unsigned threads = 1) {
+    study::StudyInputs inputs = fake::waveInputs(threads);
+    part::Part part = *inputs.part;
+    part.symmetry = {};
+    inputs.part = std::make_shared<const part::Part>(std::move(part));
+    inputs.settings.track.traps = "groove, groove, 3 x cut-out";
+    inputs.settings.track.shape.type = track::FeederType::linear;
+    inputs.settings.track.segmentHeight = 200e-3;
+    inputs.settings.evolution.populationSize = 6;
+    inputs.settings.evolution.firstGeneration = search::ga::FirstGeneration::planned;
+    inputs.settings.evolution.objectives = objectives;
+    inputs.engine = std::make_shared<fake::FakeEngine>(sieveLaw, threads);
+    return inputs;
+}
+
+/// How far the track of a design is cut, from either edge. [m]
+std::pair<double, double> findCuts(const study::Settings& settings, const search::Design& design) {
+    const auto track = study::decodeTrack(settings.track, design);
+    std::pair<double, double> cuts{0.0, 0.0};
+    if (!track) return {1.0, 1.0};
+    for (const track::CrossSection& section : track->sections) {
+        const double half = 0.5 * track->width;
+        cuts.first = std::max(cuts.first, half + section.points.front().x());
+        cuts.second = std::max(cuts.second, half - section.points.back().x());
+    }
+    return cuts;
+}
+
+}  // namespace
+
+class PlanningTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    // Neither cut alone leaves one way; both do, and only if what falls comes again.
+    void findsTheCutsThatLeaveOneWay() {
+        const study::StudyInputs inputs = sieveInputs("sorting");
+        const auto designs = study::planDesigns(inputs, 3, {}, {});
+        VERIFY_OK(designs);
+        QVERIFY(!designs->empty() && designs->size() <= 3);
+        const auto [inner, outer] = findCuts(inputs.settings, designs->front());
+        QVERIFY2(inner > kCut && outer > kCut,
+                 qPrintable(QString("%1 and %2 mm").arg(1e3 * inner).arg(1e3 * outer)));
+        for (const search::Design& design : *designs)
+            QVERIFY(study::designSpace(inputs.settings.track).check(design).ok());
+    }
+
+    void cutsNothingWhereFallsCount() {
+        const study::StudyInputs inputs = sieveInputs("disorder");
+        const auto designs = study::planDesigns(inputs, 1, {}, {});
+        VERIFY_OK(designs);
+        QCOMPARE(designs->size(), std::size_t{1});
+        const auto [inner, outer] = findCuts(inputs.settings, designs->front());
+        QVERIFY(inner <= kCut && outer <= kCut);
+    }
+
+    void givesTheSameForAnyNumberOfThreads() {
+        const auto one = study::planDesigns(sieveInputs("sorting", 1), 5, {}, {});
+        const auto three = study::planDesigns(sieveInputs("sorting", 3), 5, {}, {});
+        VERIFY_OK(one);
+        VERIFY_OK(three);
+        QVERIFY(*one == *three);
+    }
+
+    // Learning begins with them, and goes on after a stop as if there had been none.
+    void learningBeginsWithThem() {
+        study::StudyInputs inputs = sieveInputs("sorting");
+        inputs.settings.evolution.generations = 2;
+        const auto designs = study::planDesigns(inputs, 3, {}, {});
+        VERIFY_OK(designs);
+        std::vector<study::GenerationRecord> whole;
+        study::LearningEvents events;
+        std::int64_t plannedTrials = 0;
+        events.planned = [&](const study::GenerationPlan& plan) {
+            plannedTrials = std::max(plannedTrials, plan.trials);
+        };
+        events.save = [&](const study::GenerationRecord& record) {
+            whole.push_back(record);
+            return base::success();
+        };
+        VERIFY_OK(study::evolve(inputs, {}, events, {}));
+        QCOMPARE(whole.size(), std::size_t{2});
+        QVERIFY(plannedTrials > 6 * inputs.settings.evolution.trialsPerEvaluation);
+        for (std::size_t i = 0; i < designs->size(); ++i)
+            QVERIFY(whole[0].individuals[i].design == (*designs)[i]);
+        const auto& best = whole[0].individuals[static_cast<std::size_t>(whole[0].winner)];
+        QCOMPARE(best.fellOff + best.finished, best.trials);
+        QVERIFY(best.fellOff > 0);
+        QCOMPARE(best.oriented.value_or(0), best.finished);
+
+        study::LearningEvents again;
+        again.save = [&](const study::GenerationRecord& record) {
+            return record.index == 1 && record.individuals == whole[1].individuals
+                       ? base::success()
+                       : base::Status(base::Error{"other individuals"});
+        };
+        VERIFY_OK(study::evolve(inputs, study::stateAfter(whole[0]), again, {}));
+    }
+
+    void partsThatComeThroughNoGrooveGiveNoPlan() {
+        study::StudyInputs inputs = sieveInputs("sorting");
+        inputs.engine = std::make_shared<fake::FakeEngine>(
+            [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                trial::PartOutcome outcome = sieveLaw(batch, spec);
+                outcome.ending = trial::Ending::stuck;
+                return outcome;
+            });
+        const auto designs = study::planDesigns(inputs, 3, {}, {});
+        VERIFY_OK(designs);
+        QVERIFY(designs->empty());
+    }
+
+    void stopsWhenCancelled() {
+        base::RunControl control;
+        const auto designs = study::planDesigns(
+            sieveInputs("sorting"), 3, [&](const study::GenerationPlan&) { control.cancel(); }, control);
+        QVERIFY(!designs.ok());
+    }
+
+    void tellsWhatCannotBePlanned_data() {
+        QTest::addColumn<QString>("traps");
+        QTest::addColumn<bool>("can");
+        QTest::newRow("cut-outs") << "groove, groove, 3 x cut-out" << true;
+        QTest::newRow("drops and cut-outs") << "2 x groove, drop, 3 x cut-out, drop" << true;
+        QTest::newRow("one groove") << "groove, 3 x cut-out" << false;
+        QTest::newRow("nothing behind") << "groove, groove" << false;
+        QTest::newRow("free-form") << "groove, groove, cut-out, free-form" << false;
+        QTest::newRow("paper") << "free-form" << false;
+    }
+    void tellsWhatCannotBePlanned() {
+        QFETCH(QString, traps);
+        QFETCH(bool, can);
+        study::StudyInputs inputs = sieveInputs("sorting");
+        inputs.settings.track.traps = traps.toStdString();
+        QCOMPARE(study::findPlanningProblem(inputs.settings.track).empty(), can);
+        const auto problems = study::findProblems(inputs.settings);
+        QCOMPARE(problems.empty(), can);
+        if (can) return;
+        QCOMPARE(problems.size(), std::size_t{1});
+        QVERIFY(problems.front().starts_with("evolution.firstGeneration is planned. Traps can be planned"));
+        QVERIFY(problems.front().find(traps.toStdString()) != std::string::npos);
+        inputs.settings.evolution.search = search::Method::random;
+        QVERIFY(study::findProblems(inputs.settings).empty());
+    }
+};
+
+QTEST_APPLESS_MAIN(PlanningTest)
+#include "planning_test.moc"
