@@ -213,7 +213,9 @@ class Planner {
             trial::TrialSpec& spec = batch.trials[i];
             base::Random random(
                 {spec.stream.seed, 0, spec.stream.individual, spec.stream.trial, base::Purpose::planning});
-            const std::vector<base::Pose>& from = starts_[i % rows()];
+            // All of a way may be nearer to another one.
+            const std::vector<base::Pose>& own = starts_[i % rows()];
+            const std::vector<base::Pose>& from = own.empty() ? starts_.front() : own;
             const base::Pose& start = from[random.below(static_cast<std::uint32_t>(from.size()))];
             base::Pose& pose = spec.parts.front().pose;
             pose.position = track.shape.toRoom({x, start.position.y(), bottom + start.position.z() + kAbove});
@@ -336,9 +338,8 @@ class Planner {
                 tried.push_back(drawPiece(i % kinds_.size(), random));
             }
         }
-        std::vector<Piece*> all;
-        for (Piece& piece : tried)
-            all.push_back(&piece);
+        std::vector<Piece*> all(tried.size());
+        std::transform(tried.begin(), tried.end(), all.begin(), [](Piece& piece) { return &piece; });
         if (const auto measured = measure(all, kFirstTrials); !measured) return measured.error();
         std::vector<Piece*> chosen;
         for (std::size_t i = 0; i < tried.size(); ++i) {

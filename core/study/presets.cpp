@@ -77,9 +77,9 @@ Settings paperMode(Settings settings) {
 }
 
 Settings sortingMode(Settings settings, const part::Part& part) {
-    // What was right for the wedge, whose bounding radius is 7.5 mm.
+    // What was right for the wedge.
     const auto inProportion = [&](double ofWedge) {
-        constexpr double kWedge = 7.5e-3;
+        constexpr double kWedge = 8.9e-3;  // its bounding radius [m]
         return std::max(1.0, std::round(ofWedge * part.boundingRadius / kWedge / 0.5e-3)) * 0.5e-3;
     };
     settings.track.traps = "groove, groove, 4 x cut-out";

@@ -67,7 +67,7 @@ class StudySheetsTest : public QObject {
 
     void fitnessShowsItsScores() {
         const ChartSheet sheet = charts::fitnessSheet({someStudy("a", 0.5)});
-        QCOMPARE(sheet.plots.size(), std::size_t{5});
+        QCOMPARE(sheet.plots.size(), std::size_t{7});
         const PlotSheet& orientation = plotOf(sheet, "F_O");
         QCOMPARE(orientation.curves.size(), std::size_t{3});
         QCOMPARE(orientation.curves[0].points, (std::vector<QPointF>{{0, 0.5}, {1, 0.5}, {2, 0.5}}));

@@ -162,10 +162,10 @@ class RecordModelsTest : public QObject {
         QCOMPARE(textAt(model, 0, columnOf(model, "p_dm")), QString("0.0020"));
         QCOMPARE(textAt(model, 0, columnOf(model, "p_s")), QString("0.3000"));
         QCOMPARE(columnOf(model, "p_s"), columns - 1);
-        // Disorder and speed are for everybody, the paper's scores are details.
+        // Disorder, sorting, the correct share and speed are for everybody, the paper's scores are details.
         QCOMPARE(columnOf(model, "Disorder [bit]"), int(IndividualModel::FirstScore));
-        QCOMPARE(columnOf(model, "Speed [mm/s]"), IndividualModel::FirstScore + 1);
-        QCOMPARE(textAt(model, 0, IndividualModel::FirstScore + 1), QString("50.0"));
+        QCOMPARE(columnOf(model, "Speed [mm/s]"), IndividualModel::FirstScore + 3);
+        QCOMPARE(textAt(model, 0, IndividualModel::FirstScore + 3), QString("50.0"));
         QCOMPARE(columnOf(model, "F"), IndividualModel::firstDetail());
         QVERIFY(columnOf(model, "F_C") > IndividualModel::firstDetail());
         QCOMPARE(textAt(model, 0, IndividualModel::Stuck), QString("2"));
