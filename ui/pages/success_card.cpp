@@ -41,6 +41,13 @@ void SuccessCard::show(const std::optional<stats::Count>& success, const QString
     tell(models::successHelp(success), source);
 }
 
+void SuccessCard::showCorrect(const std::optional<stats::Count>& correct, const QString& source) {
+    show(correct, source);
+    bounds_->setText(correct ? tr("correct, 95 %: %1 %").arg(models::boundsText(correct))
+                             : tr("no part arrives"));
+    number_->setAccessibleName(tr("Correct %1").arg(number_->text()));
+}
+
 void SuccessCard::showWeighted(const stats::WeightedRate& weighted, const QString& source) {
     const QString bounds = models::boundsText(weighted.interval, 1);
     number_->setText(tr("%1 %").arg(models::percent(weighted.rate)));

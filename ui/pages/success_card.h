@@ -19,6 +19,8 @@ class SuccessCard : public QWidget {
 
     /// `source`: of what, in a few words ("generation 12, best so far"). A dash where success is not known.
     void show(const std::optional<stats::Count>& success, const QString& source);
+    /// The same of those parts that arrive alone, where others are thrown back.
+    void showCorrect(const std::optional<stats::Count>& correct, const QString& source);
     /// The success of all parts that come, where each pose was tried by itself: `weighted` has a rate.
     void showWeighted(const stats::WeightedRate& weighted, const QString& source);
 

@@ -157,6 +157,30 @@ class EvolvePageTest : public QObject {
         QVERIFY(!user.find<QToolButton>("evolve.start")->isEnabled());
     }
 
+    // Where parts that fall come again, those that arrive are what counts.
+    void sortingIsToldByThePartsThatArrive() {
+        session::SessionFixture studies;
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        study::Settings settings = user.session()->design().settings();
+        settings.evolution.objectives = "sorting";
+        user.session()->design().changeSettings(settings, "Sorting");
+        user.click("evolve.start");
+        QVERIFY(waitUntil([&] { return user.text("evolve.state") == "All 6 generations learned"; }));
+        const study::IndividualRecord& best = user.session()->runs().bestWinner()->record;
+        for (const study::Individual& winner : user.session()->runs().winners())
+            QVERIFY(best.fitness.total >= winner.record.fitness.total);
+        if (best.finished == 0) {
+            QCOMPARE(user.text("evolve.successBounds"), QString("no part arrives"));
+            return;
+        }
+        QVERIFY(user.text("evolve.successBounds").startsWith("correct, 95 %"));
+        QCOMPARE(user.text("evolve.success"),
+                 QString("%1 %").arg(100.0 * best.oriented.value_or(0) / best.finished, 0, 'f', 1));
+        QVERIFY(user.text("evolve.successSource").contains("parts that arrive"));
+    }
+
     void winnersInViewGetPictures() {
         session::SessionFixture studies;
         QVERIFY(makeLearned(studies, "a.trap"));
