@@ -94,9 +94,8 @@ Objective sorting() {
     objective.name = "Sorting";
     objective.unit = "bit";
     objective.help =
-        "Disorder of the parts that stay on the track, and half a bit for each halving of their number. "
-        "Lower "
-        "is better.";
+        "Disorder of the parts that stay on the track, and a third of a bit for each halving of their "
+        "number. Lower is better.";
     objective.decimals = 2;
     objective.moreIsBetter = false;
     objective.usesTolerance = true;

@@ -352,15 +352,20 @@ class Planner {
         return base::success();
     }
 
-    /// Whether a trap gets few parts stuck and changes something for the better, or at least turns parts.
+    /// Whether a trap gets few parts stuck and brings order, once or at every place of its kind.
     [[nodiscard]] bool isOfUse(const Piece& piece) const {
-        const Belief after = pass(arriving_, piece.chances);
-        if (after[stuck()] - arriving_[stuck()] > kMostStuck) return false;
-        if (worthOf(after) - worthOf(arriving_) > kLeastGain) return true;
-        double turned = 0.0;
-        for (std::size_t way = 0; way < rows(); ++way)
-            turned += arriving_[way] * (1.0 - piece.chances[way][way] - piece.chances[way][fallen()]);
-        return turned > kMostStuck && after[fallen()] - arriving_[fallen()] < kMostStuck;
+        const Belief once = pass(arriving_, piece.chances);
+        if (once[stuck()] - arriving_[stuck()] > kMostStuck) return false;
+        return std::max(worthOf(once), worthOf(repeat(piece))) - worthOf(arriving_) > kLeastGain;
+    }
+
+    /// Where parts are behind as many of these as there are places of their kind.
+    [[nodiscard]] Belief repeat(const Piece& piece) const {
+        Belief parts = arriving_;
+        for (const std::size_t kind : places_) {
+            if (kind == piece.kind) parts = pass(parts, piece.chances);
+        }
+        return parts;
     }
 
     /// The best chains of what is known, best first, by a beam search from the first trap on.
@@ -395,11 +400,7 @@ class Planner {
     [[nodiscard]] std::vector<std::size_t> findSieves() const {
         std::vector<std::pair<double, std::size_t>> worths;
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            Belief parts = arriving_;
-            for (const std::size_t kind : places_) {
-                if (kind == pieces_[i].kind) parts = pass(parts, pieces_[i].chances);
-            }
-            worths.emplace_back(-worthOf(parts), i);
+            worths.emplace_back(-worthOf(repeat(pieces_[i])), i);
         }
         std::sort(worths.begin(), worths.end());
         std::vector<std::size_t> sieves;

@@ -11,8 +11,10 @@ constexpr double kSteepestWall = 42.0 * base::kDegree;
 constexpr double kMostInclined = 45.0 * base::kDegree;  // across the track
 constexpr double kSteepestRise = 6.0 * base::kDegree;   // along the track: what parts still climb
 constexpr double kSteepestFall = 22.0 * base::kDegree;
-constexpr double kShortestEdge = 0.5e-3;     // along the track, because sections must follow each other [m]
-constexpr double kLongestEdge = 6e-3;        // [m]
+constexpr double kShortestEdge = 0.5e-3;  // along the track, because sections must follow each other [m]
+constexpr double kLongestEdge = 6e-3;     // [m]
+constexpr double kSteepestLedgeWall = 60.0 * base::kDegree;
+constexpr double kMostFloor = 20.0 * base::kDegree;  // of a ledge, across the track
 constexpr double kNarrowestBridge = 1.5e-3;  // what a cut-out leaves of the track's width, to be printed [m]
 // Of each number: 0.2 mm, 0.7 degrees. Finer ones would have a mutated bit change nothing that a part feels.
 constexpr int kBits = 7;
@@ -174,15 +176,29 @@ double longestDrop(const TrapParameters& parameters) {
     return 2.0 * parameters.maxSegmentLength + kLongestEdge + restingLength(parameters);
 }
 
+/// How far a cut goes: beyond the groove's bottom, which is then cut away itself.
+double deepestCut(const TrapParameters& parameters) {
+    return std::min(2.0 / 3.0 * parameters.segmentWidth, parameters.segmentWidth - kNarrowestBridge);
+}
+
+/// A wall on one side of the bottom and a floor on the other, where it is cut away by `cut`. Angles: the wall
+/// rises, the floor falls towards the cut edge.
+Form makeLedge(double wall, double floor, double cut) {
+    const double rise = std::tan(wall);
+    const double drop = std::tan(floor);
+    const double side = cut < 0.0 ? -1.0 : 1.0;
+    return {std::atan(0.5 * (rise - drop)), side * std::atan(0.5 * (rise + drop)), 0.0, cut};
+}
+
 std::vector<search::Dimension> dimensionsOfCutOut(const TrapParameters& parameters) {
     constexpr double kMillimetres = 1.0 / base::kMillimetre;
-    const double deepest = kMillimetres * (parameters.segmentWidth - kNarrowestBridge);
+    const double deepest = kMillimetres * deepestCut(parameters);
     search::Dimension depth{"depth", "mm", -deepest, deepest, kBits};
     depth.isRelief = true;  // from no cut on
     return {lengthOf("before, length", parameters),
             angleOf("before, fall", -kSteepestRise, kSteepestFall),
-            angleOf("before, walls", 0.0, kSteepestWall),
-            angleOf("before, inclination", -kMostInclined, kMostInclined),
+            angleOf("wall", 0.0, kSteepestLedgeWall),
+            angleOf("floor", -kMostFloor, kMostFloor),
             depth,
             {"length", "mm", kMillimetres * kShortestEdge, kMillimetres * parameters.maxSegmentLength, kBits},
             angleOf("fall", -kSteepestRise, kSteepestFall)};
@@ -190,11 +206,12 @@ std::vector<search::Dimension> dimensionsOfCutOut(const TrapParameters& paramete
 
 std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters, double entry,
                                              std::span<const double> numbers) {
-    const double deepest = parameters.segmentWidth - kNarrowestBridge;
-    const Form whole{within(0.0, kSteepestWall, numbers[2]),
-                     within(-kMostInclined, kMostInclined, numbers[3])};
-    Form narrow = whole;
-    narrow.cut = within(-deepest, deepest, numbers[4]);
+    const double deepest = deepestCut(parameters);
+    const Form narrow =
+        makeLedge(within(0.0, kSteepestLedgeWall, numbers[2]), within(-kMostFloor, kMostFloor, numbers[3]),
+                  within(-deepest, deepest, numbers[4]));
+    Form whole = narrow;
+    whole.cut = 0.0;
     const double fall = within(-kSteepestRise, kSteepestFall, numbers[6]);
     Course course(parameters, entry);
     course.add(within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[0]),
@@ -255,7 +272,7 @@ TrapKind drop() {
 TrapKind cutOut() {
     return {"cut-out",
             "Cut-out",
-            "A groove that is cut away from one side over a length: parts without support there fall off.",
+            "A ledge along a wall, cut away over a length: parts without support there fall off.",
             &dimensionsOfCutOut,
             &buildCutOut,
             &layOutCutOut,

@@ -27,11 +27,11 @@ std::vector<double> restingGroove(const TrapParameters& parameters);
 /// form and length that is right for most, ends it, so that one drop can follow another.
 TrapKind drop();
 
-/// A groove that is cut away from one side, over a length, down to nothing: what does not find support on
-/// either end of the cut or on what is left of the width falls off, and back into the bowl. Cut across nearly
-/// all of the width it is the gap of feeders' craft, which the heavier end does not cross; on one side the
-/// ledge, which carries only what lies close to the other (Boothroyd 2005). A groove in which parts lie down
-/// again ends it.
+/// A floor along a wall, cut away from the other side, over a length, down to nothing: what does not find
+/// support on either end of the cut or on what is left of the width falls off, and back into the bowl. It is
+/// the ledge of feeders' craft, which carries only what lies close to the wall; cut beyond the wall's foot
+/// the gap, which the heavier end does not cross (Boothroyd 2005). Seven numbers; a groove in which parts lie
+/// down again ends it.
 TrapKind cutOut();
 
 }  // namespace trapwright::traps

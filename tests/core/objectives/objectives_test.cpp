@@ -251,7 +251,7 @@ class ObjectivesTest : public QObject {
     }
 
     // So many of four equally frequent ways are thrown out, whole: what stays has the disorder of its ways,
-    // and each halving of the parts costs a quarter of a bit.
+    // and each halving of the parts costs a third of a bit.
     void sortingForgivesWhatFallsOff_data() {
         QTest::addColumn<int>("thrown");
         QTest::addColumn<int>("stuck");
@@ -290,7 +290,7 @@ class ObjectivesTest : public QObject {
                                 objectives::kBitsOfHalving * std::log2(4.0 / (4 - thrown));
         QVERIFY2(std::abs(bits - expected) < 1e-9, qPrintable(QString::number(bits)));
         // Order is worth what it costs.
-        if (stuck == 0) QVERIFY(std::abs(bits - (2.0 - 0.75 * std::log2(4.0 / (4 - thrown)))) < 0.05);
+        if (stuck == 0) QVERIFY(std::abs(bits - (2.0 - 2.0 / 3.0 * std::log2(4.0 / (4 - thrown)))) < 0.05);
     }
 
     void speedIsThatOfThePartsThatFinish() {

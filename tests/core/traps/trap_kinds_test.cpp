@@ -155,11 +155,11 @@ class TrapKindsTest : public QObject {
         parameters.pointsPerSection = 9;
         const auto dimensions = cutOut.dimensions(parameters);
         QCOMPARE(dimensions.size(), std::size_t{7});
-        QCOMPARE(dimensions[4].low, -58.5);
-        QCOMPARE(dimensions[4].high, 58.5);
-        // 15 mm long, falling by 8 degrees, walls of 21 degrees; 20 mm cut away from the outer edge
-        // over 18.25 mm.
-        std::vector<double> numbers = {0.0, 0.5, 0.5, 0.5, 0.5 + 20.0 / 117.0, 0.5, 0.5};
+        QCOMPARE(dimensions[4].low, -40.0);
+        QCOMPARE(dimensions[4].high, 40.0);
+        // 15 mm long, falling by 8 degrees, a wall of 30 degrees, a floor that falls outwards by 10; 20 mm
+        // cut away from the outer edge over 18.25 mm.
+        std::vector<double> numbers = {0.0, 0.5, 0.5, 0.75, 0.75, 0.5, 0.5};
         const double entry = 120e-3;
         const auto sections = cutOut.build(parameters, entry, numbers);
         QCOMPARE(sections.size(), std::size_t{6});
@@ -167,23 +167,28 @@ class TrapKindsTest : public QObject {
         const double xs[] = {15e-3, 15.5e-3, 33.75e-3, 34.25e-3, 34.25e-3 + 0.5 * rest, 34.25e-3 + rest};
         const double outers[] = {30e-3, 10e-3, 10e-3, 30e-3, 30e-3, 30e-3};
         const double fall = std::tan(8.0 * base::kDegree);
-        const double wall = std::tan(21.0 * base::kDegree);
+        const double wall = std::tan(30.0 * base::kDegree);
+        const double floor = std::tan(10.0 * base::kDegree);
         for (std::size_t i = 0; i < 6; ++i) {
             QVERIFY(std::abs(sections[i].x - xs[i]) < 1e-12);
             QVERIFY(std::abs(sections[i].points.back().x() - outers[i]) < 1e-12);
             QCOMPARE(sections[i].points.front().x(), -30e-3);
             if (i > 3) continue;
             // What is left of the surface is what it was.
-            for (const base::Vec2& point : sections[i].points)
-                QVERIFY(std::abs(point.y() - (entry - fall * xs[i] + wall * std::abs(point.x()))) < 1e-12);
+            for (const base::Vec2& point : sections[i].points) {
+                const double y = point.x();
+                const double across = y < 0.0 ? -wall * y : -floor * y;
+                QVERIFY(std::abs(point.y() - (entry - fall * xs[i] + across)) < 1e-12);
+            }
             QVERIFY(std::abs(sections[i].points[4].x()) < 1e-15);
         }
-        // From the other side, and beyond the groove's bottom: a strip along the outer edge is left.
+        // From the other side, and beyond the wall's foot: a strip of the wall is left.
         numbers[4] = 0.0;
         const auto inner = cutOut.build(parameters, entry, numbers);
-        QVERIFY(std::abs(inner[1].points.front().x() - 28.5e-3) < 1e-12);
+        QVERIFY(std::abs(inner[1].points.front().x() - 10e-3) < 1e-12);
         QVERIFY(std::abs(inner[2].points.back().x() - 30e-3) < 1e-12);
-        QVERIFY(std::abs(inner[1].points[4].x() - 29.25e-3) < 1e-12);
+        QVERIFY(std::abs(inner[1].points[4].x() - 20e-3) < 1e-12);
+        QVERIFY(std::abs(inner[1].points[4].y() - (entry - fall * xs[1] + wall * 20e-3)) < 1e-12);
         // Not cut at all.
         numbers[4] = 0.5;
         for (const track::CrossSection& section : cutOut.build(parameters, entry, numbers))
