@@ -202,7 +202,8 @@ class ObjectivesTest : public QObject {
         for (int i = 0; i < 10; ++i)  // six within the tolerance of each other, two elsewhere, two stuck
             outcomes.push_back(finishedAfter(104e-3, 2.0, turn(i < 6 ? 3.0 * i : 90.0, base::Vec3::UnitX())));
         outcomes[8].parts[0].ending = outcomes[9].parts[0].ending = trial::Ending::stuck;
-        const objectives::Score& success = *objectives::findScore(judge.judge(outcomes), "success");
+        const objectives::Fitness fitness = judge.judge(outcomes);
+        const objectives::Score& success = *objectives::findScore(fitness, "success");
         QCOMPARE(success.value, 0.6);
         QVERIFY(std::abs(success.error - std::sqrt(0.6 * 0.4 / 9.0)) < 1e-12);
         // In the orientation that is wanted, which is not the mode.
