@@ -77,10 +77,12 @@ Settings paperMode(Settings settings) {
 }
 
 Settings sortingMode(Settings settings, const part::Part& part) {
-    // What was right for the wedge.
+    // What was right for the wedge; as a quotient, which files write without a tail of decimals.
     const auto inProportion = [&](double ofWedge) {
-        constexpr double kWedge = 8.9e-3;  // its bounding radius [m]
-        return std::max(1.0, std::round(ofWedge * part.boundingRadius / kWedge / 0.5e-3)) * 0.5e-3;
+        constexpr double kWedge = 8.9e-3;            // its bounding radius [m]
+        constexpr double kHalfMillimetres = 2000.0;  // in a metre
+        const double length = ofWedge * part.boundingRadius / kWedge;
+        return std::max(1.0, std::round(length * kHalfMillimetres)) / kHalfMillimetres;
     };
     settings.track.traps = "groove, groove, 4 x cut-out";
     settings.track.pointsPerSection = 9;
