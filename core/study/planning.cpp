@@ -77,12 +77,12 @@ double lowestAt(const track::Track& track, double x) {
 class Planner {
  public:
     Planner(const StudyInputs& inputs, traps::TrapChain chain,
-            const std::function<void(const GenerationPlan&)>& planned, base::RunControl control)
+            const std::function<void(const GenerationPlan&)>& planned, const LearningControl& control)
         : inputs_(&inputs),
           chain_(std::move(chain)),
           planned_(planned),
-          control_(std::move(control)),
-          doneBefore_(control_.done()),
+          control_(control),
+          doneBefore_(control_.run.done()),
           forgivesFalls_(forgivesFalls(inputs.settings.evolution)) {
         for (std::size_t i = kGroovesBefore; i < chain_.size(); ++i) {
             auto found = std::find(kinds_.begin(), kinds_.end(), chain_[i]);
@@ -100,7 +100,8 @@ class Planner {
                             static_cast<int>(kTrapsInRound) - 1) /
                            static_cast<int>(kTrapsInRound);
         for (int round = 0; round < rounds; ++round) {
-            tellProgress((control_.done() - doneBefore_) * rounds / std::max(1, round));
+            if (control_.stopRequested()) return base::Error{"The planning was stopped."};
+            tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round));
             if (const auto tried = tryTraps(round); !tried) return tried.error();
             if (round % kRoundsBetweenPlans == kRoundsBetweenPlans - 1 || round == rounds - 1) {
                 if (const auto improved = plan(); !improved) return improved.error();
@@ -161,7 +162,7 @@ class Planner {
         if (!track) return track.error();
         const trial::TrialBatch batch = makeBatch(*track, kTrialsOfWays);
         tellProgress(kTrialsOfWays);
-        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_);
+        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);
         if (!outcomes) return outcomes.error();
         for (const EndMode& mode :
              findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, kMostWays)) {
@@ -234,7 +235,7 @@ class Planner {
         }
         base::parallelFor(batches.size(), inputs_->threads,
                           [&](std::size_t i, unsigned /*worker*/) { placeParts(batches[i]); });
-        const auto outcomes = runTrials(*inputs_->engine, batches, control_);
+        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
         if (!outcomes) return outcomes.error();
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             for (std::size_t k = 0; k < (*outcomes)[i].size(); ++k)
@@ -467,7 +468,7 @@ class Planner {
     const StudyInputs* inputs_;
     traps::TrapChain chain_;
     const std::function<void(const GenerationPlan&)>& planned_;
-    base::RunControl control_;
+    LearningControl control_;
     std::int64_t doneBefore_;
     int batches_ = 0;  // so far
     bool forgivesFalls_;
@@ -513,12 +514,12 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings) {
 
 base::Result<std::vector<search::Design>> planDesigns(
     const StudyInputs& inputs, std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
-    base::RunControl control) {
+    const LearningControl& control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     if (const std::string problem = findPlanningProblem(inputs.settings.track); !problem.empty())
         return base::Error{problem};
     auto chain = traps::readTraps(inputs.settings.track.traps);
-    return Planner(inputs, std::move(chain).value(), planned, std::move(control)).run(most);
+    return Planner(inputs, std::move(chain).value(), planned, control).run(most);
 }
 
 }  // namespace trapwright::study

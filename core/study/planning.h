@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/base/run_control.h"
 #include "core/search/design_space.h"
 #include "core/study/evaluator.h"
 
@@ -27,10 +26,10 @@ std::string findPlanningProblem(const TrackSettings& settings);
 /// ends, and if the settings sum up the objective sorting by that of those that stay on the track. None if
 /// parts come through no groove. About kTrapsPerIndividual traps for each individual of the population are
 /// tried; the same settings give the same designs. `planned` is told of the work as of generation 0. Errors:
-/// traps that cannot be planned, engine, cancelled.
+/// traps that cannot be planned, engine, cancelled, or stopped: there is no generation to wait for.
 base::Result<std::vector<search::Design>> planDesigns(
     const StudyInputs& inputs, std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
-    base::RunControl control);
+    const LearningControl& control);
 inline constexpr int kTrapsPerIndividual = 20;
 
 /// What a plan costs, in trials of whole tracks; 0 if these settings plan none. An estimate: it depends on

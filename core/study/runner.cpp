@@ -99,8 +99,9 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
 
     if (!last && isPlanned(settings.evolution)) {
         const std::size_t most = static_cast<std::size_t>(settings.evolution.populationSize + 1) / 2;
-        const auto designs = planDesigns(inputs, most, events.planned, control.run);
+        const auto designs = planDesigns(inputs, most, events.planned, control);
         if (control.run.cancelled()) return LearningEnd::cancelled;
+        if (control.stopRequested()) return LearningEnd::stopped;
         if (!designs) return designs.error();
         search->begin(*designs);
     }

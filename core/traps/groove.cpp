@@ -15,7 +15,6 @@ constexpr double kShortestEdge = 0.5e-3;  // along the track, because sections m
 constexpr double kLongestEdge = 6e-3;     // [m]
 constexpr double kSteepestLedgeWall = 60.0 * base::kDegree;
 constexpr double kMostFloor = 20.0 * base::kDegree;  // of a ledge, across the track
-constexpr double kNarrowestBridge = 1.5e-3;  // what a cut-out leaves of the track's width, to be printed [m]
 // Of each number: 0.2 mm, 0.7 degrees. Finer ones would have a mutated bit change nothing that a part feels.
 constexpr int kBits = 7;
 
@@ -178,7 +177,7 @@ double longestDrop(const TrapParameters& parameters) {
 
 /// How far a cut goes: beyond the groove's bottom, which is then cut away itself.
 double deepestCut(const TrapParameters& parameters) {
-    return std::min(2.0 / 3.0 * parameters.segmentWidth, parameters.segmentWidth - kNarrowestBridge);
+    return 2.0 / 3.0 * parameters.segmentWidth;
 }
 
 /// A wall on one side of the bottom and a floor on the other, where it is cut away by `cut`. Angles: the wall

@@ -154,10 +154,25 @@ class PlanningTest : public QObject {
     }
 
     void stopsWhenCancelled() {
-        base::RunControl control;
+        study::LearningControl control;
         const auto designs = study::planDesigns(
-            sieveInputs("sorting"), 3, [&](const study::GenerationPlan&) { control.cancel(); }, control);
+            sieveInputs("sorting"), 3, [&](const study::GenerationPlan&) { control.run.cancel(); }, control);
         QVERIFY(!designs.ok());
+    }
+
+    // A stop behind the generation does not wait for the whole plan, which would be lost.
+    void stopsBetweenTraps() {
+        study::LearningControl control;
+        study::LearningEvents events;
+        int told = 0;
+        events.planned = [&](const study::GenerationPlan&) {
+            if (++told == 2) control.stopAfterGeneration();
+        };
+        events.save = [](const study::GenerationRecord&) { return base::success(); };
+        const auto end = study::evolve(sieveInputs("sorting"), {}, events, control);
+        VERIFY_OK(end);
+        QCOMPARE(*end, study::LearningEnd::stopped);
+        QCOMPARE(told, 2);
     }
 
     void tellsWhatCannotBePlanned_data() {
