@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace trapwright::contact {
@@ -17,38 +18,45 @@ bool saySame(const ManifoldPoint& a, const ManifoldPoint& b) {
     return (a.arm - b.arm).squaredNorm() < kSamePlace * kSamePlace && a.normal.dot(b.normal) > kSameNormal;
 }
 
-/// One for each place and normal; the lowest stands for the others. Into `distinct`, in order, if it has room
-/// for them; returns how many there are.
-int findDistinct(std::span<const ManifoldPoint> points, std::span<int> distinct) {
-    int count = 0;
-    for (int i = 0; i < static_cast<int>(points.size()); ++i) {
-        bool stands = true;
-        for (int k = 0; k < static_cast<int>(points.size()) && stands; ++k) {
-            const bool lower = points[k].gap < points[i].gap || (points[k].gap == points[i].gap && k < i);
-            stands = !(lower && saySame(points[i], points[k]));
+/// One for each place and normal, in order; the lowest stands for the others.
+Indices findDistinct(std::span<const ManifoldPoint> points) {
+    // Along an axis, so that those at the same place are near each other in this row.
+    Indices row(points.size());
+    std::iota(row.begin(), row.end(), 0);
+    std::sort(row.begin(), row.end(), [&](int a, int b) { return points[a].arm.x() < points[b].arm.x(); });
+    std::vector<bool> stands(points.size(), true);
+    for (std::size_t first = 0; first < row.size(); ++first) {
+        const int a = row[first];
+        for (std::size_t second = first + 1; second < row.size(); ++second) {
+            const int b = row[second];
+            if (points[b].arm.x() - points[a].arm.x() > kSamePlace) break;
+            if (!saySame(points[a], points[b])) continue;
+            const bool aIsLower = points[a].gap < points[b].gap || (points[a].gap == points[b].gap && a < b);
+            stands[static_cast<std::size_t>(aIsLower ? b : a)] = false;
         }
-        if (!stands) continue;
-        if (count < static_cast<int>(distinct.size())) distinct[count] = i;
-        ++count;
     }
-    return count;
+    Indices distinct;
+    for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+        if (stands[static_cast<std::size_t>(i)]) distinct.push_back(i);
+    }
+    return distinct;
 }
 
 /// The lowest first, then always the one farthest from all that are chosen; far gaps count against it.
 Indices chooseWidest(std::span<const ManifoldPoint> points, const Indices& group, int share) {
     Indices chosen = {*std::min_element(group.begin(), group.end(),
                                         [&](int a, int b) { return points[a].gap < points[b].gap; })};
+    std::vector<double> nearest(group.size(), 1e300);  // of those that are chosen, of each of the group
     while (static_cast<int>(chosen.size()) < share) {
         int best = -1;
         double bestScore = -1e300;
-        for (const int i : group) {
-            double nearest = 1e300;
-            for (const int c : chosen)
-                nearest = std::min(nearest, (points[i].arm - points[c].arm).norm());
-            const double score = nearest - kGapWeight * points[i].gap;
-            if (nearest > 0.0 && score > bestScore) {
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            const ManifoldPoint& point = points[group[i]];
+            nearest[i] = std::min(nearest[i], (point.arm - points[chosen.back()].arm).norm());
+            const double score = nearest[i] - kGapWeight * point.gap;
+            if (nearest[i] > 0.0 && score > bestScore) {
                 bestScore = score;
-                best = i;
+                best = group[i];
             }
         }
         if (best < 0) break;
@@ -92,11 +100,8 @@ Indices thinOutPlanes(std::span<const ManifoldPoint> points, const Indices& all,
 
 int reduceManifold(std::span<const ManifoldPoint> points, std::span<int> kept) {
     const int most = static_cast<int>(kept.size());
-    const int distinct = findDistinct(points, kept);
-    if (distinct <= most) return distinct;
-    Indices all(static_cast<std::size_t>(distinct));
-    findDistinct(points, all);
-    const Indices chosen = thinOutPlanes(points, all, most);
+    Indices chosen = findDistinct(points);
+    if (static_cast<int>(chosen.size()) > most) chosen = thinOutPlanes(points, chosen, most);
     std::copy(chosen.begin(), chosen.end(), kept.begin());
     return static_cast<int>(chosen.size());
 }
