@@ -2,11 +2,17 @@
 
 #include <algorithm>
 
+#include "sim/contact/union_features.h"
+
 namespace trapwright::contact {
 
 using base::Vec3;
 
 namespace {
+
+/// Pieces that are nearer to each other touch: several times what their cuts are off a plane. Relative to the
+/// body's radius.
+constexpr double kTouching = 2e-5;
 
 BodyPiece preparePiece(const geometry::ConvexPolytope& polytope) {
     BodyPiece piece;
@@ -46,6 +52,7 @@ ContactBody prepareBody(const std::vector<geometry::ConvexPolytope>& pieces) {
         for (const Vec3& vertex : polytope.vertices)
             body.radius = std::max(body.radius, vertex.norm());
     }
+    if (body.pieces.size() > 1) keepUnionFeatures(body.pieces, kTouching * body.radius);
     return body;
 }
 

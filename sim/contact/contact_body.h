@@ -25,7 +25,7 @@ struct BodyFace {
     double offset;      // [m]
 };
 
-/// One convex piece of a part.
+/// One convex piece of a part, with those vertices and edges that are the whole part's (keepUnionFeatures).
 struct BodyPiece {
     std::vector<BodyVertex> vertices;
     std::vector<base::Vec3> vertexEdges;

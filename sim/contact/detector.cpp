@@ -105,11 +105,13 @@ void Detector::collectCandidates(const base::Pose& partInTrack, double margin) {
         };
         for (int i = 0; i < static_cast<int>(track_->triangles.size()); ++i) {
             const TrackTriangle& t = track_->triangles[i];
-            if (near(t.centre, t.radius)) candidates_.push_back({Kind::vertexOnTriangle, p, i, 0, -1.0});
+            if (!piece.vertices.empty() && near(t.centre, t.radius))
+                candidates_.push_back({Kind::vertexOnTriangle, p, i, 0, -1.0});
         }
         for (int i = 0; i < static_cast<int>(track_->edges.size()); ++i) {
             const TrackEdge& e = track_->edges[i];
-            if (near(e.centre, e.radius)) candidates_.push_back({Kind::edgeAcrossEdge, p, i, 0, -1.0});
+            if (!piece.edges.empty() && near(e.centre, e.radius))
+                candidates_.push_back({Kind::edgeAcrossEdge, p, i, 0, -1.0});
         }
         for (int i = 0; i < static_cast<int>(track_->vertices.size()); ++i) {
             if (near(track_->vertices[i].position, 0.0))

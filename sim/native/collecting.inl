@@ -245,12 +245,19 @@ inline void collectFaces(const Placed& placed, const PackedPiece& piece, std::ui
         {gap, name, 0, {relative[0], relative[1], relative[2], row(0), row(1), row(2), row(3)}});
 }
 
+/// Whether a piece has anything to touch these features of the track with.
+inline bool hasFeatures(const PackedPiece& piece, Kind kind) {
+    return kind == kVertexOnTriangle ? piece.vertexCount > 0
+                                     : kind == kFaceOnVertex || piece.edges.stride() > 0;
+}
+
 /// Calls `collect` with the names of the features among `balls` that are near one piece.
 template <class Collect>
 inline void collectAmong(const Placed& placed, const BallArrays& balls, Kind kind, const Collect& collect,
                          const std::vector<PackedPiece>& pieces) {
     const int width = static_cast<int>(hn::Lanes(Tag()));
     for (std::size_t p = 0; p < pieces.size(); ++p) {
+        if (!hasFeatures(pieces[p], kind)) continue;
         float centre[3];
         toTrack(placed, pieces[p].centre, centre);
         for (int k = 0; k < 3; ++k)

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/part/bundled.h"
+#include "core/part/part_builder.h"
 #include "detector_scenes.h"
 #include "nearest_features.h"
 #include "sim/contact/formulas/scalar.h"
@@ -85,6 +87,28 @@ class DetectorTest : public QObject {
                 QVERIFY(std::abs(contact.gap - gap) < 1e-12);
             }
         }
+    }
+
+    // Whatever its pieces are: cuts in the faces that they lie on touch nothing.
+    void aPartOfPiecesRestsOnTheCornersOfItsFace_data() {
+        QTest::addColumn<QByteArray>("name");
+        QTest::addColumn<std::size_t>("corners");
+        QTest::newRow("triangular plate with a hole") << QByteArray("plate") << std::size_t{3};
+        QTest::newRow("box open above") << QByteArray("housing") << std::size_t{4};
+        QTest::newRow("ring of 32 facets") << QByteArray("washer") << std::size_t{32};
+    }
+    void aPartOfPiecesRestsOnTheCornersOfItsFace() {
+        QFETCH(QByteArray, name);
+        QFETCH(std::size_t, corners);
+        auto built =
+            part::buildPart(part::makeBundledShape(name.constData()), {.name = name.toStdString()}).value();
+        const DetectorScene scene(verify::makeFlat(), std::make_shared<part::Part>(std::move(built.part)));
+        const part::StablePose& rest = scene.part->stablePoses.front();
+        const auto contacts = scene.findAfresh(
+            {rest.rotation, Vec3(0.1013, 0.0021, 15.0 * kMillimetre + rest.height)}, kMargin);
+        QCOMPARE(contacts.size(), corners);
+        for (const Contact& contact : contacts)
+            QVERIFY(isNear(contact.normal, Vec3::UnitZ()) && std::abs(contact.gap) < 1e-9);
     }
 
     void whatIsFartherThanTheMarginIsNoContact() {
