@@ -2,14 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
 #include "core/base/file.h"
+#include "core/base/parallel.h"
 #include "core/study/evaluator.h"
 #include "core/study/presets.h"
+#include "core/workflow/proposal.h"
 #include "sim/engines/registry.h"
 
 namespace trapwright::app {
@@ -35,6 +42,47 @@ Attempt<std::string> toJson(const std::string& assignment) {
         key.resize(dot);
     }
     return fmt::format("{{{}: {}}}", nlohmann::json(key).dump(), json);
+}
+
+/// Seconds of "45s", "10min", "1h" or "1h30min".
+Attempt<double> readDuration(const std::string& text) {
+    constexpr std::array<std::pair<std::string_view, double>, 3> kUnits = {
+        {{"min", 60.0}, {"s", 1.0}, {"h", 3600.0}}};
+    const Failure wrong{ExitCode::usage,
+                        fmt::format("--time {}: write a time as in 45s, 10min, 1h or 1h30min.", text)};
+    double seconds = 0.0;
+    std::string_view rest = text;
+    while (!rest.empty()) {
+        double number = 0.0;
+        const auto [end, error] =
+            std::from_chars(rest.data(), rest.data() + rest.size(), number, std::chars_format::fixed);
+        if (error != std::errc()) return wrong;
+        rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+        const auto unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const auto& one) {
+            return rest.substr(0, one.first.size()) == one.first;
+        });
+        if (unit == kUnits.end()) return wrong;
+        rest.remove_prefix(unit->first.size());
+        seconds += number * unit->second;
+    }
+    constexpr double kYear = 365.0 * 86400.0;
+    if (!(seconds >= 0.0 && seconds <= kYear)) return wrong;
+    return seconds;
+}
+
+/// Settings for the part and the time, told to the user.
+Attempt<study::Settings> propose(const study::Settings& settings,
+                                 const std::shared_ptr<const part::Part>& part, double seconds,
+                                 const Console& console) {
+    auto engine = makeEngine(
+        engines::registry().nameFor(settings.simulation.engine, trial::EngineUse::learning), {0, 0.0});
+    if (!engine) return engine.error();
+    const auto proposal =
+        workflow::proposeSettings({settings, part, *engine, base::availableThreads()}, seconds, {});
+    if (!proposal) return Failure{ExitCode::usage, "--time: " + proposal.error().message};
+    for (const std::string& reason : proposal->reasons)
+        console.note(reason);
+    return proposal->settings;
 }
 
 Attempt<study::Settings> startingSettings(const CreationOptions& creation) {
@@ -85,7 +133,7 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || surface || settingsFile || paper || sorting;
+           contact || surface || settingsFile || paper || sorting || time;
 }
 
 void addCreationOptions(Command command, CreationOptions& options) {
@@ -106,11 +154,21 @@ void addCreationOptions(Command command, CreationOptions& options) {
                       "Settings in JSON, as `trapwright settings` prints them");
     const Option paper =
         command.addFlag("--paper", options.paper, "The paper's own choices where the defaults go past it");
+    const Option sorting =
+        command
+            .addFlag(
+                "--sorting", options.sorting,
+                "A track that throws out what lies wrong, in proportion to the part: for parts that nothing "
+                "turns into one way")
+            .excludes(paper);
     command
-        .addFlag("--sorting", options.sorting,
-                 "A track that throws out what lies wrong, in proportion to the part: for parts that nothing "
-                 "turns into one way")
-        .excludes(paper);
+        .addOption(
+            "--time", options.time,
+            "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
+            "part, and how much of it for this time on this machine")
+        .type("DURATION")
+        .excludes(paper)
+        .excludes(sorting);
 }
 
 void addSettingOptions(Command command, SettingOptions& options) {
@@ -169,6 +227,12 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
     if (request.part.empty()) {
         return Failure{ExitCode::usage, "A new study needs a part: give --preset cuboid or --part FILE."};
     }
+    std::optional<double> seconds;
+    if (creation.time) {
+        const auto read = readDuration(*creation.time);
+        if (!read) return read.error();
+        seconds = *read;
+    }
     // What is set one by one goes before the surface, which the part's material must be known for.
     auto applied = applySettings(*settings, options);
     if (!applied) return applied.error();
@@ -186,6 +250,12 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
     if (creation.sorting) {
         *settings = study::sortingMode(*settings, *loaded->part);
         applied = applySettings(*settings, options);
+        if (!applied) return applied.error();
+    }
+    if (seconds) {
+        auto proposed = propose(*applied, loaded->part, *seconds, console);
+        if (!proposed) return proposed.error();
+        applied = applySettings(*proposed, options);
         if (!applied) return applied.error();
     }
     applied->part = loaded->settings;

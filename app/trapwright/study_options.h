@@ -23,6 +23,7 @@ struct CreationOptions {
     std::optional<std::string> settingsFile;  // JSON
     bool paper = false;
     bool sorting = false;
+    std::optional<std::string> time;  // that the user has: "10min"
 
     /// Whether the user gave any of them.
     [[nodiscard]] bool given() const;
@@ -48,7 +49,8 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
 /// True if anything changed.
 Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options);
 
-/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting`, the single settings.
+/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting` or what is proposed for
+/// `time`, the single settings.
 /// Refuses settings that cannot be used, and a part that does not fit the track.
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& settings, const Console& console);

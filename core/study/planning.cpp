@@ -31,17 +31,20 @@ constexpr std::size_t kTrapsInRound = 32;
 constexpr int kRoundsBetweenPlans = 6;
 constexpr int kPlansInARow = 4;            // at most, while what they use is measured better
 constexpr int kFirstTrials = 6;            // from each way, of a trap that is new
-constexpr int kMoreTrials = 24;            // of one that brings order
-constexpr int kTrialsOfUsed = 100;         // more and more of those that plans use ...
-constexpr int kMostOfUsed = 300;           // ... up to so many
+constexpr int kMoreTrials = 24;            // of one that is promising
+constexpr int kTrialsOfUsed = 1000;        // of those that plans use, by the ways in which parts come
+constexpr int kMostOfUsed = 300;           // at most, from one way
+constexpr int kTrialsOfFollowed = 300;     // behind each trap of the best chain
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr std::size_t kBeam = 60;          // chains that are followed up
+constexpr std::size_t kBeamOfWay = 10;     // of these, in which parts lie one way more than any other
+constexpr std::size_t kImproved = 5;       // chains of these whose traps are exchanged for better ones
 constexpr std::size_t kSieves = 12;        // whose likes are tried, besides those in use
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
 constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
-constexpr double kLeastGain = 0.1;         // [bit]
+constexpr std::ptrdiff_t kPromising = 5;   // of a round, by each of two measures
 
 /// How many of each way (rows) came to be in which (columns): ways, other, stuck, fallen.
 using Counts = std::vector<std::vector<double>>;
@@ -53,7 +56,14 @@ struct Piece {
     std::size_t kind = 0;  // index of Planner::kinds_
     std::vector<double> numbers;
     Counts counts;
-    Counts chances;  // what counts tell: rows that sum up to 1
+    Counts chances;     // what counts tell: rows that sum up to 1
+    double fall = 0.0;  // of the track, from its beginning to its end [m]
+};
+
+/// What a piece is still to be tried.
+struct Work {
+    Piece* piece = nullptr;
+    std::vector<int> trials;  // from each way
 };
 
 /// A chain: pieces, and where parts are behind it.
@@ -61,6 +71,7 @@ struct Chain {
     std::vector<std::size_t> pieces;
     Belief parts;
     double worth = 0.0;  // minus bits
+    double fall = 0.0;   // of the track [m]
 };
 
 double lowestAt(const track::Track& track, double x) {
@@ -94,7 +105,7 @@ class Planner {
     }
 
     base::Result<std::vector<search::Design>> run(std::size_t most) {
-        if (const auto found = findWays(); !found) return found.error();
+        if (const auto found = findWays(kTrialsOfWays); !found) return found.error();
         if (ways_.empty()) return std::vector<search::Design>{};
         const int rounds = (settings().evolution.populationSize * kTrapsPerIndividual +
                             static_cast<int>(kTrapsInRound) - 1) /
@@ -103,21 +114,54 @@ class Planner {
             if (control_.stopRequested()) return base::Error{"The planning was stopped."};
             tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round));
             if (const auto tried = tryTraps(round); !tried) return tried.error();
-            if (round % kRoundsBetweenPlans == kRoundsBetweenPlans - 1 || round == rounds - 1) {
-                if (const auto improved = plan(); !improved) return improved.error();
-            }
+            const bool isLast = round == rounds - 1;
+            if (!isLast && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
+            if (const auto improved = plan(); !improved) return improved.error();
+            if (isLast || chains_.empty()) continue;
+            if (const auto followed = followParts(); !followed) return followed.error();
         }
         return listDesigns(most);
     }
+
+    /// From so many trials.
+    base::Status findWays(int trials) {
+        const auto track = buildWith(nullptr, {});
+        if (!track) return track.error();
+        const trial::TrialBatch batch = makeBatch(*track, trials);
+        tellProgress(trials);
+        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);
+        if (!outcomes) return outcomes.error();
+        for (const EndMode& mode :
+             findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, kMostWays)) {
+            if (mode.count * kTrialsOfWays >= kLeastOfWay * trials) ways_.push_back(mode.orientation);
+        }
+        starts_.resize(ways_.size() + 1);
+        arriving_.assign(columns(), 0.0);
+        const double bottom = lowestAt(**track, (*track)->finish);
+        fallBefore_ = settings().track.segmentHeight - bottom;
+        for (const trial::Outcome& outcome : outcomes->front()) {
+            const trial::PartOutcome& part = outcome.parts.front();
+            const std::size_t column = findColumn(part);
+            arriving_[column] += 1.0 / trials;
+            if (column >= starts_.size()) continue;
+            base::Pose start = part.farthest;
+            start.position.z() -= bottom;
+            starts_[column].push_back(start);
+        }
+        // Too few to be tried from count as the most frequent way.
+        if (static_cast<int>(starts_.back().size()) * kTrialsOfWays < kLeastOfWay * trials)
+            starts_.pop_back();
+        return base::success();
+    }
+
+    /// That traps are tried from: the ways, and the others together.
+    [[nodiscard]] std::size_t rows() const { return starts_.size(); }
 
  private:
     [[nodiscard]] const Settings& settings() const { return inputs_->settings; }
     [[nodiscard]] std::size_t stuck() const { return ways_.size() + 1; }
     [[nodiscard]] std::size_t fallen() const { return ways_.size() + 2; }
     [[nodiscard]] std::size_t columns() const { return ways_.size() + 3; }
-    /// That traps are tried from: the ways, and the others together.
-    [[nodiscard]] std::size_t rows() const { return starts_.size(); }
-
     void tellProgress(std::int64_t trials) const {
         if (!planned_) return;
         const EvolutionSettings& evolution = settings().evolution;
@@ -136,9 +180,29 @@ class Planner {
             chain.push_back(kind);
             design.insert(design.end(), numbers.begin(), numbers.end());
         }
-        auto track = track::buildTrack(settings().track, traps::build(chain, settings().track, design));
+        return build(chain, design);
+    }
+
+    base::Result<std::shared_ptr<const track::Track>> build(const traps::TrapChain& chain,
+                                                            const search::Design& design) const {
+        // Parts must be seen as they go on: they creep along a level lead-out, and lie better behind it.
+        TrackSettings shortened = settings().track;
+        shortened.leadOutSegments = 1;
+        shortened.maxSegmentLength = 2.0 * inputs_->part->boundingRadius;
+        auto track = track::buildTrack(shortened, traps::build(chain, settings().track, design));
         if (!track) return track.error();
         return std::make_shared<const track::Track>(std::move(track).value());
+    }
+
+    [[nodiscard]] base::Result<std::shared_ptr<const track::Track>> buildChain(
+        std::span<const std::size_t> pieces) const {
+        traps::TrapChain chain(kGroovesBefore, chain_.front());
+        search::Design design = designOfGrooves();
+        for (const std::size_t i : pieces) {
+            chain.push_back(kinds_[pieces_[i].kind]);
+            design.insert(design.end(), pieces_[i].numbers.begin(), pieces_[i].numbers.end());
+        }
+        return build(chain, design);
     }
 
     [[nodiscard]] search::Design designOfGrooves() const {
@@ -155,34 +219,6 @@ class Planner {
         const int individual = settings().evolution.populationSize + batches_++;
         return makeLearningBatch(makeScene(settings(), inputs_->part, std::move(track)), {0, individual},
                                  trials);
-    }
-
-    base::Status findWays() {
-        const auto track = buildWith(nullptr, {});
-        if (!track) return track.error();
-        const trial::TrialBatch batch = makeBatch(*track, kTrialsOfWays);
-        tellProgress(kTrialsOfWays);
-        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);
-        if (!outcomes) return outcomes.error();
-        for (const EndMode& mode :
-             findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, kMostWays)) {
-            if (mode.count >= kLeastOfWay) ways_.push_back(mode.orientation);
-        }
-        starts_.resize(ways_.size() + 1);
-        arriving_.assign(columns(), 0.0);
-        const double bottom = lowestAt(**track, (*track)->finish);
-        for (const trial::Outcome& outcome : outcomes->front()) {
-            const trial::PartOutcome& part = outcome.parts.front();
-            const std::size_t column = findColumn(part);
-            arriving_[column] += 1.0 / kTrialsOfWays;
-            if (column >= starts_.size()) continue;
-            base::Pose start = part.farthest;
-            start.position.z() -= bottom;
-            starts_[column].push_back(start);
-        }
-        // Too few to be tried from count as the most frequent way.
-        if (static_cast<int>(starts_.back().size()) < kLeastOfWay) starts_.pop_back();
-        return base::success();
     }
 
     [[nodiscard]] std::size_t findColumn(const trial::PartOutcome& part) const {
@@ -202,9 +238,17 @@ class Planner {
         return nearest;
     }
 
-    /// Trials from each way in turn, at the beginning of the second groove: what is put there at rest conveys
-    /// as quickly as any other when it comes to the trap.
-    void placeParts(trial::TrialBatch& batch) const {
+    const base::Pose& chooseStart(std::size_t way, base::Random& random) const {
+        const bool isMet = random.uniform() < 0.5 && way < met_.size() && !met_[way].empty();
+        const std::vector<base::Pose>& own = isMet ? met_[way] : starts_[way];
+        // All of a way may be nearer to another one.
+        const std::vector<base::Pose>& from = own.empty() ? starts_.front() : own;
+        return from[random.below(static_cast<std::uint32_t>(from.size()))];
+    }
+
+    /// Trials, each from its way, at the beginning of the second groove: what is put there at rest conveys as
+    /// quickly as any other when it comes to the trap.
+    void placeParts(trial::TrialBatch& batch, const std::vector<std::size_t>& ways) const {
         const track::Track& track = *batch.track;
         const double x = track.sections[2].x + 0.1 * inputs_->part->boundingRadius;
         const double bottom = lowestAt(track, x);
@@ -214,33 +258,37 @@ class Planner {
             trial::TrialSpec& spec = batch.trials[i];
             base::Random random(
                 {spec.stream.seed, 0, spec.stream.individual, spec.stream.trial, base::Purpose::planning});
-            // All of a way may be nearer to another one.
-            const std::vector<base::Pose>& own = starts_[i % rows()];
-            const std::vector<base::Pose>& from = own.empty() ? starts_.front() : own;
-            const base::Pose& start = from[random.below(static_cast<std::uint32_t>(from.size()))];
+            const base::Pose& start = chooseStart(ways[i], random);
             base::Pose& pose = spec.parts.front().pose;
             pose.position = track.shape.toRoom({x, start.position.y(), bottom + start.position.z() + kAbove});
             pose.rotation = base::Quaternion(track.shape.tangentFrame(x)) * fall * start.rotation;
         }
     }
 
-    /// So many trials more of each piece from each way.
-    base::Status measure(std::span<Piece* const> pieces, int trials) {
+    /// So many trials more of each piece, from each way.
+    base::Status measure(std::span<const Work> works) {
         std::vector<trial::TrialBatch> batches;
-        batches.reserve(pieces.size());
-        for (const Piece* piece : pieces) {
-            const auto track = buildWith(kinds_[piece->kind], piece->numbers);
+        std::vector<std::vector<std::size_t>> from;
+        batches.reserve(works.size());
+        for (const Work& work : works) {
+            const auto track = buildWith(kinds_[work.piece->kind], work.piece->numbers);
             if (!track) return track.error();
-            batches.push_back(makeBatch(*track, trials * static_cast<int>(rows())));
+            work.piece->fall =
+                settings().track.segmentHeight - lowestAt(**track, (*track)->finish) - fallBefore_;
+            std::vector<std::size_t>& ways = from.emplace_back();
+            for (std::size_t way = 0; way < rows(); ++way)
+                ways.insert(ways.end(), static_cast<std::size_t>(work.trials[way]), way);
+            batches.push_back(makeBatch(*track, static_cast<int>(ways.size())));
         }
         base::parallelFor(batches.size(), inputs_->threads,
-                          [&](std::size_t i, unsigned /*worker*/) { placeParts(batches[i]); });
+                          [&](std::size_t i, unsigned /*worker*/) { placeParts(batches[i], from[i]); });
         const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
         if (!outcomes) return outcomes.error();
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            for (std::size_t k = 0; k < (*outcomes)[i].size(); ++k)
-                pieces[i]->counts[k % rows()][findColumn((*outcomes)[i][k].parts.front())] += 1.0;
-            pieces[i]->chances = calcChances(pieces[i]->counts);
+        for (std::size_t i = 0; i < works.size(); ++i) {
+            Piece& piece = *works[i].piece;
+            for (std::size_t k = 0; k < from[i].size(); ++k)
+                piece.counts[from[i][k]][findColumn((*outcomes)[i][k].parts.front())] += 1.0;
+            piece.chances = calcChances(piece.counts);
         }
         return base::success();
     }
@@ -296,15 +344,19 @@ class Planner {
         return search::roundToBits(random.uniform(), dimension.bits);
     }
 
+    [[nodiscard]] Piece makePiece(std::size_t kind, std::vector<double> numbers) const {
+        return {kind, std::move(numbers), Counts(rows(), Belief(columns(), 0.0)), {}, 0.0};
+    }
+
     Piece drawPiece(std::size_t kind, base::Random& random) const {
-        Piece piece{kind, {}, Counts(rows(), Belief(columns(), 0.0)), {}};
+        Piece piece = makePiece(kind, {});
         for (const search::Dimension& dimension : dimensions_[kind])
             piece.numbers.push_back(drawNumber(dimension, random));
         return piece;
     }
 
     Piece mutate(const Piece& parent, base::Random& random) const {
-        Piece piece{parent.kind, parent.numbers, Counts(rows(), Belief(columns(), 0.0)), {}};
+        Piece piece = makePiece(parent.kind, parent.numbers);
         const std::vector<search::Dimension>& dimensions = dimensions_[parent.kind];
         const std::uint32_t changes = 1 + random.below(3);
         const double step = std::exp(random.uniform(std::log(0.01), std::log(0.25)));
@@ -339,25 +391,62 @@ class Planner {
                 tried.push_back(drawPiece(i % kinds_.size(), random));
             }
         }
-        std::vector<Piece*> all(tried.size());
-        std::transform(tried.begin(), tried.end(), all.begin(), [](Piece& piece) { return &piece; });
-        if (const auto measured = measure(all, kFirstTrials); !measured) return measured.error();
-        std::vector<Piece*> chosen;
-        for (std::size_t i = 0; i < tried.size(); ++i) {
-            if ((round == 0 && i < kinds_.size()) || isOfUse(tried[i])) chosen.push_back(&tried[i]);
-        }
-        if (chosen.empty()) return base::success();
-        if (const auto measured = measure(chosen, kMoreTrials); !measured) return measured.error();
-        for (Piece* piece : chosen)
-            pieces_.push_back(std::move(*piece));
+        std::vector<Work> works;
+        for (Piece& piece : tried)
+            works.push_back({&piece, std::vector<int>(rows(), kFirstTrials)});
+        if (const auto measured = measure(works); !measured) return measured.error();
+        works.clear();
+        for (const std::size_t i : choosePromising(tried, round == 0 ? kinds_.size() : 0))
+            works.push_back({&tried[i], std::vector<int>(rows(), kMoreTrials)});
+        if (works.empty()) return base::success();
+        if (const auto measured = measure(works); !measured) return measured.error();
+        for (const Work& work : works)
+            pieces_.push_back(std::move(*work.piece));
         return base::success();
     }
 
-    /// Whether a trap gets few parts stuck and brings order, once or at every place of its kind.
-    [[nodiscard]] bool isOfUse(const Piece& piece) const {
-        const Belief once = pass(arriving_, piece.chances);
-        if (once[stuck()] - arriving_[stuck()] > kMostStuck) return false;
-        return std::max(worthOf(once), worthOf(repeat(piece))) - worthOf(arriving_) > kLeastGain;
+    /// The traps to look at closer: the first `sure` ones, those that would be of most use in the best chain
+    /// of today, and those that bring most order by themselves; none that gets parts stuck.
+    [[nodiscard]] std::vector<std::size_t> choosePromising(const std::vector<Piece>& tried,
+                                                           std::size_t sure) const {
+        std::vector<std::size_t> fit;
+        std::vector<double> inChain;
+        std::vector<double> alone;
+        for (std::size_t i = 0; i < tried.size(); ++i) {
+            const Belief once = pass(arriving_, tried[i].chances);
+            inChain.push_back(worthInChain(tried[i]));
+            alone.push_back(std::max(worthOf(once), worthOf(repeat(tried[i]))));
+            if (i >= sure && once[stuck()] - arriving_[stuck()] <= kMostStuck) fit.push_back(i);
+        }
+        std::set<std::size_t> chosen;
+        for (std::size_t i = 0; i < sure; ++i)
+            chosen.insert(i);
+        for (const std::vector<double>* worth : {&inChain, &alone}) {
+            std::stable_sort(fit.begin(), fit.end(),
+                             [&](std::size_t a, std::size_t b) { return (*worth)[a] > (*worth)[b]; });
+            chosen.insert(fit.begin(), fit.begin() + std::min(kPromising, std::ssize(fit)));
+        }
+        return {chosen.begin(), chosen.end()};
+    }
+
+    /// Of the best chain of today if this piece took the place that suits it most.
+    [[nodiscard]] double worthInChain(const Piece& piece) const {
+        double most = -1e300;
+        if (chains_.empty()) return most;
+        Belief before = arriving_;
+        for (std::size_t place = 0; place < places_.size(); ++place) {
+            if (places_[place] == piece.kind)
+                most = std::max(most, worthOf(passOn(pass(before, piece.chances), place + 1)));
+            before = pass(before, pieces_[chains_.front().pieces[place]].chances);
+        }
+        return most;
+    }
+
+    /// Where parts are behind the best chain of today if they are so before one of its places.
+    [[nodiscard]] Belief passOn(Belief parts, std::size_t place) const {
+        for (; place < places_.size(); ++place)
+            parts = pass(parts, pieces_[chains_.front().pieces[place]].chances);
+        return parts;
     }
 
     /// Where parts are behind as many of these as there are places of their kind.
@@ -369,31 +458,88 @@ class Planner {
         return parts;
     }
 
-    /// The best chains of what is known, best first, by a beam search from the first trap on.
+    /// The best chains of what is known, best first: a beam search from the first trap on, whose best ones
+    /// then have traps exchanged.
     [[nodiscard]] std::vector<Chain> findChains() const {
-        std::vector<Chain> beam{{{}, arriving_, worthOf(arriving_)}};
-        for (const std::size_t kind : places_) {
+        std::vector<Chain> chains = searchBeam(emptyChain(), kBeam);
+        for (std::size_t i = 0; i < std::min(kImproved, chains.size()); ++i)
+            exchangeTraps(chains[i]);
+        std::stable_sort(chains.begin(), chains.end(),
+                         [](const Chain& a, const Chain& b) { return a.worth > b.worth; });
+        return chains;
+    }
+
+    [[nodiscard]] Chain append(const Chain& chain, std::size_t index) const {
+        const Piece& piece = pieces_[index];
+        Chain longer{chain.pieces, pass(chain.parts, piece.chances), 0.0, chain.fall + piece.fall};
+        longer.pieces.push_back(index);
+        longer.worth = worthOf(longer.parts);
+        return longer;
+    }
+
+    [[nodiscard]] Chain emptyChain() const { return {{}, arriving_, worthOf(arriving_), 0.0}; }
+
+    /// So that a chain stays within the track's height.
+    [[nodiscard]] double mostFall() const { return settings().track.segmentHeight - fallBefore_; }
+
+    /// The best chains that begin like this one, if so many are followed up at each place.
+    [[nodiscard]] std::vector<Chain> searchBeam(Chain start, std::size_t width) const {
+        std::vector<Chain> beam{std::move(start)};
+        for (std::size_t place = beam.front().pieces.size(); place < places_.size(); ++place) {
+            const std::size_t kind = places_[place];
             std::vector<Chain> next;
             for (const Chain& chain : beam) {
                 for (std::size_t i = 0; i < pieces_.size(); ++i) {
-                    if (pieces_[i].kind != kind) continue;
-                    Chain longer{chain.pieces, pass(chain.parts, pieces_[i].chances), 0.0};
-                    longer.pieces.push_back(i);
-                    longer.worth = worthOf(longer.parts);
-                    next.push_back(std::move(longer));
+                    const Piece& piece = pieces_[i];
+                    if (piece.kind != kind || chain.fall + piece.fall > mostFall()) continue;
+                    next.push_back(append(chain, i));
                 }
             }
             std::stable_sort(next.begin(), next.end(),
                              [](const Chain& a, const Chain& b) { return a.worth > b.worth; });
             beam.clear();
-            // Chains of the same worth are the same traps in another order.
+            std::vector<std::size_t> ofWay(ways_.size(), 0);
             for (Chain& chain : next) {
+                if (beam.size() == width) break;
+                const auto ways = std::span(chain.parts).first(ways_.size());
+                std::size_t& alike = ofWay[static_cast<std::size_t>(
+                    std::max_element(ways.begin(), ways.end()) - ways.begin())];
+                // Chains of the same worth are the same traps in another order.
                 constexpr double kSame = 1e-9;
-                if (beam.size() == kBeam) break;
-                if (beam.empty() || beam.back().worth - chain.worth > kSame) beam.push_back(std::move(chain));
+                if (alike == kBeamOfWay || (!beam.empty() && beam.back().worth - chain.worth <= kSame))
+                    continue;
+                ++alike;
+                beam.push_back(std::move(chain));
             }
         }
         return beam;
+    }
+
+    /// Exchanges the one trap for the one other that makes a chain worth most, as long as it gains.
+    void exchangeTraps(Chain& chain) const {
+        constexpr double kGain = 1e-6;
+        for (bool gained = true; gained;) {
+            gained = false;
+            Chain best = chain;
+            Belief before = arriving_;
+            for (std::size_t place = 0; place < places_.size(); ++place) {
+                const Piece& current = pieces_[chain.pieces[place]];
+                for (std::size_t i = 0; i < pieces_.size(); ++i) {
+                    const double fall = chain.fall - current.fall + pieces_[i].fall;
+                    if (pieces_[i].kind != places_[place] || fall > mostFall()) continue;
+                    Belief parts = pass(before, pieces_[i].chances);
+                    for (std::size_t later = place + 1; later < places_.size(); ++later)
+                        parts = pass(parts, pieces_[chain.pieces[later]].chances);
+                    const double worth = worthOf(parts);
+                    if (worth <= best.worth + kGain) continue;
+                    best = {chain.pieces, std::move(parts), worth, fall};
+                    best.pieces[place] = i;
+                    gained = true;
+                }
+                before = pass(before, current.chances);
+            }
+            chain = std::move(best);
+        }
     }
 
     /// Those that would be worth most one after the other, at every place of their kind: what throws one way
@@ -424,18 +570,73 @@ class Planner {
             std::set<std::size_t> looked = used;
             looked.insert(sieves_.begin(),
                           sieves_.begin() + std::min<std::ptrdiff_t>(2, std::ssize(sieves_)));
-            std::vector<Piece*> uncertain;
+            std::vector<Work> works;
             for (const std::size_t i : looked) {
-                double trials = 0.0;
-                for (const double count : pieces_[i].counts.front())
-                    trials += count;
-                if (trials < kMostOfUsed) uncertain.push_back(&pieces_[i]);
+                Work work = findUncertain(i);
+                if (work.piece != nullptr) works.push_back(std::move(work));
             }
-            if (uncertain.empty()) return base::success();
-            if (const auto measured = measure(uncertain, kTrialsOfUsed); !measured) return measured.error();
+            if (works.empty()) break;
+            if (const auto measured = measure(works); !measured) return measured.error();
         }
         chains_ = findChains();
         return base::success();
+    }
+
+    /// Parts before each trap of the best chain: what its traps do is counted with them from then on, beside
+    /// those of the plain groove, as within its way a part lies as the traps before have laid it.
+    base::Status followParts() {
+        std::vector<trial::TrialBatch> batches;
+        std::vector<double> bottoms;
+        for (std::size_t place = 1; place < places_.size(); ++place) {
+            const auto track = buildChain(std::span(chains_.front().pieces).first(place));
+            if (!track) return track.error();
+            bottoms.push_back(lowestAt(**track, (*track)->finish));
+            batches.push_back(makeBatch(*track, kTrialsOfFollowed));
+        }
+        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
+        if (!outcomes) return outcomes.error();
+        met_.assign(rows(), {});
+        for (std::size_t i = 0; i < batches.size(); ++i) {
+            for (const trial::Outcome& outcome : (*outcomes)[i]) {
+                const std::size_t column = findColumn(outcome.parts.front());
+                if (column >= rows()) continue;
+                met_[column].push_back(outcome.parts.front().farthest);
+                met_[column].back().position.z() -= bottoms[i];
+            }
+        }
+        for (const std::size_t i : used_) {
+            for (Belief& counts : pieces_[i].counts)
+                for (double& count : counts)
+                    count *= 0.5;
+        }
+        return base::success();
+    }
+
+    /// Trials that tell more of a piece, from the ways in which parts come to it in the best chain; none if
+    /// all of them are known well.
+    Work findUncertain(std::size_t index) {
+        Belief coming(columns(), 0.0);
+        Belief parts = arriving_;
+        bool isUsed = false;
+        for (const std::size_t used : chains_.front().pieces) {
+            const double staying = std::max(1e-9, 1.0 - parts[stuck()] - parts[fallen()]);
+            for (std::size_t way = 0; way < rows() && used == index; ++way)
+                coming[way] = std::max(coming[way], parts[way] / staying);
+            isUsed = isUsed || used == index;
+            parts = pass(parts, pieces_[used].chances);
+        }
+        if (!isUsed) coming = arriving_;
+        Work work{nullptr, std::vector<int>(rows(), 0)};
+        for (std::size_t way = 0; way < rows(); ++way) {
+            double trials = 0.0;
+            for (const double count : pieces_[index].counts[way])
+                trials += count;
+            const int wanted = std::min(kMostOfUsed, static_cast<int>(kTrialsOfUsed * coming[way]));
+            if (static_cast<int>(trials) >= wanted) continue;
+            work.trials[way] = wanted - static_cast<int>(trials);
+            work.piece = &pieces_[index];
+        }
+        return work;
     }
 
     void forget() {
@@ -470,13 +671,15 @@ class Planner {
     const std::function<void(const GenerationPlan&)>& planned_;
     LearningControl control_;
     std::int64_t doneBefore_;
-    int batches_ = 0;  // so far
+    double fallBefore_ = 0.0;  // of the grooves [m]
+    int batches_ = 0;          // so far
     bool forgivesFalls_;
     std::vector<const traps::TrapKind*> kinds_;               // of the traps behind the grooves, each once
     std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind
     std::vector<std::size_t> places_;                         // kinds, along the track
     std::vector<base::Quaternion> ways_;                      // in which parts lie
     std::vector<std::vector<base::Pose>> starts_;  // of each way, and of others; z from the groove's bottom
+    std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chain
     Belief arriving_;                              // at the first trap
     std::vector<Piece> pieces_;                    // that are known
     std::vector<std::size_t> used_;                // of these, by the best chain
@@ -507,9 +710,30 @@ bool isPlanned(const EvolutionSettings& settings) {
            settings.firstGeneration == search::ga::FirstGeneration::planned;
 }
 
-std::int64_t estimatePlanningTrials(const EvolutionSettings& settings) {
-    constexpr std::int64_t kTrialsOfTrap = 150;  // of whole tracks
-    return isPlanned(settings) ? settings.populationSize * kTrapsPerIndividual * kTrialsOfTrap : 0;
+base::Result<int> countWays(const StudyInputs& inputs, const base::RunControl& control) {
+    constexpr int kTrials = 600;
+    LearningControl counting;
+    counting.run = control;
+    Planner planner(inputs, traps::readTraps(inputs.settings.track.traps).value(), {}, counting);
+    const auto found = planner.findWays(kTrials);
+    if (!found) return found.error();
+    return static_cast<int>(planner.rows());
+}
+
+std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways) {
+    constexpr std::int64_t kTrialsOfTrap = 15;  // from each way
+    return isPlanned(settings) ? kTrialsOfWays + std::int64_t{settings.populationSize} * kTrapsPerIndividual *
+                                                     ways * kTrialsOfTrap
+                               : 0;
+}
+
+TrackSettings planningTrack(const TrackSettings& settings) {
+    TrackSettings track = settings;
+    track.leadOutSegments = 1;
+    const auto chain = traps::readTraps(settings.traps);
+    if (!chain || chain->size() <= kGroovesBefore) return track;
+    track.traps = fmt::format("{}, {}, {}", (*chain)[0]->key, (*chain)[1]->key, (*chain)[2]->key);
+    return track;
 }
 
 base::Result<std::vector<search::Design>> planDesigns(

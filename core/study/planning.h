@@ -32,10 +32,17 @@ base::Result<std::vector<search::Design>> planDesigns(
     const LearningControl& control);
 inline constexpr int kTrapsPerIndividual = 20;
 
-/// What a plan costs, in trials of whole tracks; 0 if these settings plan none. An estimate: it depends on
-/// the ways in which parts lie, and on how many traps do something (365 trials of half a track each for the
-/// wedge).
-std::int64_t estimatePlanningTrials(const EvolutionSettings& settings);
+/// In how many ways parts lie when they come to the first trap, as a plan tells them apart, from some hundred
+/// trials. The settings must be those of a planned study. Errors: engine, cancelled.
+base::Result<int> countWays(const StudyInputs& inputs, const base::RunControl& control);
+/// Trials of traps by themselves that a plan takes where parts lie in so many ways; 0 if these settings plan
+/// none. An estimate.
+std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways);
+/// What such a trial is like, so that it can be timed: a whole way along the layout of this track costs
+/// 1 / kPlanningShare times as much, as parts start at its second groove and many come to no end.
+TrackSettings planningTrack(const TrackSettings& settings);
+inline constexpr double kPlanningShare = 0.6;
+
 /// Whether generation 0 is planned.
 bool isPlanned(const EvolutionSettings& settings);
 

@@ -17,6 +17,14 @@ constexpr std::string_view kConePair = "brass-on-printed-plastic";
 
 constexpr std::string_view kUsualSurface = "printed plastic";
 
+/// What was right for a part of this bounding radius [m]; in whole half millimetres, as a quotient, which
+/// files write without a tail of decimals.
+double scaleLength(double length, double radius, const part::Part& part) {
+    constexpr double kHalfMillimetres = 2000.0;  // in a metre
+    return std::max(1.0, std::round(length * part.boundingRadius / radius * kHalfMillimetres)) /
+           kHalfMillimetres;
+}
+
 }  // namespace
 
 std::span<const std::string_view> presetNames() {
@@ -76,15 +84,25 @@ Settings paperMode(Settings settings) {
     return settings;
 }
 
+Settings turningMode(Settings settings, const part::Part& part) {
+    const auto inProportion = [&](double ofCuboid) { return scaleLength(ofCuboid, 7.5e-3, part); };
+    settings.track.traps = "free-form";
+    settings.track.crossSections = 5;
+    settings.track.pointsPerSection = 8;
+    settings.track.minSegmentLength = inProportion(15e-3);
+    settings.track.maxSegmentLength = inProportion(36e-3);
+    settings.track.segmentWidth = inProportion(60e-3);
+    settings.track.segmentHeight = inProportion(30e-3);
+    settings.evolution.search = search::Method::genetic;
+    settings.evolution.objectives = objectives::kPaperObjectives;
+    settings.evolution.firstGeneration = search::ga::FirstGeneration::graded;
+    settings.evolution.racingTrials = 0;
+    return settings;
+}
+
 Settings sortingMode(Settings settings, const part::Part& part) {
-    // What was right for the wedge; as a quotient, which files write without a tail of decimals.
-    const auto inProportion = [&](double ofWedge) {
-        constexpr double kWedge = 8.9e-3;            // its bounding radius [m]
-        constexpr double kHalfMillimetres = 2000.0;  // in a metre
-        const double length = ofWedge * part.boundingRadius / kWedge;
-        return std::max(1.0, std::round(length * kHalfMillimetres)) / kHalfMillimetres;
-    };
-    settings.track.traps = "groove, groove, 4 x cut-out";
+    const auto inProportion = [&](double ofWedge) { return scaleLength(ofWedge, 8.9e-3, part); };
+    settings.track.traps = "groove, groove, 8 x cut-out";
     settings.track.pointsPerSection = 9;
     settings.track.minSegmentLength = inProportion(5e-3);
     settings.track.maxSegmentLength = inProportion(30e-3);

@@ -24,8 +24,12 @@ base::Result<Settings> presetSettings(const std::string& name);
 /// own random numbers and as patient as in validation, every trial by Simbody, a bowl of 175 mm.
 Settings paperMode(Settings settings);
 
+/// Changes settings to those of a track that turns parts over: the paper's trap and objectives with Table 1's
+/// lengths for the cuboid, in proportion to the part. Lengths are whole half millimetres.
+Settings turningMode(Settings settings, const part::Part& part);
+
 /// Changes settings to those of a track that throws out what lies wrong, in proportion to the part: two
-/// grooves and four cut-outs, planned, judged by sorting (decisions.md#sorting), with a few generations
+/// grooves and eight cut-outs, planned, judged by sorting (decisions.md#sorting), with a few generations
 /// behind the plan. Lengths are whole half millimetres.
 Settings sortingMode(Settings settings, const part::Part& part);
 

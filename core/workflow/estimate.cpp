@@ -14,15 +14,20 @@ namespace trapwright::workflow {
 
 namespace {
 
-/// A draft's population and trials each, best first.
-struct DraftSize {
+/// A population, as many trials or so, and how many generations it must get to be better than a smaller one.
+struct Size {
     int population = 0;
     int trials = 0;
+    int generations = 0;
 };
-constexpr std::array<DraftSize, 6> kDraftSizes = {
-    {{100, 100}, {80, 60}, {60, 50}, {40, 40}, {30, 30}, {20, 20}}};
-constexpr int kEnoughGenerations = 25;
-constexpr int kFewestGenerations = 10;  // of the smallest
+constexpr std::array<Size, 8> kSizes = {{{400, 400, 200},
+                                         {200, 200, 200},
+                                         {100, 100, 25},
+                                         {80, 60, 25},
+                                         {60, 50, 25},
+                                         {40, 40, 25},
+                                         {30, 30, 25},
+                                         {20, 20, 10}}};
 constexpr int kTimedTrials = 40;  // each, at most: a draft has no more, and its tracks are built as often
 
 /// Calls `simulate` with more and more, until what it does takes about `budget` seconds. Seconds for one.
@@ -57,9 +62,9 @@ base::Result<double> timeRandomTracks(const study::StudyInputs& inputs, double b
     return *each / inputs.settings.evolution.trialsPerEvaluation;
 }
 
-base::Result<double> timeFlatTrack(const study::StudyInputs& inputs, double budget,
-                                   const base::RunControl& control) {
-    auto track = study::buildLayout(inputs.settings.track);
+base::Result<double> timeLayout(const study::StudyInputs& inputs, const study::TrackSettings& settings,
+                                double budget, const base::RunControl& control) {
+    auto track = study::buildLayout(settings);
     if (!track) return track.error();
     const auto flat = std::make_shared<const track::Track>(std::move(*track));
     study::SimulationSettings simulation = inputs.settings.simulation;
@@ -77,27 +82,37 @@ base::Result<double> timeFlatTrack(const study::StudyInputs& inputs, double budg
 
 }  // namespace
 
-base::Result<double> timeTrial(const study::StudyInputs& inputs, double budget,
-                               const base::RunControl& control) {
+base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budget,
+                                   const base::RunControl& control) {
     if (const auto checked = study::checkInputs(inputs); !checked) return checked.error();
     study::StudyInputs timed = inputs;
     study::EvolutionSettings& evolution = timed.settings.evolution;
+    const bool isPlanned = study::isPlanned(evolution);
+    const double each = budget / (isPlanned ? 3.0 : 2.0);
     // A race's share of trials is its own.
     if (evolution.racingTrials == 0)
         evolution.trialsPerEvaluation = std::min(evolution.trialsPerEvaluation, kTimedTrials);
-    const auto random = timeRandomTracks(timed, 0.5 * budget, control);
+    const auto random = timeRandomTracks(timed, each, control);
     if (!random) return random.error();
-    const auto flat = timeFlatTrack(timed, 0.5 * budget, control);
+    const auto flat = timeLayout(timed, timed.settings.track, each, control);
     if (!flat) return flat.error();
-    return evolution.racingTrials == 0 ? std::max(*random, *flat) : *random;
+    TrialCost cost{evolution.racingTrials == 0 ? std::max(*random, *flat) : *random, 0.0, 0};
+    if (!isPlanned) return cost;
+    const auto planning = timeLayout(timed, study::planningTrack(timed.settings.track), each, control);
+    if (!planning) return planning.error();
+    cost.planning = study::kPlanningShare * *planning;
+    const auto ways = study::countWays(timed, control);
+    if (!ways) return ways.error();
+    cost.ways = *ways;
+    return cost;
 }
 
-double learningTime(const study::EvolutionSettings& evolution, int generations, double secondsPerTrial) {
-    double trials =
-        static_cast<double>(evolution.populationSize) * evolution.trialsPerEvaluation * generations;
+double learningTime(const study::EvolutionSettings& evolution, int generations, const TrialCost& cost) {
+    double time = static_cast<double>(evolution.populationSize) * evolution.trialsPerEvaluation *
+                  generations * cost.learning;
     if (generations >= evolution.generations)
-        trials += static_cast<double>(study::estimatePlanningTrials(evolution));
-    return secondsPerTrial * trials;
+        time += static_cast<double>(study::estimatePlanningTrials(evolution, cost.ways)) * cost.planning;
+    return time;
 }
 
 bool costTheSame(const study::Settings& a, const study::Settings& b) {
@@ -111,27 +126,27 @@ bool costTheSame(const study::Settings& a, const study::Settings& b) {
     return same == a;
 }
 
-std::optional<study::EvolutionSettings> draftEvolution(const study::EvolutionSettings& full,
-                                                       double secondsPerTrial) {
-    const double trials = kDraftLearningTime / secondsPerTrial;
-    if (!std::isfinite(trials)) return std::nullopt;
-    for (const DraftSize& size : kDraftSizes) {
+std::optional<study::EvolutionSettings> fitEvolution(const study::EvolutionSettings& full, double seconds,
+                                                     const TrialCost& cost) {
+    if (!(cost.learning > 0.0)) return std::nullopt;
+    for (const Size& size : kSizes) {
         const int population = std::min(size.population, full.populationSize);
         const int each = std::min(size.trials, full.trialsPerEvaluation);
         study::EvolutionSettings smaller = full;
         smaller.populationSize = population;
-        const double left = trials - static_cast<double>(study::estimatePlanningTrials(smaller));
-        const double generations = std::floor(left / (static_cast<double>(population) * each));
-        const bool last = &size == &kDraftSizes.back();
-        const int enough = std::min(last ? kFewestGenerations : kEnoughGenerations, full.generations);
-        if (generations < enough) continue;
-        study::EvolutionSettings draft = full;
-        draft.populationSize = population;
-        draft.trialsPerEvaluation = each;
-        draft.racingTrials = std::min(draft.racingTrials, each);
-        draft.tournamentSize = std::min(draft.tournamentSize, population);
-        draft.generations = static_cast<int>(std::min<double>(generations, full.generations));
-        return draft;
+        smaller.trialsPerEvaluation = each;
+        const double planning =
+            static_cast<double>(study::estimatePlanningTrials(smaller, cost.ways)) * cost.planning;
+        const double generations =
+            std::floor((seconds - planning) / (static_cast<double>(population) * each * cost.learning));
+        if (!(generations >= std::min(size.generations, full.generations))) continue;
+        study::EvolutionSettings fitted = full;
+        fitted.populationSize = population;
+        fitted.trialsPerEvaluation = each;
+        fitted.racingTrials = std::min(fitted.racingTrials, each);
+        fitted.tournamentSize = std::min(fitted.tournamentSize, population);
+        fitted.generations = static_cast<int>(std::min<double>(generations, full.generations));
+        return fitted;
     }
     return std::nullopt;
 }

@@ -8,18 +8,25 @@
 
 namespace trapwright::workflow {
 
-/// What a trial costs while this study learns, on this machine as it is now [s of wall time, all threads at
-/// work, the building of tracks included]. Simulates for about `budget` seconds: half of it random
-/// individuals, whose parts often do not come far, half parts on the flat layout, which go all the way as on
-/// a good track. The dearer of the two counts, so that the estimate does not grow while the tracks get
-/// better. Errors: settings or part that cannot be used, engine, cancelled.
-base::Result<double> timeTrial(const study::StudyInputs& inputs, double budget,
-                               const base::RunControl& control);
+/// What a trial costs on this machine as it is now [s of wall time, all threads at work, the building of
+/// tracks included].
+struct TrialCost {
+    double learning = 0.0;  // 0: not known
+    double planning = 0.0;  // of a trap by itself, before generation 0; 0 where none is planned
+    int ways = 0;           // in which parts come to a trap then (study::countWays)
+};
 
-/// How long so many generations take when a trial takes `secondsPerTrial` [s]; if they are all, with the
-/// planning of the first one. Checks by the reference
-/// engine, which go on beside learning, are left out.
-double learningTime(const study::EvolutionSettings& evolution, int generations, double secondsPerTrial);
+/// Times trials as this study learns by. Simulates for about `budget` seconds: random individuals, whose
+/// parts often do not come far, and parts on the flat layout, which go all the way as on a good track; the
+/// dearer of the two counts, so that the estimate does not grow while the tracks get better. Of a planned
+/// study also the part of the layout that a trap is tried on. Errors: settings or part that cannot be used,
+/// engine, cancelled.
+base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budget,
+                                   const base::RunControl& control);
+
+/// How long so many generations take [s]; if they are all, with the planning of the first one. Checks by the
+/// reference engine, which go on beside learning, are left out.
+double learningTime(const study::EvolutionSettings& evolution, int generations, const TrialCost& cost);
 
 /// Whether a trial costs the same with both: they differ in nothing but how many there are, and in what comes
 /// after learning.
@@ -30,11 +37,11 @@ bool costTheSame(const study::Settings& a, const study::Settings& b);
 inline constexpr double kDraftTime = 600.0;
 inline constexpr double kDraftLearningTime = 450.0;
 
-/// Learning cut down to kDraftLearningTime: the largest of some populations, with as many trials, that gets
-/// 25 generations or more, and no more of anything than `full` has. All else stays. None if not even 10
-/// generations of 20 individuals with 20 trials fit.
-std::optional<study::EvolutionSettings> draftEvolution(const study::EvolutionSettings& full,
-                                                       double secondsPerTrial);
+/// Learning cut down to `seconds`: the largest of some populations, with as many trials, that gets
+/// generations enough to go with it, and no more of anything than `full` has. All else stays. None if not
+/// even 10 generations of 20 individuals with 20 trials fit.
+std::optional<study::EvolutionSettings> fitEvolution(const study::EvolutionSettings& full, double seconds,
+                                                     const TrialCost& cost);
 
 /// Table 1 of the paper again: population, trials and generations of a new study; all else stays.
 study::EvolutionSettings fullEvolution(study::EvolutionSettings evolution);

@@ -131,7 +131,7 @@ class CommandsTest : public QObject {
                      .code,
                  0);
         const QJsonObject settings = ask({"settings", "sorting.trap", "--json"}).json();
-        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, 4 x cut-out");
+        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, 8 x cut-out");
         QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
         QCOMPARE(settings["evolution"].toObject()["populationSize"].toInt(), 7);
@@ -142,6 +142,32 @@ class CommandsTest : public QObject {
         const Ran both = ask({"new", "both.trap", "--part", "wedge", "--sorting", "--paper"});
         QCOMPARE(both.code, 2);
         QVERIFY(both.errors.contains("--sorting"));
+    }
+
+    // What is learned goes by the part, how much of it by the time; what is set one by one comes after it.
+    void settingsForATime() {
+        const Ran made = ask({"new", "timed.trap", "--part", "wedge", "--engine", "native", "--time", "2min",
+                              "--generations", "3"});
+        QVERIFY2(made.code == 0, made.all());
+        QVERIFY2(made.errors.contains("wedge (symmetry C1) looks another way"), made.all());
+        QVERIFY2(made.errors.contains("here, of 2 min."), made.all());
+        const QJsonObject settings = ask({"settings", "timed.trap", "--json"}).json();
+        QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
+        QCOMPARE(settings["evolution"].toObject()["generations"].toInt(), 3);
+
+        // Refused before anything is made, with what to write instead.
+        for (const char* wrong : {"", "10", "10 apples", "min", "-1h", "1h nonsense"}) {
+            const Ran refused = ask({"new", "no.trap", "--part", "wedge", "--time", wrong});
+            QCOMPARE(refused.code, 2);
+            QVERIFY2(*wrong == '\0' || refused.errors.contains("1h30min"), refused.all());
+        }
+        const Ran tooShort = ask({"new", "no.trap", "--part", "wedge", "--time", "30s"});
+        QCOMPARE(tooShort.code, 2);
+        QVERIFY2(tooShort.errors.contains("60 s or more"), tooShort.all());
+        QCOMPARE(ask({"new", "no.trap", "--part", "wedge", "--time", "2min", "--sorting"}).code, 2);
+        QCOMPARE(ask({"new", "no.trap", "--part", "wedge", "--time", "2min", "--paper"}).code, 2);
+        QVERIFY(!QFile::exists("no.trap"));
+        QCOMPARE(ask({"evolve", "timed.trap", "--time", "2min"}).code, 2);
     }
 
     void selectValidateExportReplay() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a track that throws out wrong parts does with parts that nothing turns into one way: `evolve --sorting` for each
-# part, its best winner by fresh native trials, and that track in the reference engine. One line for each part and engine.
+# What tracks do with parts that hardly anything turns into one way: `evolve --sorting`, or `--time`, for each part, its
+# best winner by fresh native trials, and that track in the reference engine. One line for each part and engine.
 set -euo pipefail
 
 usage() {
@@ -10,7 +10,8 @@ Usage: tests/studies/sorting.sh [FOLDER]
 The studies are kept in FOLDER (default: ./trapwright-sorting). From the environment:
     PARTS        names or files ("wedge clip holed-bracket d-shaft housing plate")
     SEEDS        ("1")
-    OPTIONS      of new studies ("")
+    HOW          they are made ("--sorting"), as in "--time 10min"
+    OPTIONS      of new studies, besides ("")
     TRIALS       of the reference engine (400)
     TRAPWRIGHT   the program
 USAGE
@@ -25,7 +26,8 @@ esac
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 program=${TRAPWRIGHT:-$root/build/release/app/trapwright/trapwright}
 out=${1:-$PWD/trapwright-sorting}
-read -ra options <<< "${OPTIONS:-}"
+how=${HOW:---sorting}
+read -ra options <<< "$how ${OPTIONS:-}"
 if [[ ! -x $program ]]; then
     echo "sorting.sh: $program is not there. Build it with packaging/build.sh release, or name one in TRAPWRIGHT." >&2
     exit 2
@@ -46,7 +48,7 @@ for part in ${PARTS:-wedge clip holed-bracket d-shaft housing plate}; do
     for seed in ${SEEDS:-1}; do
         study=$out/$(basename "$part")-seed$seed.trap
         if [[ ! -f $study ]]; then
-            "$program" evolve "$study" --part "$part" --sorting --engine native --seed "$seed" "${options[@]}" > "${study%.trap}.log"
+            "$program" evolve "$study" --part "$part" --engine native --seed "$seed" "${options[@]}" > "${study%.trap}.log"
             "$program" select "$study" --engine native --winners 6 --trials 1000 > "${study%.trap}.selection"
         fi
         seconds=$(sed -nE 's/^Done: .* in ([0-9.]+) s .*/\1/p' "${study%.trap}.log")

@@ -151,7 +151,7 @@ std::vector<Choice> trapChoices() {
         add(std::string(kind.key));
     for (const char* chain :
          {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
-          "groove, 10 x drop", "groove, groove, 4 x cut-out", "groove, groove, 4 x drop, 4 x cut-out"})
+          "groove, 10 x drop", "groove, groove, 8 x cut-out", "groove, groove, 4 x drop, 4 x cut-out"})
         add(chain);
     return choices;
 }

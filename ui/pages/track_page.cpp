@@ -10,6 +10,7 @@
 #include <QScrollArea>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <tuple>
 
 #include "core/study/presets.h"
 #include "core/workflow/estimate.h"
@@ -104,6 +105,17 @@ QWidget* TrackPage::makeHead() {
         action->setObjectName("preset." + name);
         connect(action, &QAction::triggered, this, [this, name, title] { usePreset(name, title); });
     };
+    timePresets_ = menu->addMenu(tr("For the part and the time that I have"));
+    timePresets_->setObjectName("preset.time");
+    for (const auto& [name, title, seconds] :
+         {std::tuple{"10min", tr("10 minutes"), 600.0}, std::tuple{"1h", tr("An hour"), 3600.0},
+          std::tuple{"night", tr("Over night, 10 hours"), 36000.0}}) {
+        QAction* action = timePresets_->addAction(title);
+        action->setObjectName(QString("preset.time.") + name);
+        connect(action, &QAction::triggered, this,
+                [this, title = title, seconds = seconds] { propose(seconds, title); });
+    }
+    menu->addSeparator();
     addPreset("cuboid", tr("The paper's Table 1, cuboid"));
     addPreset("cone", tr("The paper's Table 1, cone-like part"));
     menu->addSeparator();
@@ -171,6 +183,11 @@ QWidget* TrackPage::makeStart(QWidget* parent) {
     time_ = new QLabel(start);
     time_->setObjectName("track.time");
     time_->setWordWrap(true);
+    proposal_ = new QLabel(start);
+    proposal_->setObjectName("track.proposal");
+    proposal_->setWordWrap(true);
+    proposal_->setForegroundRole(QPalette::PlaceholderText);
+    proposal_->hide();
     auto* buttons = new QHBoxLayout;
     for (const auto& [action, name] :
          {std::pair{run_.draft(), "track.draft"}, std::pair{run_.start(), "track.start"}}) {
@@ -186,6 +203,7 @@ QWidget* TrackPage::makeStart(QWidget* parent) {
     layout->setContentsMargins(0, 4, 0, 4);
     layout->setSpacing(4);
     layout->addWidget(time_);
+    layout->addWidget(proposal_);
     layout->addLayout(buttons);
     connect(run_.draft(), &QAction::changed, this, &TrackPage::showTime);
     connect(run_.start(), &QAction::changed, this, &TrackPage::showTime);
@@ -195,6 +213,8 @@ QWidget* TrackPage::makeStart(QWidget* parent) {
 void TrackPage::showTime() {
     const auto draft = design_ ? runs_->draft() : std::nullopt;
     draftPreset_->setEnabled(draft.has_value());
+    // Until something else is changed.
+    proposal_->setVisible(design_ && proposed_ && *proposed_ == design_->settings());
     const double seconds = design_ ? runs_->estimatedSeconds() : 0.0;
     const bool isLeft =
         design_ && static_cast<int>(runs_->summaries().size()) < design_->settings().evolution.generations;
@@ -280,6 +300,7 @@ void TrackPage::setSession(session::StudySession* session) {
         connect(design_, &StudyDesign::partChanged, this, &TrackPage::refresh);
         connect(runs_, &StudyRuns::stateChanged, this, &TrackPage::refresh);
         connect(runs_, &StudyRuns::estimated, this, &TrackPage::showTime);
+        connect(runs_, &StudyRuns::proposed, this, &TrackPage::useProposal);
         connect(runs_, &StudyRuns::generationSaved, this, [this] {
             if (locked_->isHidden() == design_->locked()) refresh();
         });
@@ -324,6 +345,7 @@ void TrackPage::refresh() {
     const bool locked = design_->locked();
     form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });
     contact_->setEnabled(!locked);
+    timePresets_->setEnabled(!locked && runs_->state() == session::RunState::idle);
     showTitle();
     showContact();
     showProblems();
@@ -380,6 +402,23 @@ void TrackPage::useDraft() {
     study::Settings settings = design_->settings();
     settings.evolution = draft->evolution;
     edit(settings, tr("Draft in 10 minutes"));
+}
+
+void TrackPage::propose(double seconds, const QString& what) {
+    if (!design_ || !design_->part()) return;
+    proposing_ = what;
+    proposal_->setText(tr("Trials of this part are being timed, to see what fits into the time ..."));
+    proposal_->show();
+    runs_->requestProposal(seconds);
+}
+
+void TrackPage::useProposal(const workflow::Proposal& proposal) {
+    QStringList reasons;
+    for (const std::string& reason : proposal.reasons)
+        reasons.push_back(QString::fromStdString(reason));
+    proposal_->setText(reasons.join('\n'));
+    proposed_ = proposal.settings;
+    edit(proposal.settings, tr("For the part and the time: %1").arg(proposing_));
 }
 
 void TrackPage::useFullLearning() {

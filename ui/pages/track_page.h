@@ -7,6 +7,7 @@
 #include "core/part/materials.h"
 #include "core/study/settings.h"
 #include "core/track/track.h"
+#include "core/workflow/proposal.h"
 #include "ui/pages/page.h"
 #include "ui/session/track_build.h"
 
@@ -52,13 +53,15 @@ class TrackPage : public Page {
     void useSorting();
     void useFullLearning();
     void useDraft();
+    void propose(double seconds, const QString& what);
+    void useProposal(const workflow::Proposal& proposal);
     void showTime();
     void showTrack();
     void showTitle();
 
     RunActions& run_;
     QPointer<session::StudyDesign> design_;
-    QPointer<const session::StudyRuns> runs_;
+    QPointer<session::StudyRuns> runs_;
     scene::SceneView* scene_ = nullptr;  // while the page is shown
     session::TrackBuild build_;
     std::optional<study::TrackSettings> built_;  // what is shown, or being built
@@ -72,6 +75,10 @@ class TrackPage : public Page {
     QLabel* size_;
     QLabel* time_;
     QAction* draftPreset_;
+    QMenu* timePresets_;
+    QLabel* proposal_;
+    QString proposing_;                        // what was asked for last
+    std::optional<study::Settings> proposed_;  // for it
     QLabel* problems_;
     QLabel* help_;
 };

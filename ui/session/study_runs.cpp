@@ -160,6 +160,7 @@ void StudyRuns::startRun(RunState kind, const QString& what, std::function<Faile
         return;
     }
     state_->estimate.cancel();
+    state_->proposing.cancel();
     auto run = std::make_shared<Run>();
     run->kind = kind;
     run->what = what;
@@ -352,12 +353,35 @@ void StudyRuns::requestEstimate() {
         const auto inputs =
             makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
         if (!inputs) return;
-        const auto seconds = workflow::timeTrial(*inputs, kEstimateBudget, control);
-        if (!seconds) return;
-        state_->tell([this, control, seconds = *seconds] {
+        const auto cost = workflow::timeTrials(*inputs, kEstimateBudget, control);
+        if (!cost) return;
+        state_->tell([this, control, cost = *cost] {
             if (control.cancelled()) return;
-            state_->secondsPerTrial = seconds;
+            state_->trialCost = cost;
             emit estimated(estimatedSeconds());
+        });
+    });
+}
+
+void StudyRuns::requestProposal(double seconds) {
+    state_->proposing.cancel();
+    if (state_->run || state_->part.part == nullptr) return;
+    state_->proposing = base::RunControl();
+    state_->simulating->post([this, seconds, control = state_->proposing, settings = state_->settings,
+                              part = state_->part.part, threads = state_->threads] {
+        if (control.cancelled()) return;
+        const auto inputs =
+            makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
+        const auto proposal = inputs ? workflow::proposeSettings(*inputs, seconds, control)
+                                     : base::Result<workflow::Proposal>(base::Error{inputs.error().message});
+        state_->tell([this, control, settings, proposal] {
+            if (control.cancelled()) return;
+            // What was changed meanwhile is the user's.
+            if (state_->settings != settings) return emit estimated(estimatedSeconds());
+            if (proposal) return emit proposed(*proposal);
+            emit estimated(estimatedSeconds());
+            state_->fail(tr("Settings for the part and the time"),
+                         QString::fromStdString(proposal.error().message));
         });
     });
 }
@@ -365,15 +389,16 @@ void StudyRuns::requestEstimate() {
 double StudyRuns::estimatedSeconds() const {
     const study::EvolutionSettings& evolution = state_->settings.evolution;
     const int left = evolution.generations - static_cast<int>(state_->summaries.size());
-    return workflow::learningTime(evolution, std::max(left, 0), state_->secondsPerTrial);
+    return workflow::learningTime(evolution, std::max(left, 0), state_->trialCost);
 }
 
 std::optional<LearningDraft> StudyRuns::draft() const {
-    if (state_->secondsPerTrial <= 0.0 || !state_->summaries.empty()) return std::nullopt;
-    const auto evolution = workflow::draftEvolution(state_->settings.evolution, state_->secondsPerTrial);
+    if (state_->trialCost.learning <= 0.0 || !state_->summaries.empty()) return std::nullopt;
+    const auto evolution =
+        workflow::fitEvolution(state_->settings.evolution, workflow::kDraftLearningTime, state_->trialCost);
     if (!evolution) return std::nullopt;
     return LearningDraft{*evolution,
-                         workflow::learningTime(*evolution, evolution->generations, state_->secondsPerTrial)};
+                         workflow::learningTime(*evolution, evolution->generations, state_->trialCost)};
 }
 
 }  // namespace trapwright::session

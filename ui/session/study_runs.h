@@ -13,6 +13,7 @@
 #include "core/study/selection.h"
 #include "core/study/settings.h"
 #include "core/workflow/failure.h"
+#include "core/workflow/proposal.h"
 
 namespace trapwright::session {
 
@@ -112,9 +113,13 @@ class StudyRuns : public QObject {
     void requestEstimate();
     /// The last estimate [s]; 0 if there is none for the present settings, or nothing is left.
     [[nodiscard]] double estimatedSeconds() const;
-    /// What can be learned in less than ten minutes (workflow::draftEvolution). None before the estimate,
+    /// What can be learned in less than ten minutes (workflow::fitEvolution). None before the estimate,
     /// once there are generations, or where nothing useful fits.
     [[nodiscard]] std::optional<LearningDraft> draft() const;
+
+    /// What the part suggests to learn in so many seconds (workflow::proposeSettings), told by proposed()
+    /// some seconds later, or failed(). Does nothing while something goes on.
+    void requestProposal(double seconds);
 
  signals:
     void stateChanged(trapwright::session::RunState state);
@@ -126,6 +131,7 @@ class StudyRuns : public QObject {
     void chosenChanged();
     /// 0: the estimate before does not hold any more.
     void estimated(double seconds);
+    void proposed(const trapwright::workflow::Proposal& proposal);
 
  private:
     void startRun(RunState kind, const QString& what,

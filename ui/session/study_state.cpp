@@ -40,6 +40,7 @@ void StudyState::end() {
     if (run) run->cancel();
     simulated.cancel();
     estimate.cancel();
+    proposing.cancel();
     speedTable.cancel();
     dropping.cancel();
     // These go first: while others have it open, the writer cannot put the study into one file.

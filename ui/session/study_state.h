@@ -11,6 +11,7 @@
 
 #include "core/base/run_control.h"
 #include "core/study/evaluator.h"
+#include "core/workflow/estimate.h"
 #include "core/workflow/study_trials.h"
 #include "ui/session/environment.h"
 #include "ui/session/study_opening.h"
@@ -85,9 +86,10 @@ struct StudyState : StudyRecords {
     base::RunControl simulated;                // of those that are wanted
     std::shared_ptr<const FoundTrials> found;  // the last; null once something else may hold
     base::RunControl estimate;                 // of the last one
+    base::RunControl proposing;                // likewise
     base::RunControl speedTable;               // likewise
     base::RunControl dropping;                 // likewise
-    double secondsPerTrial = 0.0;              // while learning; 0: not known for these settings
+    workflow::TrialCost trialCost;             // for these settings
 
     QObject receiver;  // of what other threads tell
     StudyWriter writer;
@@ -102,7 +104,7 @@ struct StudyState : StudyRecords {
     void findProblems();
     /// A trial costs something else from now on, or other work has its turn.
     void forgetCost() {
-        secondsPerTrial = 0.0;
+        trialCost = {};
         estimate.cancel();
     }
     /// Where the reader could not be opened again.

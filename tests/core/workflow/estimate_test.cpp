@@ -9,6 +9,15 @@
 
 using namespace trapwright;
 
+namespace {
+
+std::optional<study::EvolutionSettings> makeDraft(const study::EvolutionSettings& full,
+                                                  double secondsPerTrial) {
+    return workflow::fitEvolution(full, workflow::kDraftLearningTime, {secondsPerTrial, 0.0, 0});
+}
+
+}  // namespace
+
 class EstimateTest : public QObject {
     Q_OBJECT
 
@@ -28,11 +37,11 @@ class EstimateTest : public QObject {
         QFETCH(double, secondsPerTrial);
         QFETCH(int, population);
         const study::EvolutionSettings full;
-        const auto draft = workflow::draftEvolution(full, secondsPerTrial);
+        const auto draft = makeDraft(full, secondsPerTrial);
         QCOMPARE(draft.has_value(), population > 0);
         if (!draft) return;
         QCOMPARE(draft->populationSize, population);
-        const double time = workflow::learningTime(*draft, draft->generations, secondsPerTrial);
+        const double time = workflow::learningTime(*draft, draft->generations, {secondsPerTrial, 0.0, 0});
         QVERIFY(time > 0.0 && time <= workflow::kDraftLearningTime && time < workflow::kDraftTime);
         QVERIFY(draft->generations >= 10 && draft->generations <= full.generations);
         QVERIFY(draft->trialsPerEvaluation <= full.trialsPerEvaluation);
@@ -42,7 +51,7 @@ class EstimateTest : public QObject {
         same.trialsPerEvaluation = full.trialsPerEvaluation;
         same.generations = full.generations;
         QVERIFY(same == full);
-        QVERIFY(workflow::draftEvolution(*draft, secondsPerTrial) == draft);
+        QVERIFY(makeDraft(*draft, secondsPerTrial) == draft);
         QVERIFY(workflow::fullEvolution(*draft) == full);
     }
 
@@ -52,7 +61,7 @@ class EstimateTest : public QObject {
         small.trialsPerEvaluation = 10;
         small.generations = 5;
         small.tournamentSize = 3;
-        QVERIFY(workflow::draftEvolution(small, 1e-3) == small);
+        QVERIFY(makeDraft(small, 1e-3) == small);
     }
 
     // Before its first generation, and only then.
@@ -60,18 +69,19 @@ class EstimateTest : public QObject {
         study::EvolutionSettings graded;
         study::EvolutionSettings planned = graded;
         planned.firstGeneration = search::ga::FirstGeneration::planned;
-        QCOMPARE(study::estimatePlanningTrials(graded), std::int64_t{0});
-        const double planning = workflow::learningTime(planned, planned.generations, 1e-3) -
-                                workflow::learningTime(graded, graded.generations, 1e-3);
-        QVERIFY(std::abs(planning - 1e-3 * static_cast<double>(study::estimatePlanningTrials(planned))) <
+        QCOMPARE(study::estimatePlanningTrials(graded, 9), std::int64_t{0});
+        const workflow::TrialCost cost{1e-3, 5e-4, 9};
+        const double planning = workflow::learningTime(planned, planned.generations, cost) -
+                                workflow::learningTime(graded, graded.generations, cost);
+        QVERIFY(std::abs(planning - 5e-4 * static_cast<double>(study::estimatePlanningTrials(planned, 9))) <
                 1e-6);
         QVERIFY(planning > 0.0);
-        QCOMPARE(workflow::learningTime(planned, planned.generations - 1, 1e-3),
-                 workflow::learningTime(graded, graded.generations - 1, 1e-3));
+        QCOMPARE(workflow::learningTime(planned, planned.generations - 1, cost),
+                 workflow::learningTime(graded, graded.generations - 1, cost));
         // A draft has time for it.
-        const auto draft = workflow::draftEvolution(planned, 1e-3);
+        const auto draft = workflow::fitEvolution(planned, workflow::kDraftLearningTime, cost);
         QVERIFY(draft.has_value());
-        QVERIFY(workflow::learningTime(*draft, draft->generations, 1e-3) <= workflow::kDraftLearningTime);
+        QVERIFY(workflow::learningTime(*draft, draft->generations, cost) <= workflow::kDraftLearningTime);
     }
 
     // Tests of the operators that a draft must not break.
@@ -81,7 +91,7 @@ class EstimateTest : public QObject {
         settings.evolution.racingTrials = 60;
         for (const double seconds : {1e-4, 1e-3, 1e-2, 0.1}) {
             study::Settings draft = settings;
-            draft.evolution = workflow::draftEvolution(settings.evolution, seconds).value();
+            draft.evolution = makeDraft(settings.evolution, seconds).value();
             QVERIFY(study::findProblems(draft).empty());
             QVERIFY(draft.evolution.tournamentSize <= draft.evolution.populationSize);
             QVERIFY(draft.evolution.racingTrials <= draft.evolution.trialsPerEvaluation);
@@ -90,12 +100,13 @@ class EstimateTest : public QObject {
 
     void aTrialIsTimed() {
         const fake::WaveStudy study("native");
-        const auto seconds = workflow::timeTrial(study.inputs, 0.05, {});
-        QVERIFY2(seconds.ok(), seconds.ok() ? "" : seconds.error().message.c_str());
-        QVERIFY(*seconds > 0.0);
+        const auto cost = workflow::timeTrials(study.inputs, 0.05, {});
+        QVERIFY2(cost.ok(), cost.ok() ? "" : cost.error().message.c_str());
+        QVERIFY(cost->learning > 0.0);
+        QCOMPARE(cost->planning, 0.0);
         base::RunControl cancelled;
         cancelled.cancel();
-        QVERIFY(!workflow::timeTrial(study.inputs, 0.05, cancelled).ok());
+        QVERIFY(!workflow::timeTrials(study.inputs, 0.05, cancelled).ok());
     }
 };
 

@@ -375,6 +375,32 @@ class FirstRunTest : public QObject {
         QTRY_COMPARE_WITH_TIMEOUT(user.session()->runs().state(), RunState::idle, kPatience);
     }
 
+    // What was chosen stands under the title until something else is.
+    void settingsForAPartAndATimeAreOneStepToUndo() {
+        WindowUser user({engines::registry(), "trapwright test", {}});
+        user.window.openFile(tests::bundled("pin"));
+        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
+        user.window.showPage("track");
+        auto* reasons = user.find<QLabel>("track.proposal");
+        QVERIFY(reasons->isHidden());
+        const study::Settings before = user.session()->design().settings();
+        user.action("preset.time.10min")->trigger();
+        QVERIFY(!reasons->isHidden());
+        QTRY_VERIFY_WITH_TIMEOUT(user.session()->design().settings() != before, 3 * kPatience);
+        const study::Settings chosen = user.session()->design().settings();
+        QCOMPARE(chosen.evolution.objectives, std::string("sorting"));
+        QVERIFY(chosen.part == before.part && chosen.simulation == before.simulation);
+        QVERIFY(user.session()->design().problems().empty());
+        QVERIFY2(reasons->text().contains("pin (symmetry Cinf)"), qPrintable(reasons->text()));
+        QVERIFY(!reasons->isHidden());
+        user.action("edit.undo")->trigger();
+        QVERIFY(user.session()->design().settings() == before);
+        QVERIFY(reasons->isHidden());
+        user.action("edit.redo")->trigger();
+        QVERIFY(user.session()->design().settings() == chosen);
+        QVERIFY(!reasons->isHidden());
+    }
+
     void startedOnReviewThePageStays() {
         WindowUser user({engines::registry(), "trapwright test", {}});
         user.window.openFile(tests::bundled("cuboid"));

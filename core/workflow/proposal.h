@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_control.h"
+#include "core/study/evaluator.h"
+
+namespace trapwright::workflow {
+
+/// What is to be learned for a part in the time that the user has.
+struct Proposal {
+    study::Settings settings;
+    double seconds = 0.0;              // of learning, estimated
+    std::vector<std::string> reasons;  // what was chosen and why, a sentence each
+};
+
+/// The shortest time that something can be proposed for [s].
+inline constexpr double kShortestTime = 60.0;
+
+/// Chooses by the part how a track is learned, and by the time how much of it
+/// (decisions.md#automatic-settings): a part that no rotation maps onto itself is sorted
+/// (study::sortingMode), any other is turned on a free-form trap, both with lengths in proportion to the
+/// part. Population, trials and generations are as many as take `seconds`, by trials that are timed on this
+/// machine for a few seconds. Drive, contact, engine, seed and all that is not learning stay as they are in
+/// `inputs`. Errors: less than kShortestTime, a part for which not even the smallest search fits, settings or
+/// part that cannot be used, engine, cancelled.
+base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double seconds,
+                                       const base::RunControl& control);
+
+}  // namespace trapwright::workflow

@@ -1,0 +1,93 @@
+#include "core/workflow/proposal.h"
+
+#include <QtTest>
+
+#include "core/part/bundled.h"
+#include "core/part/part_builder.h"
+#include "core/study/planning.h"
+#include "core/study/settings.h"
+#include "tests/core/study/fake_engine.h"
+
+using namespace trapwright;
+
+namespace {
+
+study::StudyInputs inputsFor(const char* name) {
+    study::StudyInputs inputs = fake::waveInputs();
+    auto built = part::buildPart(part::makeBundledShape(name), {.name = name});
+    inputs.part = std::make_shared<const part::Part>(std::move(built.value().part));
+    inputs.settings.simulation.drive.halfStroke = 0.7e-3;
+    inputs.settings.evolution.seed = 5;
+    return inputs;
+}
+
+}  // namespace
+
+/// What is proposed for a part and for the time that the user has.
+class ProposalTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void fitsThePartAndTheTime_data() {
+        QTest::addColumn<QByteArray>("name");
+        QTest::addColumn<bool>("isSorted");
+        QTest::newRow("no symmetry") << QByteArray("clip") << true;
+        QTest::newRow("half turns") << QByteArray("cuboid") << false;
+        QTest::newRow("round, two ends") << QByteArray("cup") << true;
+        QTest::newRow("round, ends alike") << QByteArray("washer") << false;
+        QTest::newRow("sixth turns") << QByteArray("bolt") << true;
+    }
+    void fitsThePartAndTheTime() {
+        QFETCH(QByteArray, name);
+        QFETCH(bool, isSorted);
+        const study::StudyInputs inputs = inputsFor(name.constData());
+        double before = 0.0;
+        for (const double seconds : {60.0, 600.0, 36000.0}) {
+            const auto proposal = workflow::proposeSettings(inputs, seconds, {});
+            QVERIFY2(proposal.ok(), proposal.ok() ? "" : proposal.error().message.c_str());
+            const study::Settings& settings = proposal->settings;
+            QVERIFY(study::findProblems(settings).empty());
+            QVERIFY(study::findPartProblems(settings, *inputs.part).empty());
+            QCOMPARE(study::isPlanned(settings.evolution), isSorted);
+            QCOMPARE(settings.evolution.objectives == "sorting", isSorted);
+            QVERIFY(proposal->seconds > 0.0 && proposal->seconds <= seconds);
+            QVERIFY(proposal->reasons.size() >= 3);
+            // More of it where there is more time.
+            const double size = 1.0 * settings.evolution.populationSize * settings.evolution.generations *
+                                settings.evolution.trialsPerEvaluation;
+            QVERIFY(size >= before);
+            before = size;
+            // What is not learning is the user's.
+            QCOMPARE(settings.simulation.drive.halfStroke, 0.7e-3);
+            QCOMPARE(settings.evolution.seed, std::uint64_t{5});
+            QVERIFY(settings.simulation == inputs.settings.simulation &&
+                    settings.part == inputs.settings.part);
+        }
+    }
+
+    void tracksAreInProportion() {
+        study::StudyInputs inputs = inputsFor("cup");
+        const auto small = workflow::proposeSettings(inputs, 600.0, {});
+        auto built = part::buildPart(part::makeBundledShape("cup"), {.name = "cup"});
+        part::Part large = std::move(built.value().part);
+        large.boundingRadius *= 2.0;
+        inputs.part = std::make_shared<const part::Part>(std::move(large));
+        const auto big = workflow::proposeSettings(inputs, 600.0, {});
+        QVERIFY(small.ok() && big.ok());
+        QVERIFY(std::abs(big->settings.track.segmentWidth / small->settings.track.segmentWidth - 2.0) < 0.02);
+    }
+
+    void whatCannotBeIsRefused() {
+        const study::StudyInputs inputs = inputsFor("cuboid");
+        for (const double seconds : {0.0, 59.0, std::nan("")}) {
+            const auto proposal = workflow::proposeSettings(inputs, seconds, {});
+            QVERIFY(!proposal.ok() && proposal.error().message.find("too short") != std::string::npos);
+        }
+        base::RunControl cancelled;
+        cancelled.cancel();
+        QVERIFY(!workflow::proposeSettings(inputs, 600.0, cancelled).ok());
+    }
+};
+
+QTEST_GUILESS_MAIN(ProposalTest)
+#include "proposal_test.moc"
