@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <string_view>
 
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
+#include "core/study/selection.h"
 #include "core/workflow/learning.h"
 #include "sim/engines/registry.h"
 
@@ -24,11 +26,23 @@ double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// What is told of winners: where parts that fall off come again, how many of those that finish are right.
+std::string_view successName(const study::EvolutionSettings& settings) {
+    return study::forgivesFalls(settings) ? "correct" : "success";
+}
+std::optional<stats::Count> successOf(const study::EvolutionSettings& settings,
+                                      const study::GenerationRecord& record) {
+    if (!study::forgivesFalls(settings)) return record.statistics.success;
+    return record.individuals[static_cast<std::size_t>(record.winner)].correct();
+}
+
 /// What the display's thread must know of the run.
 class Situation {
  public:
-    Situation(int generations, base::RunControl control)
-        : generations_(generations), control_(std::move(control)) {}
+    Situation(const study::EvolutionSettings& settings, base::RunControl control)
+        : generations_(settings.generations),
+          successName_(successName(settings)),
+          control_(std::move(control)) {}
 
     void setSuccess(const std::optional<stats::Count>& success) {
         const std::lock_guard lock(mutex_);
@@ -52,7 +66,7 @@ class Situation {
         const std::string left =
             progress.secondsLeft > 0.0 ? formatDuration(progress.secondsLeft) + " left, " : "";
         const std::string success =
-            success_ ? fmt::format("success {:.1f} %, ", kPercent * success_->share()) : "";
+            success_ ? fmt::format("{} {:.1f} %, ", successName_, kPercent * success_->share()) : "";
         if (plan_->planningFor > 0)
             return fmt::format("Planning {} {}{:.0f}/s, {}/{} trials", formatBar(share), left,
                                progress.trialsPerSecond, trials, plan_->trials);
@@ -65,6 +79,7 @@ class Situation {
  private:
     mutable std::mutex mutex_;
     int generations_;
+    std::string_view successName_;
     base::RunControl control_;
     std::optional<study::GenerationPlan> plan_;
     std::optional<stats::Count> success_;  // of the newest winner
@@ -116,7 +131,7 @@ std::string describeGeneration(const study::EvolutionSettings& settings,
     const study::IndividualRecord& winner = record.individuals[static_cast<std::size_t>(record.winner)];
     const std::optional<double>& topSuccess = record.statistics.topSuccess;
     return fmt::format("{:>10} {} {:>9} {:>8.3f}{} {:>8} {:>8.3f}{}{} {:>7.1f}\n", record.index,
-                       describeSuccess(record.statistics.success),
+                       describeSuccess(successOf(settings, record)),
                        fmt::format("{}/{}", winner.finished, winner.trials), best.total,
                        scoresText(best, summed),
                        topSuccess ? fmt::format("{:.1f}", kPercent * *topSuccess) : "-", top.total,
@@ -129,13 +144,16 @@ std::string describeCheck(const study::EvolutionSettings& settings, const study:
     const objectives::ObjectiveList summed = study::summedObjectives(settings);
     const study::EngineScore& reference = record.reference;
     const study::EngineScore& learning = record.learning;
+    const bool forgives = study::forgivesFalls(settings);
+    const auto count = [&](const study::EngineScore& score) {
+        return stats::Count{score.oriented, std::max(1, forgives ? score.finished : record.trials)};
+    };
     std::string text = fmt::format(
-        "{:>10} {} {:>9} {:>8.3f}{}   {} less {}: success {:.0f} % less {:.0f} %",
-        fmt::format("check {}", record.generation),
-        describeSuccess(stats::Count{reference.oriented, record.trials}),
+        "{:>10} {} {:>9} {:>8.3f}{}   {} less {}: {} {:.0f} % less {:.0f} %",
+        fmt::format("check {}", record.generation), describeSuccess(count(reference)),
         fmt::format("{}/{}", reference.finished, record.trials), reference.fitness.total,
-        scoresText(reference.fitness, summed), reference.engine, learning.engine,
-        kPercent * reference.oriented / record.trials, kPercent * learning.oriented / record.trials);
+        scoresText(reference.fitness, summed), reference.engine, learning.engine, successName(settings),
+        kPercent * count(reference).share(), kPercent * count(learning).share());
     for (const objectives::Objective* objective : summed) {
         const objectives::Score* judged = objectives::findScore(reference.fitness, objective->key);
         const objectives::Score* own = objectives::findScore(learning.fitness, objective->key);
@@ -196,14 +214,14 @@ std::string learningHeading(const study::EvolutionSettings& settings) {
         "{:>10} {:>7}   {:>15} {:^{}} {:^{}} {:^{}}\n"
         "{:>10} {:>7}   {:>15} {} {}{} {:>7}\n",
         "", "[%]", "95 % [%]", "the generation's winner", winner.size(), "[%]    mean of the top 30 %",
-        top.size(), "the search", std::max<std::size_t>(curves.size(), 1) - 1, "Generation", "success",
-        "Clopper-Pearson", winner, top, curves, "seconds");
+        top.size(), "the search", std::max<std::size_t>(curves.size(), 1) - 1, "Generation",
+        successName(settings), "Clopper-Pearson", winner, top, curves, "seconds");
 }
 
 Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
                                  const Console& console, std::optional<double> timeLimit) {
     study::LearningControl control;
-    Situation situation(inputs.settings.evolution.generations, control.run);
+    Situation situation(inputs.settings.evolution, control.run);
     const Clock::time_point begin = Clock::now();
     bool timeOver = false;
     auto learned = [&] {
@@ -211,7 +229,7 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
         workflow::LearnEvents events;
         events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
         events.saved = [&](const study::GenerationRecord& record) {
-            situation.setSuccess(record.statistics.success);
+            situation.setSuccess(successOf(inputs.settings.evolution, record));
             display.print(describeGeneration(inputs.settings.evolution, record));
             if (timeLimit && secondsSince(begin) + record.seconds > *timeLimit) {
                 timeOver = true;

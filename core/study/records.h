@@ -46,6 +46,13 @@ struct IndividualRecord {
         return stats::Count{*oriented, trials};
     }
 
+    /// Of those that finish: what counts where parts that fall off come again (forgivesFalls). None: as
+    /// success(), or none finishes.
+    [[nodiscard]] std::optional<stats::Count> correct() const {
+        if (!oriented || finished == 0) return std::nullopt;
+        return stats::Count{*oriented, finished};
+    }
+
     friend bool operator==(const IndividualRecord&, const IndividualRecord&) = default;
 };
 

@@ -123,8 +123,8 @@ std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selecti
                                         std::span<const part::PoseGroup> groups) {
     using Source = TrackSuccess::Source;
     const auto isMeant = [&](const IndividualId& of) { return isSameIndividual(of, individual); };
-    const auto allAlike = [](Source source, const stats::Count& count) {
-        return TrackSuccess{source, count.share(), count, {{1.0, count}}};
+    const auto allAlike = [](Source source, const stats::Count& count, int finished) {
+        return TrackSuccess{source, count.share(), count, finished, {{1.0, count}}};
     };
     const auto validation = std::find_if(validations.rbegin(), validations.rend(), isMeant);
     if (validation != validations.rend()) {
@@ -132,8 +132,8 @@ std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selecti
         const stats::Count count{total.tally.success, total.tally.trials()};
         std::vector<stats::Stratum> strata = listStrata(*validation, groups);
         if (const auto rate = stats::calcWeightedRate(strata))
-            return TrackSuccess{Source::validation, *rate, count, std::move(strata)};
-        if (count.trials > 0) return allAlike(Source::validation, count);
+            return TrackSuccess{Source::validation, *rate, count, total.tally.finished(), std::move(strata)};
+        if (count.trials > 0) return allAlike(Source::validation, count, total.tally.finished());
     }
     // The newest that has simulated it.
     const SelectionEntry* newest = nullptr;
@@ -141,8 +141,10 @@ std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selecti
         const auto entry = std::find_if(selection.entries.begin(), selection.entries.end(), isMeant);
         if (entry != selection.entries.end() && entry->trials > 0) newest = &*entry;
     }
-    if (newest != nullptr) return allAlike(Source::selection, {newest->oriented, newest->trials});
-    if (const auto learned = individual.record.success()) return allAlike(Source::learning, *learned);
+    if (newest != nullptr)
+        return allAlike(Source::selection, {newest->oriented, newest->trials}, newest->finished);
+    if (const auto learned = individual.record.success())
+        return allAlike(Source::learning, *learned, individual.record.finished);
     return std::nullopt;
 }
 

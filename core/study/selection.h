@@ -41,6 +41,7 @@ struct TrackSuccess {
     Source source = Source::learning;    // whose trials tell it
     double rate = 0.0;                   // of a validation: weighted by how often parts land in each pose
     stats::Count count;                  // all its trials alike
+    int finished = 0;                    // of these
     std::vector<stats::Stratum> strata;  // what `rate` is made of
 
     /// 95 %, as stats::estimateWeighted finds it; takes milliseconds, 0.1 s for a long validation.

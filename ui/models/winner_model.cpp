@@ -1,6 +1,7 @@
 #include "ui/models/winner_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ui/models/numbers.h"
 #include "ui/models/roles.h"
@@ -42,6 +43,11 @@ int WinnerModel::rowOf(int generation) const {
     return static_cast<int>(found - winners_.begin());
 }
 
+void WinnerModel::setForgiving(bool isForgiving) {
+    if (std::exchange(isForgiving_, isForgiving) == isForgiving || winners_.empty()) return;
+    emit dataChanged(index(0), index(static_cast<int>(winners_.size()) - 1));
+}
+
 int WinnerModel::rowCount(const QModelIndex& parent) const {
     return parent.isValid() ? 0 : static_cast<int>(winners_.size());
 }
@@ -55,14 +61,15 @@ QVariant WinnerModel::data(const QModelIndex& index, int role) const {
             return QString::number(winner.generation);
         case Qt::ToolTipRole:
         case Qt::AccessibleTextRole:
-            return tr("Generation %1, winner: success %2. %3 of %4 parts finished. F %5")
+            return (isForgiving_ ? tr("Generation %1, winner: correct %2. %3 of %4 parts finished. F %5")
+                                 : tr("Generation %1, winner: success %2. %3 of %4 parts finished. F %5"))
                 .arg(winner.generation)
-                .arg(shareText(record.success()))
+                .arg(shareText(isForgiving_ ? record.correct() : record.success()))
                 .arg(record.finished)
                 .arg(record.trials)
                 .arg(fixed(record.fitness.total, 3));
         case SuccessRole:
-            return successWord(record.success());
+            return successWord(isForgiving_ ? record.correct() : record.success());
         case Qt::DecorationRole: {
             const QPixmap* picture = pictures_.object(winner.generation);
             return picture == nullptr ? QVariant() : QVariant(*picture);

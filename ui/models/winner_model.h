@@ -20,6 +20,9 @@ class WinnerModel : public QAbstractListModel {
 
     void setWinners(std::vector<study::Individual> winners);
     void append(study::Individual winner);
+    /// Whether the share of right ones among those that finish is shown, not among all
+    /// (study::forgivesFalls).
+    void setForgiving(bool isForgiving);
     /// Shown as decoration. Forgotten by setWinners.
     void setPicture(int generation, const QPixmap& picture);
     [[nodiscard]] bool hasPicture(int generation) const { return pictures_.contains(generation); }
@@ -35,6 +38,7 @@ class WinnerModel : public QAbstractListModel {
 
  private:
     std::vector<study::Individual> winners_;
+    bool isForgiving_ = false;
     QCache<int, QPixmap> pictures_{kMostPictures};
 };
 

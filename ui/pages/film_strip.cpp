@@ -14,6 +14,7 @@
 #include <QWheelEvent>
 #include <algorithm>
 
+#include "core/study/selection.h"
 #include "ui/look/icon.h"
 #include "ui/look/theme.h"
 #include "ui/pages/film_frame.h"
@@ -175,6 +176,7 @@ void FilmStrip::refresh() {
     const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
     pictures_->setTracks(runs_ ? runs_->design().settings().track : study::TrackSettings());
     pictures_->setLook(dark, devicePixelRatioF());
+    model_.setForgiving(runs_ && study::forgivesFalls(runs_->design().settings().evolution));
     model_.setWinners(runs_ ? runs_->winners() : std::vector<study::Individual>());
     slider_->setRange(0, std::max(model_.rowCount() - 1, 0));
     stack_->setCurrentIndex(model_.rowCount() > 0 ? 1 : 0);

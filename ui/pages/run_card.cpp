@@ -143,13 +143,11 @@ void RunCard::showSuccess() {
     if (success && study::forgivesFalls(runs_->design().settings().evolution)) {
         const int finished = best->record.finished;
         const double arriving = 100.0 * finished / success->trials;
-        success_->showCorrect(
-            finished > 0 ? std::optional(stats::Count{success->successes, finished}) : std::nullopt,
-            tr("%1 of %2 parts that arrive, %3 % of those fed, %4")
-                .arg(success->successes)
-                .arg(finished)
-                .arg(arriving, 0, 'f', 0)
-                .arg(generation));
+        success_->showCorrect(best->record.correct(), tr("%1 of %2 parts that arrive, %3 % of those fed, %4")
+                                                          .arg(success->successes)
+                                                          .arg(finished)
+                                                          .arg(arriving, 0, 'f', 0)
+                                                          .arg(generation));
         return;
     }
     success_->show(success,

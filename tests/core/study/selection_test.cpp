@@ -16,6 +16,8 @@ class SelectionTest : public QObject {
         QVERIFY(!findSuccess({}, {}, winner, {}));
         winner.record.trials = 100;
         winner.record.oriented = 70;
+        winner.record.finished = 75;
+        QCOMPARE(findSuccess({}, {}, winner, {})->finished, 75);
         QCOMPARE(findSuccess({}, {}, winner, {})->count.successes, 70);
         QCOMPARE(findSuccess({}, {}, winner, {})->rate, 0.7);
 
@@ -24,8 +26,10 @@ class SelectionTest : public QObject {
         entry.individual = 2;
         entry.trials = 1000;
         entry.oriented = 991;
+        entry.finished = 995;
         const std::vector<study::SelectionRecord> selections = {{"simbody", {entry}}, {"simbody", {}}};
         QCOMPARE(findSuccess(selections, {}, winner, {})->count.successes, 991);
+        QCOMPARE(findSuccess(selections, {}, winner, {})->finished, 995);
 
         // Validated twice: 10 of 30 failed, then 3 of 20.
         study::ValidationRecord first{{4, 2}, "native", {}, 0.0, {{0, {6, 4, 0, 0}}, {1, {14, 6, 0, 0}}}};
@@ -33,6 +37,8 @@ class SelectionTest : public QObject {
         study::ValidationRecord other{{4, 3}, "native", {}, 0.0, {{0, {0, 20, 0, 0}}}};
         const std::vector<study::ValidationRecord> validations = {first, second, other};
         QCOMPARE(findSuccess({}, {&first, 1}, winner, {})->count.successes, 20);
+        // Of the 10 that failed all came through, but another way up.
+        QCOMPARE(findSuccess({}, {&first, 1}, winner, {})->finished, 30);
         QCOMPARE(findSuccess({}, validations, winner, {})->count.successes, 17);
         QCOMPARE(findSuccess({}, validations, winner, {})->count.trials, 20);
         QCOMPARE(findSuccess(selections, validations, winner, {})->count.successes, 17);

@@ -68,6 +68,28 @@ class WinnerModelTest : public QObject {
         QTEST(model.index(0).data(models::SuccessRole).toString(), "label");
     }
 
+    // Where parts that fall off come again.
+    void rightOnesAreCountedAmongThoseThatFinish() {
+        study::Individual sorted = winnerOf(0);
+        sorted.record.finished = 20;
+        sorted.record.oriented = 19;
+        study::Individual empty = winnerOf(1);
+        empty.record.finished = 0;
+        empty.record.oriented = 0;
+        WinnerModel model;
+        model.setWinners({sorted, empty});
+        QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
+        model.setForgiving(true);
+        model.setForgiving(true);
+        QCOMPARE(changed.count(), 1);
+        QCOMPARE(model.index(0).data(models::SuccessRole).toString(), QString("95 %"));
+        QVERIFY(model.index(0).data(Qt::ToolTipRole).toString().contains("correct 95.0 %"));
+        QVERIFY(model.index(0).data(Qt::ToolTipRole).toString().contains("20 of 100 parts finished"));
+        QCOMPARE(model.index(1).data(models::SuccessRole).toString(), QString("–"));
+        model.setForgiving(false);
+        QCOMPARE(model.index(0).data(models::SuccessRole).toString(), QString("19 %"));
+    }
+
     void picturesStayWithTheirGeneration() {
         WinnerModel model;
         model.setWinners({winnerOf(0), winnerOf(1)});
