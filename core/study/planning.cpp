@@ -392,6 +392,7 @@ class Planner {
             }
         }
         std::vector<Work> works;
+        works.reserve(tried.size());
         for (Piece& piece : tried)
             works.push_back({&piece, std::vector<int>(rows(), kFirstTrials)});
         if (const auto measured = measure(works); !measured) return measured.error();
