@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -29,22 +30,28 @@ constexpr int kLeastOfWay = 40;        // trials that end so
 constexpr double kNearWay = 35.0 * base::kDegree;  // what is farther from all ways is none of them
 constexpr std::size_t kTrapsInRound = 32;
 constexpr int kRoundsBetweenPlans = 6;
+constexpr int kRoundsOfIsland = 24;  // at least
+constexpr int kMostIslands = 8;
+constexpr double kBitsOfBoldHalving = 0.5 * objectives::kBitsOfHalving;  // of every other island
 constexpr int kPlansInARow = 4;            // at most, while what they use is measured better
-constexpr int kFirstTrials = 6;            // from each way, of a trap that is new
+constexpr int kFirstTrials = 6;            // from each way on average, of a trap that is new
 constexpr int kMoreTrials = 24;            // of one that is promising
-constexpr int kTrialsOfUsed = 1000;        // of those that plans use, by the ways in which parts come
-constexpr int kMostOfUsed = 300;           // at most, from one way
+constexpr std::size_t kMostShared = 8;     // ways that count for the sum of these trials
+constexpr int kTrialsOfUsed = 1000;        // of those that the last plan uses, by the ways of parts that come
+constexpr int kTrialsOfParents = 300;      // of those that earlier ones use, whose likes are tried
+constexpr double kMostFromWay = 0.3;       // of these trials
 constexpr int kTrialsOfFollowed = 300;     // behind each trap of the best chain
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr std::size_t kBeam = 60;          // chains that are followed up
 constexpr std::size_t kBeamOfWay = 10;     // of these, in which parts lie one way more than any other
 constexpr std::size_t kImproved = 5;       // chains of these whose traps are exchanged for better ones
+constexpr std::size_t kNiches = 3;         // ways in which chains end whose traps have others like them tried
 constexpr std::size_t kSieves = 12;        // whose likes are tried, besides those in use
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
 constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
-constexpr std::ptrdiff_t kPromising = 5;   // of a round, by each of two measures
+constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
 
 /// How many of each way (rows) came to be in which (columns): ways, other, stuck, fallen.
 using Counts = std::vector<std::vector<double>>;
@@ -110,17 +117,57 @@ class Planner {
         const int rounds = (settings().evolution.populationSize * kTrapsPerIndividual +
                             static_cast<int>(kTrapsInRound) - 1) /
                            static_cast<int>(kTrapsInRound);
-        for (int round = 0; round < rounds; ++round) {
+        // What is found first decides in which ways traps lead, and what is tried next. So several plans
+        // begin by themselves, and what is best of each is what the last part of the work begins with.
+        const int islands = std::clamp(2 * rounds / 3 / kRoundsOfIsland, 1, kMostIslands);
+        std::vector<Piece> found;
+        int round = 0;
+        for (int island = 0; island < islands && islands > 1; ++island) {
+            const int end = (island + 1) * (2 * rounds / 3) / islands;
+            // To turn parts pays from the first trap on, to throw them out pays late.
+            bitsOfHalving_ = island % 2 == 0 ? objectives::kBitsOfHalving : kBitsOfBoldHalving;
+            if (const auto done = goOn(round, end, rounds); !done) return done.error();
+            round = end;
+            leaveIsland(found);
+        }
+        bitsOfHalving_ = objectives::kBitsOfHalving;
+        pieces_ = std::move(found);
+        if (!pieces_.empty()) {
+            if (const auto joined = plan(kNiches, kTrialsOfParents); !joined) return joined.error();
+        }
+        if (const auto done = goOn(round, rounds, rounds); !done) return done.error();
+        if (const auto last = plan(1, kTrialsOfUsed); !last) return last.error();
+        return listDesigns(most);
+    }
+
+    /// Rounds of traps, planned with from time to time.
+    base::Status goOn(int round, int end, int rounds) {
+        for (; round < end; ++round) {
             if (control_.stopRequested()) return base::Error{"The planning was stopped."};
             tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round));
             if (const auto tried = tryTraps(round); !tried) return tried.error();
-            const bool isLast = round == rounds - 1;
-            if (!isLast && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
-            if (const auto improved = plan(); !improved) return improved.error();
-            if (isLast || chains_.empty()) continue;
+            if (round + 1 < end && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
+            if (const auto improved = plan(kNiches, kTrialsOfParents); !improved) return improved.error();
+            if (round + 1 == end || chains_.empty()) continue;
             if (const auto followed = followParts(); !followed) return followed.error();
         }
-        return listDesigns(most);
+        return base::success();
+    }
+
+    /// What is of use joins `found`, and the next plan begins with nothing.
+    void leaveIsland(std::vector<Piece>& found) {
+        std::set<std::size_t> kept(used_.begin(), used_.end());
+        kept.insert(sieves_.begin(), sieves_.end());
+        for (std::size_t i = 0; i < kinds_.size() && found.empty(); ++i)
+            kept.insert(i);  // that do nothing
+        for (const std::size_t i : kept)
+            found.push_back(std::move(pieces_[i]));
+        pieces_.clear();
+        used_.clear();
+        sieves_.clear();
+        chains_.clear();
+        niches_.clear();
+        met_.clear();
     }
 
     /// From so many trials.
@@ -296,8 +343,8 @@ class Planner {
     /// Counts as probabilities. A few trials that none saw spoil what few trials make look perfect: parts may
     /// always get stuck or be turned.
     [[nodiscard]] Counts calcChances(const Counts& counts) const {
-        constexpr double kUnseenTurns = 0.3;
-        constexpr double kUnseenStuck = 0.1;
+        constexpr double kUnseenTurns = 1.0;
+        constexpr double kUnseenStuck = 0.2;
         Counts chances(columns(), Belief(columns(), 0.0));
         for (std::size_t from = 0; from < rows(); ++from) {
             double sum = 0.0;
@@ -336,8 +383,7 @@ class Planner {
         const double staying = 1.0 - parts[fallen()];
         if (!forgivesFalls_) return std::log2(alike + kLeast);
         if (staying < kLeast) return std::log2(kLeast);
-        return std::log2(alike / (staying * staying) + kLeast) +
-               objectives::kBitsOfHalving * std::log2(staying);
+        return std::log2(alike / (staying * staying) + kLeast) + bitsOfHalving_ * std::log2(staying);
     }
 
     static double drawNumber(const search::Dimension& dimension, base::Random& random) {
@@ -377,7 +423,7 @@ class Planner {
             {settings().evolution.seed, 0, static_cast<std::uint32_t>(round), 0, base::Purpose::planning});
         std::vector<Piece> tried;
         for (std::size_t i = 0; i < kTrapsInRound; ++i) {
-            if (round == 0 && i < kinds_.size()) {
+            if (pieces_.empty() && i < kinds_.size()) {
                 // All numbers in the middle: a cut-out that cuts nothing lets a chain do with fewer.
                 Piece typical = drawPiece(i, random);
                 for (std::size_t k = 0; k < typical.numbers.size(); ++k)
@@ -394,11 +440,11 @@ class Planner {
         std::vector<Work> works;
         works.reserve(tried.size());
         for (Piece& piece : tried)
-            works.push_back({&piece, std::vector<int>(rows(), kFirstTrials)});
+            works.push_back({&piece, shareTrials(kFirstTrials)});
         if (const auto measured = measure(works); !measured) return measured.error();
         works.clear();
-        for (const std::size_t i : choosePromising(tried, round == 0 ? kinds_.size() : 0))
-            works.push_back({&tried[i], std::vector<int>(rows(), kMoreTrials)});
+        for (const std::size_t i : choosePromising(tried, pieces_.empty() ? kinds_.size() : 0))
+            works.push_back({&tried[i], shareTrials(kMoreTrials)});
         if (works.empty()) return base::success();
         if (const auto measured = measure(works); !measured) return measured.error();
         for (const Work& work : works)
@@ -406,47 +452,84 @@ class Planner {
         return base::success();
     }
 
-    /// The traps to look at closer: the first `sure` ones, those that would be of most use in the best chain
+    /// Of the parts that come to each trap of a chain, the shares that lie in each way.
+    [[nodiscard]] std::vector<Belief> listComing(const Chain& chain) const {
+        std::vector<Belief> coming;
+        Belief parts = arriving_;
+        for (const std::size_t used : chain.pieces) {
+            const double staying = std::max(1e-9, 1.0 - parts[stuck()] - parts[fallen()]);
+            Belief& shares = coming.emplace_back(parts.begin(), parts.begin() + std::ssize(starts_));
+            for (double& share : shares)
+                share /= staying;
+            parts = pass(parts, pieces_[used].chances);
+        }
+        return coming;
+    }
+
+    /// Trials from each way, `each` on average: the more, the larger a share of the parts lies so before any
+    /// trap, as what is not known of a way counts by how many come in it.
+    [[nodiscard]] std::vector<int> shareTrials(int each) const {
+        Belief most(arriving_.begin(), arriving_.begin() + std::ssize(starts_));
+        for (const Chain& chain : niches_) {
+            for (const Belief& coming : listComing(chain))
+                std::transform(coming.begin(), coming.end(), most.begin(), most.begin(),
+                               [](double a, double b) { return std::max(a, b); });
+        }
+        const double sum = std::accumulate(most.begin(), most.end(), 0.0);
+        const double all = each * static_cast<double>(std::min(rows(), kMostShared));
+        std::vector<int> trials;
+        for (const double share : most)
+            trials.push_back(std::max(each / 3, static_cast<int>(std::lround(all * share / sum))));
+        return trials;
+    }
+
+    /// The traps to look at closer: the first `sure` ones, those that would be of most use in the best chains
     /// of today, and those that bring most order by themselves; none that gets parts stuck.
     [[nodiscard]] std::vector<std::size_t> choosePromising(const std::vector<Piece>& tried,
                                                            std::size_t sure) const {
-        std::vector<std::size_t> fit;
-        std::vector<double> inChain;
-        std::vector<double> alone;
-        for (std::size_t i = 0; i < tried.size(); ++i) {
-            const Belief once = pass(arriving_, tried[i].chances);
-            inChain.push_back(worthInChain(tried[i]));
-            alone.push_back(std::max(worthOf(once), worthOf(repeat(tried[i]))));
-            if (i >= sure && once[stuck()] - arriving_[stuck()] <= kMostStuck) fit.push_back(i);
-        }
         std::set<std::size_t> chosen;
         for (std::size_t i = 0; i < sure; ++i)
             chosen.insert(i);
-        for (const std::vector<double>* worth : {&inChain, &alone}) {
+        std::vector<std::size_t> fit;
+        std::vector<double> alone(tried.size());
+        for (std::size_t i = sure; i < tried.size(); ++i) {
+            const Belief once = pass(arriving_, tried[i].chances);
+            alone[i] = std::max(worthOf(once), worthOf(repeat(tried[i])));
+            if (once[stuck()] - arriving_[stuck()] <= kMostStuck) fit.push_back(i);
+        }
+        const auto choose = [&](const std::vector<double>& worth, std::size_t count) {
             std::stable_sort(fit.begin(), fit.end(),
-                             [&](std::size_t a, std::size_t b) { return (*worth)[a] > (*worth)[b]; });
-            chosen.insert(fit.begin(), fit.begin() + std::min(kPromising, std::ssize(fit)));
+                             [&](std::size_t a, std::size_t b) { return worth[a] > worth[b]; });
+            chosen.insert(fit.begin(),
+                          fit.begin() + static_cast<std::ptrdiff_t>(std::min(count, fit.size())));
+        };
+        choose(alone, niches_.empty() ? 2 * kPromising : kPromising);
+        for (std::size_t niche = 0; niche < niches_.size(); ++niche) {
+            std::vector<double> inChain(tried.size());
+            for (const std::size_t i : fit)
+                inChain[i] = worthInChain(tried[i], niches_[niche]);
+            // The best chain's share is what the others leave.
+            choose(inChain, niche > 0 ? 1 : kPromising + 1 - niches_.size());
         }
         return {chosen.begin(), chosen.end()};
     }
 
-    /// Of the best chain of today if this piece took the place that suits it most.
-    [[nodiscard]] double worthInChain(const Piece& piece) const {
+    /// Of a chain if this piece took the place that suits it most.
+    [[nodiscard]] double worthInChain(const Piece& piece, const Chain& chain) const {
         double most = -1e300;
-        if (chains_.empty()) return most;
         Belief before = arriving_;
         for (std::size_t place = 0; place < places_.size(); ++place) {
             if (places_[place] == piece.kind)
-                most = std::max(most, worthOf(passOn(pass(before, piece.chances), place + 1)));
-            before = pass(before, pieces_[chains_.front().pieces[place]].chances);
+                most = std::max(most, worthOf(passOn(pass(before, piece.chances), chain, place + 1)));
+            before = pass(before, pieces_[chain.pieces[place]].chances);
         }
         return most;
     }
 
-    /// Where parts are behind the best chain of today if they are so before one of its places.
-    [[nodiscard]] Belief passOn(Belief parts, std::size_t place) const {
+    /// Where parts are behind a chain if they are so before one of its places.
+    [[nodiscard]] Belief passOn(Belief parts, const Chain& chain, std::size_t place) const {
         for (; place < places_.size(); ++place)
-            parts = pass(parts, pieces_[chains_.front().pieces[place]].chances);
+            parts = pass(parts, pieces_[chain.pieces[place]].chances);
         return parts;
     }
 
@@ -459,15 +542,33 @@ class Planner {
         return parts;
     }
 
-    /// The best chains of what is known, best first: a beam search from the first trap on, whose best ones
-    /// then have traps exchanged.
-    [[nodiscard]] std::vector<Chain> findChains() const {
-        std::vector<Chain> chains = searchBeam(emptyChain(), kBeam);
-        for (std::size_t i = 0; i < std::min(kImproved, chains.size()); ++i)
-            exchangeTraps(chains[i]);
-        std::stable_sort(chains.begin(), chains.end(),
+    /// The way in which most parts lie behind it.
+    [[nodiscard]] std::size_t wayOf(const Chain& chain) const {
+        const auto ways = std::span(chain.parts).first(ways_.size());
+        return static_cast<std::size_t>(std::max_element(ways.begin(), ways.end()) - ways.begin());
+    }
+
+    /// Finds the best chains of what is known: a beam search from the first trap on, whose best ones, and the
+    /// best for each of so many ways, then have traps exchanged.
+    void findChains(std::size_t niches) {
+        chains_ = searchBeam(emptyChain(), kBeam);
+        std::set<std::size_t> ways;
+        for (std::size_t i = 0; i < chains_.size(); ++i) {
+            const bool isFirst = ways.size() < niches && ways.insert(wayOf(chains_[i])).second;
+            if (isFirst || i < kImproved) exchangeTraps(chains_[i]);
+        }
+        std::stable_sort(chains_.begin(), chains_.end(),
                          [](const Chain& a, const Chain& b) { return a.worth > b.worth; });
-        return chains;
+        niches_.clear();
+        ways.clear();
+        for (const Chain& chain : chains_) {
+            if (niches_.size() < niches && ways.insert(wayOf(chain)).second) niches_.push_back(chain);
+        }
+        used_.clear();
+        for (const Chain& chain : niches_) {
+            const std::set<std::size_t> pieces(chain.pieces.begin(), chain.pieces.end());
+            used_.insert(used_.end(), pieces.begin(), pieces.end());
+        }
     }
 
     [[nodiscard]] Chain append(const Chain& chain, std::size_t index) const {
@@ -502,9 +603,7 @@ class Planner {
             std::vector<std::size_t> ofWay(ways_.size(), 0);
             for (Chain& chain : next) {
                 if (beam.size() == width) break;
-                const auto ways = std::span(chain.parts).first(ways_.size());
-                std::size_t& alike = ofWay[static_cast<std::size_t>(
-                    std::max_element(ways.begin(), ways.end()) - ways.begin())];
+                std::size_t& alike = ofWay[wayOf(chain)];
                 // Chains of the same worth are the same traps in another order.
                 constexpr double kSame = 1e-9;
                 if (alike == kBeamOfWay || (!beam.empty() && beam.back().worth - chain.worth <= kSame))
@@ -558,41 +657,46 @@ class Planner {
         return sieves;
     }
 
-    /// Finds the best chain, and measures what it uses, until that is known well.
-    base::Status plan() {
+    /// Finds the best chains, for each of so many ways, and measures what they use, until that is known by so
+    /// many trials each.
+    base::Status plan(std::size_t niches, int trials) {
         sieves_ = findSieves();
-        if (pieces_.size() > kMostTraps) forget();
-        for (int again = 0; again < kPlansInARow; ++again) {
-            chains_ = findChains();
-            if (chains_.empty()) return base::success();
-            const std::set<std::size_t> used(chains_.front().pieces.begin(), chains_.front().pieces.end());
-            used_.assign(used.begin(), used.end());
+        if (pieces_.size() > kMostTraps) {
+            forget();
             sieves_ = findSieves();
-            std::set<std::size_t> looked = used;
+        }
+        for (int again = 0; again < kPlansInARow * (niches == 1 ? 3 : 1); ++again) {
+            findChains(niches);
+            if (chains_.empty()) return base::success();
+            sieves_ = findSieves();
+            std::set<std::size_t> looked(used_.begin(), used_.end());
             looked.insert(sieves_.begin(),
                           sieves_.begin() + std::min<std::ptrdiff_t>(2, std::ssize(sieves_)));
             std::vector<Work> works;
             for (const std::size_t i : looked) {
-                Work work = findUncertain(i);
+                Work work = findUncertain(i, trials);
                 if (work.piece != nullptr) works.push_back(std::move(work));
             }
             if (works.empty()) break;
             if (const auto measured = measure(works); !measured) return measured.error();
         }
-        chains_ = findChains();
+        findChains(niches);
         return base::success();
     }
 
-    /// Parts before each trap of the best chain: what its traps do is counted with them from then on, beside
-    /// those of the plain groove, as within its way a part lies as the traps before have laid it.
+    /// Parts before each trap of the best chains: what their traps do is counted with them from then on,
+    /// beside those of the plain groove, as within its way a part lies as the traps before have laid it.
     base::Status followParts() {
         std::vector<trial::TrialBatch> batches;
         std::vector<double> bottoms;
-        for (std::size_t place = 1; place < places_.size(); ++place) {
-            const auto track = buildChain(std::span(chains_.front().pieces).first(place));
-            if (!track) return track.error();
-            bottoms.push_back(lowestAt(**track, (*track)->finish));
-            batches.push_back(makeBatch(*track, kTrialsOfFollowed));
+        const int each = kTrialsOfFollowed / static_cast<int>(niches_.size());
+        for (const Chain& chain : niches_) {
+            for (std::size_t place = 1; place < places_.size(); ++place) {
+                const auto track = buildChain(std::span(chain.pieces).first(place));
+                if (!track) return track.error();
+                bottoms.push_back(lowestAt(**track, (*track)->finish));
+                batches.push_back(makeBatch(*track, each));
+            }
         }
         const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
         if (!outcomes) return outcomes.error();
@@ -605,7 +709,7 @@ class Planner {
                 met_[column].back().position.z() -= bottoms[i];
             }
         }
-        for (const std::size_t i : used_) {
+        for (const std::size_t i : std::set<std::size_t>(used_.begin(), used_.end())) {
             for (Belief& counts : pieces_[i].counts)
                 for (double& count : counts)
                     count *= 0.5;
@@ -613,28 +717,28 @@ class Planner {
         return base::success();
     }
 
-    /// Trials that tell more of a piece, from the ways in which parts come to it in the best chain; none if
-    /// all of them are known well.
-    Work findUncertain(std::size_t index) {
-        Belief coming(columns(), 0.0);
-        Belief parts = arriving_;
+    /// Trials that tell more of a piece, from the ways in which parts come to it in the chains that use it;
+    /// none if all of them are known well.
+    Work findUncertain(std::size_t index, int trials) {
+        Belief coming(rows(), 0.0);
         bool isUsed = false;
-        for (const std::size_t used : chains_.front().pieces) {
-            const double staying = std::max(1e-9, 1.0 - parts[stuck()] - parts[fallen()]);
-            for (std::size_t way = 0; way < rows() && used == index; ++way)
-                coming[way] = std::max(coming[way], parts[way] / staying);
-            isUsed = isUsed || used == index;
-            parts = pass(parts, pieces_[used].chances);
+        for (const Chain& chain : niches_) {
+            const std::vector<Belief> before = listComing(chain);
+            for (std::size_t place = 0; place < chain.pieces.size(); ++place) {
+                if (chain.pieces[place] != index) continue;
+                isUsed = true;
+                for (std::size_t way = 0; way < rows(); ++way)
+                    coming[way] = std::max(coming[way], before[place][way]);
+            }
         }
         if (!isUsed) coming = arriving_;
         Work work{nullptr, std::vector<int>(rows(), 0)};
         for (std::size_t way = 0; way < rows(); ++way) {
-            double trials = 0.0;
-            for (const double count : pieces_[index].counts[way])
-                trials += count;
-            const int wanted = std::min(kMostOfUsed, static_cast<int>(kTrialsOfUsed * coming[way]));
-            if (static_cast<int>(trials) >= wanted) continue;
-            work.trials[way] = wanted - static_cast<int>(trials);
+            const Belief& counts = pieces_[index].counts[way];
+            const auto known = static_cast<int>(std::accumulate(counts.begin(), counts.end(), 0.0));
+            const auto wanted = static_cast<int>(std::min(kMostFromWay, coming[way]) * trials);
+            if (known >= wanted) continue;
+            work.trials[way] = wanted - known;
             work.piece = &pieces_[index];
         }
         return work;
@@ -675,6 +779,7 @@ class Planner {
     double fallBefore_ = 0.0;  // of the grooves [m]
     int batches_ = 0;          // so far
     bool forgivesFalls_;
+    double bitsOfHalving_ = objectives::kBitsOfHalving;
     std::vector<const traps::TrapKind*> kinds_;               // of the traps behind the grooves, each once
     std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind
     std::vector<std::size_t> places_;                         // kinds, along the track
@@ -683,9 +788,10 @@ class Planner {
     std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chain
     Belief arriving_;                              // at the first trap
     std::vector<Piece> pieces_;                    // that are known
-    std::vector<std::size_t> used_;                // of these, by the best chain
+    std::vector<std::size_t> used_;                // of these, by the niches' chains, in their order
     std::vector<std::size_t> sieves_;              // of these, findSieves()
     std::vector<Chain> chains_;                    // best first
+    std::vector<Chain> niches_;  // of these, the best for each of the ways that most parts can be brought to
 };
 
 }  // namespace
@@ -701,8 +807,8 @@ std::string findPlanningProblem(const TrackSettings& settings) {
     }
     if (isRight) return {};
     return fmt::format(
-        "Traps can be planned that begin with two grooves and go on with drops and cut-outs, as in \"groove, "
-        "groove, 3 x cut-out\"; these are \"{}\".",
+        "Traps can be planned that begin with two grooves and go on with drops, cut-outs and gaps, as in "
+        "\"groove, groove, 3 x gap\"; these are \"{}\".",
         settings.traps);
 }
 
@@ -722,10 +828,15 @@ base::Result<int> countWays(const StudyInputs& inputs, const base::RunControl& c
 }
 
 std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways) {
-    constexpr std::int64_t kTrialsOfTrap = 15;  // from each way
-    return isPlanned(settings) ? kTrialsOfWays + std::int64_t{settings.populationSize} * kTrapsPerIndividual *
-                                                     ways * kTrialsOfTrap
-                               : 0;
+    if (!isPlanned(settings)) return 0;
+    // Of a trap by itself, from the ways that share trials and from each of the others, and what the plans
+    // from time to time take.
+    constexpr int kShared = 14;
+    constexpr int kOthers = 2;
+    constexpr int kPlans = 12;
+    constexpr int kMost = kMostShared;
+    const int each = kShared * std::min(ways, kMost) + kOthers * std::max(0, ways - kMost) + kPlans;
+    return kTrialsOfWays + std::int64_t{settings.populationSize} * kTrapsPerIndividual * each;
 }
 
 TrackSettings planningTrack(const TrackSettings& settings) {

@@ -19,7 +19,7 @@ namespace trapwright::study {
 /// chains.
 
 /// Why a chain of these traps cannot be planned; empty if it can. It begins with two grooves, in which parts
-/// come to lie down and to move on, and goes on with drops and cut-outs.
+/// come to lie down and to move on, and goes on with drops, cut-outs and gaps.
 std::string findPlanningProblem(const TrackSettings& settings);
 
 /// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
@@ -30,7 +30,7 @@ std::string findPlanningProblem(const TrackSettings& settings);
 base::Result<std::vector<search::Design>> planDesigns(
     const StudyInputs& inputs, std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
     const LearningControl& control);
-inline constexpr int kTrapsPerIndividual = 20;
+inline constexpr int kTrapsPerIndividual = 50;
 
 /// In how many ways parts lie when they come to the first trap, as a plan tells them apart, from some hundred
 /// trials. The settings must be those of a planned study. Errors: engine, cancelled.

@@ -102,7 +102,7 @@ Settings turningMode(Settings settings, const part::Part& part) {
 
 Settings sortingMode(Settings settings, const part::Part& part) {
     const auto inProportion = [&](double ofWedge) { return scaleLength(ofWedge, 8.9e-3, part); };
-    settings.track.traps = "groove, groove, 8 x cut-out";
+    settings.track.traps = "groove, groove, 8 x gap";
     settings.track.pointsPerSection = 9;
     settings.track.minSegmentLength = inProportion(5e-3);
     settings.track.maxSegmentLength = inProportion(30e-3);

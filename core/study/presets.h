@@ -29,7 +29,7 @@ Settings paperMode(Settings settings);
 Settings turningMode(Settings settings, const part::Part& part);
 
 /// Changes settings to those of a track that throws out what lies wrong, in proportion to the part: two
-/// grooves and eight cut-outs, planned, judged by sorting (decisions.md#sorting), with a few generations
+/// grooves and eight gaps, planned, judged by sorting (decisions.md#sorting), with a few generations
 /// behind the plan. Lengths are whole half millimetres.
 Settings sortingMode(Settings settings, const part::Part& part);
 

@@ -203,8 +203,9 @@ std::vector<search::Dimension> dimensionsOfCutOut(const TrapParameters& paramete
             angleOf("fall", -kSteepestRise, kSteepestFall)};
 }
 
-std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters, double entry,
-                                             std::span<const double> numbers) {
+/// `step`: how much lower the track is behind the cut, or if negative from the cut's beginning on. [m]
+std::vector<track::CrossSection> buildLedge(const TrapParameters& parameters, double entry,
+                                            std::span<const double> numbers, double step) {
     const double deepest = deepestCut(parameters);
     const Form narrow =
         makeLedge(within(0.0, kSteepestLedgeWall, numbers[2]), within(-kMostFloor, kMostFloor, numbers[3]),
@@ -213,13 +214,38 @@ std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters, d
     whole.cut = 0.0;
     const double fall = within(-kSteepestRise, kSteepestFall, numbers[6]);
     Course course(parameters, entry);
+    const auto addEdge = [&](double height, const Form& form) {
+        if (height > 0.0)
+            course.fallBy(height, kShortestEdge, form);
+        else
+            course.add(kShortestEdge, fall, form);
+    };
     course.add(within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[0]),
                within(-kSteepestRise, kSteepestFall, numbers[1]), whole);
-    course.add(kShortestEdge, fall, narrow);
+    addEdge(-step, narrow);
     course.add(within(kShortestEdge, parameters.maxSegmentLength, numbers[5]), fall, narrow);
-    course.add(kShortestEdge, fall, whole);
+    addEdge(step, whole);
     course.rest();
     return course.take();
+}
+
+std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters, double entry,
+                                             std::span<const double> numbers) {
+    return buildLedge(parameters, entry, numbers, 0.0);
+}
+
+std::vector<search::Dimension> dimensionsOfGap(const TrapParameters& parameters) {
+    std::vector<search::Dimension> dimensions = dimensionsOfCutOut(parameters);
+    const double highest = highestDrop(parameters) / base::kMillimetre;
+    dimensions.push_back({"step", "mm", -highest, highest, kBits});
+    dimensions.back().isRelief = true;  // from no step on
+    return dimensions;
+}
+
+std::vector<track::CrossSection> buildGap(const TrapParameters& parameters, double entry,
+                                          std::span<const double> numbers) {
+    const double highest = highestDrop(parameters);
+    return buildLedge(parameters, entry, numbers, within(-highest, highest, numbers[7]));
 }
 
 std::vector<double> layOutCutOut(const TrapParameters& parameters) {
@@ -274,6 +300,18 @@ TrapKind cutOut() {
             "A ledge along a wall, cut away over a length: parts without support there fall off.",
             &dimensionsOfCutOut,
             &buildCutOut,
+            &layOutCutOut,
+            &longestCutOut,
+            nullptr,
+            true};
+}
+
+TrapKind gap() {
+    return {"gap",
+            "Gap",
+            "A cut-out with a step behind it or at its beginning: tells a part's two ends apart.",
+            &dimensionsOfGap,
+            &buildGap,
             &layOutCutOut,
             &longestCutOut,
             nullptr,

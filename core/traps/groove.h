@@ -34,4 +34,10 @@ TrapKind drop();
 /// down again ends it.
 TrapKind cutOut();
 
+/// A cut-out with a step: the track goes on lower behind the cut, or is lower from the cut's beginning on. A
+/// level cut is the same from either side, so that what lies on it at rest is carried or not whichever end
+/// comes first; over a step what reaches across with its light end passes, and what tips with its heavy end
+/// falls (learning.md). Its eight numbers are a cut-out's and the step's height.
+TrapKind gap();
+
 }  // namespace trapwright::traps

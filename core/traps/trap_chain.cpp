@@ -50,7 +50,7 @@ Repeated readRepeated(std::string_view word) {
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 5> kinds = {freeForm(), step(), groove(), drop(), cutOut()};
+    static const std::array<TrapKind, 6> kinds = {freeForm(), step(), groove(), drop(), cutOut(), gap()};
     return kinds;
 }
 

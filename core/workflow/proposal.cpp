@@ -103,7 +103,7 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
         proposal.reasons.push_back(
             fmt::format("{} (symmetry {}) looks another way with its other end in front, and hardly any "
                         "track turns such a "
-                        "part round: what lies wrong is thrown out, by eight cut-outs planned from {} traps "
+                        "part round: what lies wrong is thrown out, by eight gaps planned from {} traps "
                         "tried one by one.",
                         part.name, part.symmetry.name, fitted->populationSize * study::kTrapsPerIndividual));
     } else {

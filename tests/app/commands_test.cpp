@@ -131,7 +131,7 @@ class CommandsTest : public QObject {
                      .code,
                  0);
         const QJsonObject settings = ask({"settings", "sorting.trap", "--json"}).json();
-        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, 8 x cut-out");
+        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, 8 x gap");
         QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
         QCOMPARE(settings["evolution"].toObject()["populationSize"].toInt(), 7);

@@ -38,7 +38,7 @@ const RawText kTexts[] = {
     {"track.feeder", TEXT("Feeder"), TEXT("A straight track that shakes along a line, or one around a bowl that turns back and forth."), {TEXT("Linear"), TEXT("Bowl")}},
     {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
     {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs that throw out what lies wrong, or several one after the other.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs and gaps that throw out what lies wrong, or several one after the other.")},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
     {"track.pointsPerSection", TEXT("Points per section"), TEXT("How many points shape each cross-section, from the inner to the outer edge.")},
     {"track.minSegmentLength_mm", TEXT("Shortest segment"), TEXT("Least distance between two cross-sections.")},
@@ -59,7 +59,7 @@ const RawText kTexts[] = {
     {"evolution.staticMutation", TEXT("Static mutation"), TEXT("Chance of each bit of all genes to be drawn anew, beside the chance that adapts itself.")},
     {"evolution.smoothingLimit", TEXT("Most smoothing"), TEXT("The share of points that may be smoothed away at most; 1 in the paper.")},
     {"evolution.mutationFloor", TEXT("Least mutation"), TEXT("The least that the chance which adapts itself can be; 0 in the paper.")},
-    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops and cut-outs are tried by themselves first, and learning begins with the best chains of them."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned")}},
+    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops, cut-outs and gaps are tried by themselves first, and learning begins with the best chains of them."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned")}},
     {"evolution.orientationDistance", TEXT("Alike orientations"), TEXT("Whether orientations that look alike count as the same; the paper does not count them so."), {TEXT("Count as one"), TEXT("Stay apart")}},
     {"evolution.simulateOverlapping", TEXT("Overlapping tracks"), TEXT("Whether tracks that cross themselves are simulated, as in the paper, or scored worst at once."), {TEXT("Score worst"), TEXT("Simulate")}},
     {"evolution.racingTrials", TEXT("Racing trials"), TEXT("Trials for every individual before only the best get all; 0 gives all to everybody.")},
@@ -151,7 +151,7 @@ std::vector<Choice> trapChoices() {
         add(std::string(kind.key));
     for (const char* chain :
          {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
-          "groove, 10 x drop", "groove, groove, 8 x cut-out", "groove, groove, 4 x drop, 4 x cut-out"})
+          "groove, 10 x drop", "groove, groove, 8 x gap", "groove, groove, 8 x cut-out"})
         add(chain);
     return choices;
 }

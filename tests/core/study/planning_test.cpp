@@ -76,8 +76,19 @@ class PlanningTest : public QObject {
 
  private slots:
     // Neither cut alone leaves one way; both do, and only if what falls comes again.
+    void findsTheCutsThatLeaveOneWay_data() {
+        QTest::addColumn<int>("individuals");
+        QTest::addColumn<QString>("traps");
+        QTest::newRow("one plan") << 6 << "groove, groove, 3 x cut-out";
+        QTest::newRow("one plan, gaps") << 6 << "groove, groove, 3 x gap";
+        QTest::newRow("three plans that are joined") << 75 << "groove, groove, 3 x cut-out";
+    }
     void findsTheCutsThatLeaveOneWay() {
-        const study::StudyInputs inputs = sieveInputs("sorting");
+        QFETCH(int, individuals);
+        QFETCH(QString, traps);
+        study::StudyInputs inputs = sieveInputs("sorting", 2);
+        inputs.settings.evolution.populationSize = individuals;
+        inputs.settings.track.traps = traps.toStdString();
         const auto designs = study::planDesigns(inputs, 3, {}, {});
         VERIFY_OK(designs);
         QVERIFY(!designs->empty() && designs->size() <= 3);
@@ -179,7 +190,7 @@ class PlanningTest : public QObject {
         QTest::addColumn<QString>("traps");
         QTest::addColumn<bool>("can");
         QTest::newRow("cut-outs") << "groove, groove, 3 x cut-out" << true;
-        QTest::newRow("drops and cut-outs") << "2 x groove, drop, 3 x cut-out, drop" << true;
+        QTest::newRow("drops, cut-outs and gaps") << "2 x groove, drop, 3 x cut-out, gap, drop" << true;
         QTest::newRow("one groove") << "groove, 3 x cut-out" << false;
         QTest::newRow("nothing behind") << "groove, groove" << false;
         QTest::newRow("free-form") << "groove, groove, cut-out, free-form" << false;

@@ -38,7 +38,7 @@ class TrapKindsTest : public QObject {
         QTest::addColumn<QString>("chain");
         for (const traps::TrapKind& kind : traps::trapKinds())
             QTest::newRow(kind.key.data()) << QString::fromUtf8(kind.key.data());
-        QTest::newRow("several") << "step, free-form,step, groove, drop,drop, cut-out, cut-out";
+        QTest::newRow("several") << "step, free-form,step, groove, drop,drop, cut-out, cut-out, gap";
     }
     void everyKindGivesATrack() {
         QFETCH(QString, chain);
@@ -194,6 +194,37 @@ class TrapKindsTest : public QObject {
         for (const track::CrossSection& section : cutOut.build(parameters, entry, numbers))
             QVERIFY(section.points.front().x() == -30e-3 &&
                     std::abs(section.points.back().x() - 30e-3) < 1e-15);
+    }
+
+    void aGapIsACutOutWithAStep() {
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const traps::TrapKind gap = traps::gap();
+        const auto dimensions = gap.dimensions(parameters);
+        QCOMPARE(dimensions.size(), std::size_t{8});
+        QCOMPARE(dimensions[7].low, -18.0);
+        QCOMPARE(dimensions[7].high, 18.0);
+        const std::vector<double> numbers = {0.0, 0.5, 0.5, 0.75, 0.75, 0.5, 0.5};
+        const double entry = 120e-3;
+        const auto level = traps::cutOut().build(parameters, entry, numbers);
+        const double edge = 0.5e-3 * std::tan(8.0 * base::kDegree);  // what an edge falls without a step
+        // The step, and the first section that it lowers.
+        const std::pair<double, std::size_t> steps[] = {{0.0, 6}, {9e-3, 3}, {-9e-3, 1}};
+        for (const auto& [step, first] : steps) {
+            std::vector<double> stepped = numbers;
+            stepped.push_back(0.5 + step / 36e-3);
+            const auto sections = gap.build(parameters, entry, stepped);
+            QCOMPARE(sections.size(), level.size());
+            for (std::size_t i = 0; i < sections.size(); ++i) {
+                const double lower = i < first ? 0.0 : std::abs(step) - edge;
+                QVERIFY(std::abs(sections[i].x - level[i].x) < 1e-12);
+                for (std::size_t k = 0; k < sections[i].points.size(); ++k) {
+                    QVERIFY(std::abs(sections[i].points[k].x() - level[i].points[k].x()) < 1e-12);
+                    QVERIFY(std::abs(level[i].points[k].y() - sections[i].points[k].y() - lower) < 1e-9);
+                }
+            }
+        }
     }
 
     // What follows a trap that falls begins where that one ends.

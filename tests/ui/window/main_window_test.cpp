@@ -143,7 +143,7 @@ class MainWindowTest : public QObject {
         user.action("preset.sorting")->trigger();
         const study::Settings sorting = user.session()->design().settings();
         QCOMPARE(sorting.evolution.objectives, std::string("sorting"));
-        QCOMPARE(sorting.track.traps, std::string("groove, groove, 8 x cut-out"));
+        QCOMPARE(sorting.track.traps, std::string("groove, groove, 8 x gap"));
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
         QVERIFY(user.session()->design().settings() == before);
