@@ -1,5 +1,8 @@
 #include "core/workflow/judging.h"
 
+#include <algorithm>
+
+#include "core/study/planning.h"
 #include "core/study/selection.h"
 #include "core/study/validation.h"
 
@@ -25,7 +28,19 @@ Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& fi
                        "The study " + file.path().string() +
                            " has no generations to select from. Learn some first with evolve."};
     }
-    return study::rankWinners(std::move(*winners), inputs.settings.validation.selectionWinners);
+    const int count = inputs.settings.validation.selectionWinners;
+    if (!study::isPlanned(inputs.settings.evolution)) return study::rankWinners(std::move(*winners), count);
+    constexpr study::IndividualId kBestPlanned{0, 0};
+    auto planned = file.loadIndividual(kBestPlanned);
+    if (!planned) return Failure{FailureKind::reading, planned.error().message};
+    std::vector<study::Individual> candidates =
+        study::rankWinners(std::move(*winners), std::max(1, count - 1));
+    const bool isKnown = std::any_of(candidates.begin(), candidates.end(), [&](const auto& candidate) {
+        return candidate.record.design == planned->design;
+    });
+    if (!isKnown && static_cast<int>(candidates.size()) < count)
+        candidates.push_back({kBestPlanned, std::move(*planned)});
+    return candidates;
 }
 
 Result<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,

@@ -11,7 +11,9 @@
 
 namespace trapwright::workflow {
 
-/// The winners that a selection simulates again. A failure if settings or part cannot be used, or there are
+/// The winners that a selection simulates again; of a planned study also the plan's best chain, the first
+/// individual of generation 0: it was put together from very many trials, and a generation's winner is the
+/// luckiest of many by few. A failure if settings or part cannot be used, or there are
 /// no generations.
 Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& file,
                                                       const study::StudyInputs& inputs);

@@ -103,6 +103,27 @@ class LearningTest : public QObject {
         QVERIFY(study.file->loadUncheckedWinners().value().empty());
     }
 
+    // What was planned best is among what is simulated again, whoever won its generation.
+    void thePlansBestChainIsACandidate() {
+        const fake::WaveStudy study("native", 6);
+        QVERIFY(workflow::learn(*study.file, study.inputs, fake::lawEngines(), {}, {}).ok());
+        study::StudyInputs inputs = study.inputs;
+        const auto isFirst = [](const study::Individual& one) {
+            return one.generation == 0 && one.individual == 0;
+        };
+        const auto winners = workflow::findCandidates(*study.file, inputs);
+        QVERIFY(winners.ok() && std::none_of(winners->begin(), winners->end(), isFirst));
+        inputs.settings.track.traps = "groove, groove, 3 x cut-out";
+        inputs.settings.evolution.firstGeneration = search::ga::FirstGeneration::planned;
+        for (const int count : {1, 2, 3, 20}) {
+            inputs.settings.validation.selectionWinners = count;
+            const auto candidates = workflow::findCandidates(*study.file, inputs);
+            QVERIFY(candidates.ok() && static_cast<int>(candidates->size()) <= count);
+            QVERIFY(study::isSameIndividual(candidates->front(), winners->front()));
+            QCOMPARE(std::count_if(candidates->begin(), candidates->end(), isFirst), count > 1 ? 1 : 0);
+        }
+    }
+
     void failuresTellTheirKind() {
         fake::WaveStudy study("hybrid", 2);
         auto reader = store::StudyFile::openReadOnly(study.path);
