@@ -33,25 +33,30 @@ constexpr int kRoundsBetweenPlans = 6;
 constexpr int kRoundsOfIsland = 24;  // at least
 constexpr int kMostIslands = 8;
 constexpr double kBitsOfBoldHalving = 0.5 * objectives::kBitsOfHalving;  // of every other island
-constexpr int kPlansInARow = 4;            // at most, while what they use is measured better
 constexpr int kFirstTrials = 6;            // from each way on average, of a trap that is new
 constexpr int kMoreTrials = 24;            // of one that is promising
 constexpr std::size_t kMostShared = 8;     // ways that count for the sum of these trials
-constexpr int kTrialsOfUsed = 1000;        // of those that the last plan uses, by the ways of parts that come
-constexpr int kTrialsOfParents = 300;      // of those that earlier ones use, whose likes are tried
 constexpr double kMostFromWay = 0.3;       // of these trials
-constexpr int kTrialsOfFollowed = 300;     // behind each trap of the best chain
+constexpr int kTrialsOfFollowed = 300;     // behind each trap, shared by the best chains
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr std::size_t kBeam = 60;          // chains that are followed up
 constexpr std::size_t kBeamOfWay = 10;     // of these, in which parts lie one way more than any other
 constexpr std::size_t kImproved = 5;       // chains of these whose traps are exchanged for better ones
-constexpr std::size_t kNiches = 3;         // ways in which chains end whose traps have others like them tried
 constexpr std::size_t kSieves = 12;        // whose likes are tried, besides those in use
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
 constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
 constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
+
+/// How well a plan is made.
+struct Care {
+    std::size_t niches = 0;  // ways to lead parts to, each with its best chain, whose traps' likes are tried
+    int trials = 0;          // of each trap that is used, by the ways in which parts come to it
+    int inARow = 0;          // plans at most, while what they use is measured
+};
+constexpr Care kOnTheWay{3, 300, 4};
+constexpr Care kAtTheEnd{1, 1000, 12};
 
 /// How many of each way (rows) came to be in which (columns): ways, other, stuck, fallen.
 using Counts = std::vector<std::vector<double>>;
@@ -119,11 +124,12 @@ class Planner {
                            static_cast<int>(kTrapsInRound);
         // What is found first decides in which ways traps lead, and what is tried next. So several plans
         // begin by themselves, and what is best of each is what the last part of the work begins with.
-        const int islands = std::clamp(2 * rounds / 3 / kRoundsOfIsland, 1, kMostIslands);
+        const int begun = 2 * rounds / 3;
+        const int islands = std::min(begun / kRoundsOfIsland, kMostIslands);
         std::vector<Piece> found;
         int round = 0;
-        for (int island = 0; island < islands && islands > 1; ++island) {
-            const int end = (island + 1) * (2 * rounds / 3) / islands;
+        for (int island = 0; islands > 1 && island < islands; ++island) {
+            const int end = (island + 1) * begun / islands;
             // To turn parts pays from the first trap on, to throw them out pays late.
             bitsOfHalving_ = island % 2 == 0 ? objectives::kBitsOfHalving : kBitsOfBoldHalving;
             if (const auto done = goOn(round, end, rounds); !done) return done.error();
@@ -133,10 +139,10 @@ class Planner {
         bitsOfHalving_ = objectives::kBitsOfHalving;
         pieces_ = std::move(found);
         if (!pieces_.empty()) {
-            if (const auto joined = plan(kNiches, kTrialsOfParents); !joined) return joined.error();
+            if (const auto joined = plan(kOnTheWay); !joined) return joined.error();
         }
         if (const auto done = goOn(round, rounds, rounds); !done) return done.error();
-        if (const auto last = plan(1, kTrialsOfUsed); !last) return last.error();
+        if (const auto last = plan(kAtTheEnd); !last) return last.error();
         return listDesigns(most);
     }
 
@@ -147,7 +153,7 @@ class Planner {
             tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round));
             if (const auto tried = tryTraps(round); !tried) return tried.error();
             if (round + 1 < end && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
-            if (const auto improved = plan(kNiches, kTrialsOfParents); !improved) return improved.error();
+            if (const auto improved = plan(kOnTheWay); !improved) return improved.error();
             if (round + 1 == end || chains_.empty()) continue;
             if (const auto followed = followParts(); !followed) return followed.error();
         }
@@ -657,16 +663,15 @@ class Planner {
         return sieves;
     }
 
-    /// Finds the best chains, for each of so many ways, and measures what they use, until that is known by so
-    /// many trials each.
-    base::Status plan(std::size_t niches, int trials) {
+    /// Finds the best chains, and measures what they use, until that is known well enough.
+    base::Status plan(const Care& care) {
         sieves_ = findSieves();
         if (pieces_.size() > kMostTraps) {
             forget();
             sieves_ = findSieves();
         }
-        for (int again = 0; again < kPlansInARow * (niches == 1 ? 3 : 1); ++again) {
-            findChains(niches);
+        for (int again = 0; again < care.inARow; ++again) {
+            findChains(care.niches);
             if (chains_.empty()) return base::success();
             sieves_ = findSieves();
             std::set<std::size_t> looked(used_.begin(), used_.end());
@@ -674,13 +679,13 @@ class Planner {
                           sieves_.begin() + std::min<std::ptrdiff_t>(2, std::ssize(sieves_)));
             std::vector<Work> works;
             for (const std::size_t i : looked) {
-                Work work = findUncertain(i, trials);
+                Work work = findUncertain(i, care.trials);
                 if (work.piece != nullptr) works.push_back(std::move(work));
             }
             if (works.empty()) break;
             if (const auto measured = measure(works); !measured) return measured.error();
         }
-        findChains(niches);
+        findChains(care.niches);
         return base::success();
     }
 
@@ -785,7 +790,7 @@ class Planner {
     std::vector<std::size_t> places_;                         // kinds, along the track
     std::vector<base::Quaternion> ways_;                      // in which parts lie
     std::vector<std::vector<base::Pose>> starts_;  // of each way, and of others; z from the groove's bottom
-    std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chain
+    std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chains
     Belief arriving_;                              // at the first trap
     std::vector<Piece> pieces_;                    // that are known
     std::vector<std::size_t> used_;                // of these, by the niches' chains, in their order
