@@ -13,10 +13,9 @@ namespace {
 // What a track has on which nothing finishes: more than parts that end at random ever have.
 constexpr double kMostBits = 8.0;
 
-/// Minus the binary logarithm of how likely two of `parts` parts end alike; those that are not among the ends
-/// are like none.
-Measured measureBits(std::span<const base::Quaternion> ends, std::size_t parts,
-                     const Evaluation& evaluation) {
+Measured measureDisorder(const Evaluation& evaluation) {
+    const std::vector<base::Quaternion> ends = trial::finalOrientations(evaluation.outcomes);
+    const std::size_t parts = trial::countParts(evaluation.outcomes);
     if (ends.size() < 2) return {kMostBits};
     const trial::OrientationMetric metric(ends, *evaluation.symmetry, evaluation.distance);
     // Of each part the share of all others that end like it; 0 of one that does not finish.
@@ -41,34 +40,6 @@ Measured measureBits(std::span<const base::Quaternion> ends, std::size_t parts,
     return {-std::log2(likelihood), error / (likelihood * std::log(2.0))};
 }
 
-Measured measureDisorder(const Evaluation& evaluation) {
-    return measureBits(trial::finalOrientations(evaluation.outcomes), trial::countParts(evaluation.outcomes),
-                       evaluation);
-}
-
-std::size_t countFallen(std::span<const trial::Outcome> outcomes) {
-    std::size_t fallen = 0;
-    for (const trial::Outcome& outcome : outcomes) {
-        fallen += static_cast<std::size_t>(std::count_if(
-            outcome.parts.begin(), outcome.parts.end(),
-            [](const trial::PartOutcome& part) { return part.ending == trial::Ending::fellOff; }));
-    }
-    return fallen;
-}
-
-Measured measureSorting(const Evaluation& evaluation) {
-    const std::size_t parts = trial::countParts(evaluation.outcomes);
-    const std::size_t staying = parts - countFallen(evaluation.outcomes);
-    Measured measured = measureBits(trial::finalOrientations(evaluation.outcomes), staying, evaluation);
-    if (staying == 0) return measured;
-    const double share = static_cast<double>(staying) / static_cast<double>(parts);
-    measured.value -= kBitsOfHalving * std::log2(share);
-    const double error =
-        kBitsOfHalving / std::log(2.0) * std::sqrt((1.0 - share) / (share * static_cast<double>(parts)));
-    measured.error = std::hypot(measured.error, error);
-    return measured;
-}
-
 }  // namespace
 
 Objective disorder() {
@@ -83,23 +54,6 @@ Objective disorder() {
     objective.moreIsBetter = false;
     objective.usesTolerance = true;
     objective.measure = &measureDisorder;
-    objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 0.0; };
-    return objective;
-}
-
-Objective sorting() {
-    Objective objective;
-    objective.key = "sorting";
-    objective.symbol = "Sorting";
-    objective.name = "Sorting";
-    objective.unit = "bit";
-    objective.help =
-        "Disorder of the parts that stay on the track, and a third of a bit for each halving of their "
-        "number. Lower is better.";
-    objective.decimals = 2;
-    objective.moreIsBetter = false;
-    objective.usesTolerance = true;
-    objective.measure = &measureSorting;
     objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 0.0; };
     return objective;
 }

@@ -1,5 +1,6 @@
 #include "core/objectives/success_share.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trapwright::objectives {
@@ -33,6 +34,24 @@ Measured measureCorrect(const Evaluation& evaluation) {
     return measureShare(oriented, static_cast<double>(finished));
 }
 
+Measured measureSorting(const Evaluation& evaluation) {
+    // What a track has on which nothing finishes: more than parts that end at random ever have.
+    constexpr double kMostBits = 8.0;
+    const trial::Tally tally = countVerdicts(evaluation);
+    const double parts = tally.trials();
+    const double staying = parts - tally.fellOff;
+    if (staying < 2.0) return {kMostBits};
+    const double itself = evaluation.expected ? 0.0 : 1.0;
+    const double of = staying - itself;
+    const double share = std::max(0.0, (tally.success - itself) / of);
+    const double least = std::exp2(-kMostBits);
+    const double right = least + (1.0 - least) * share;
+    const double error = std::sqrt(share * (1.0 - share) / of) / right;
+    const double errorOfStaying = kBitsOfHalving * std::sqrt((1.0 - staying / parts) / staying);
+    return {-std::log2(right) - kBitsOfHalving * std::log2(staying / parts),
+            std::hypot(error, errorOfStaying) / std::log(2.0)};
+}
+
 }  // namespace
 
 Objective successShare() {
@@ -57,6 +76,23 @@ Objective correctShare() {
     objective.name = "Correct";
     objective.help = "Parts in the expected orientation, of those that finish. Higher is better.";
     objective.measure = &measureCorrect;
+    return objective;
+}
+
+Objective sorting() {
+    Objective objective;
+    objective.key = "sorting";
+    objective.symbol = "Sorting";
+    objective.name = "Sorting";
+    objective.unit = "bit";
+    objective.help =
+        "How many times the share of right parts, of those that stay on the track, has to double to be all, "
+        "and a sixth of a bit for each halving of their number. Lower is better.";
+    objective.decimals = 2;
+    objective.moreIsBetter = false;
+    objective.usesTolerance = true;
+    objective.measure = &measureSorting;
+    objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 0.0; };
     return objective;
 }
 

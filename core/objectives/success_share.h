@@ -11,4 +11,14 @@ Objective successShare();
 /// The same of those that finish alone: what comes out of a track that throws back what lies wrong.
 Objective correctShare();
 
+/// For tracks that throw out what lies wrong, so that it comes again, in bits: minus the binary logarithm of
+/// the share of those that do not fall off that finish in the wanted orientation, and kBitsOfHalving for each
+/// halving of the parts by what falls off. Four equally frequent ways have 2 bits, and one of the four alone
+/// a third: order is worth more than what it costs. What gets stuck counts as wrong. The part that makes an
+/// orientation the mode is left out, or of few parts a large share would lie so by chance.
+Objective sorting();
+/// With 1, throwing out half of the ways would gain nothing; with 0, throwing out almost all parts would cost
+/// nothing (decisions.md#sorting).
+inline constexpr double kBitsOfHalving = 1.0 / 6.0;
+
 }  // namespace trapwright::objectives

@@ -335,7 +335,13 @@ constexpr const char* kVersion12 = R"sql(
 UPDATE study SET settings = json_set(settings, '$.evolution.firstGeneration', 'random');
 )sql";
 
-constexpr std::array<Migration, 12> kMigrations = {{{1, kVersion1},
+// As many as a plan tried for a population.
+constexpr const char* kVersion13 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.evolution.plannedTraps',
+    max(32, 50 * json_extract(settings, '$.evolution.populationSize')));
+)sql";
+
+constexpr std::array<Migration, 13> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -346,7 +352,8 @@ constexpr std::array<Migration, 12> kMigrations = {{{1, kVersion1},
                                                     {9, kVersion9},
                                                     {10, kVersion10},
                                                     {11, kVersion11},
-                                                    {12, kVersion12}}};
+                                                    {12, kVersion12},
+                                                    {13, kVersion13}}};
 
 }  // namespace
 

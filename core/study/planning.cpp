@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/objectives/disorder.h"
+#include "core/objectives/success_share.h"
+#include "core/search/racing.h"
+#include "core/search/ranking.h"
+#include "core/study/chain_search.h"
+#include "core/study/evaluator.h"
 #include "core/study/orientation_shares.h"
 #include "core/study/selection.h"
 #include "core/study/track_design.h"
@@ -32,7 +37,7 @@ constexpr std::size_t kTrapsInRound = 32;
 constexpr int kRoundsBetweenPlans = 6;
 constexpr int kRoundsOfIsland = 24;  // at least
 constexpr int kMostIslands = 8;
-constexpr double kBitsOfBoldHalving = 0.5 * objectives::kBitsOfHalving;  // of every other island
+constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
 constexpr int kFirstTrials = 6;            // from each way on average, of a trap that is new
 constexpr int kMoreTrials = 24;            // of one that is promising
 constexpr std::size_t kMostShared = 8;     // ways that count for the sum of these trials
@@ -40,14 +45,14 @@ constexpr double kMostFromWay = 0.3;       // of these trials
 constexpr int kTrialsOfFollowed = 300;     // behind each trap, shared by the best chains
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
-constexpr std::size_t kBeam = 60;          // chains that are followed up
-constexpr std::size_t kBeamOfWay = 10;     // of these, in which parts lie one way more than any other
-constexpr std::size_t kImproved = 5;       // chains of these whose traps are exchanged for better ones
-constexpr std::size_t kSieves = 12;        // whose likes are tried, besides those in use
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
 constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
 constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
+
+constexpr std::size_t kJudged = 16;   // chains that are judged by trials of whole tracks
+constexpr int kFirstOfJudged = 25;    // trials of each
+constexpr int kTrialsOfJudged = 400;  // of the best
 
 /// How well a plan is made.
 struct Care {
@@ -58,32 +63,10 @@ struct Care {
 constexpr Care kOnTheWay{3, 300, 4};
 constexpr Care kAtTheEnd{1, 1000, 12};
 
-/// How many of each way (rows) came to be in which (columns): ways, other, stuck, fallen.
-using Counts = std::vector<std::vector<double>>;
-/// Shares of parts, in the columns of Counts.
-using Belief = std::vector<double>;
-
-/// A trap that is tried by itself.
-struct Piece {
-    std::size_t kind = 0;  // index of Planner::kinds_
-    std::vector<double> numbers;
-    Counts counts;
-    Counts chances;     // what counts tell: rows that sum up to 1
-    double fall = 0.0;  // of the track, from its beginning to its end [m]
-};
-
-/// What a piece is still to be tried.
+/// What a trap is still to be tried.
 struct Work {
-    Piece* piece = nullptr;
+    KnownTrap* trap = nullptr;
     std::vector<int> trials;  // from each way
-};
-
-/// A chain: pieces, and where parts are behind it.
-struct Chain {
-    std::vector<std::size_t> pieces;
-    Belief parts;
-    double worth = 0.0;  // minus bits
-    double fall = 0.0;   // of the track [m]
 };
 
 double lowestAt(const track::Track& track, double x) {
@@ -105,8 +88,7 @@ class Planner {
           chain_(std::move(chain)),
           planned_(planned),
           control_(control),
-          doneBefore_(control_.run.done()),
-          forgivesFalls_(forgivesFalls(inputs.settings.evolution)) {
+          doneBefore_(control_.run.done()) {
         for (std::size_t i = kGroovesBefore; i < chain_.size(); ++i) {
             auto found = std::find(kinds_.begin(), kinds_.end(), chain_[i]);
             if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), chain_[i]);
@@ -119,31 +101,32 @@ class Planner {
     base::Result<std::vector<search::Design>> run(std::size_t most) {
         if (const auto found = findWays(kTrialsOfWays); !found) return found.error();
         if (ways_.empty()) return std::vector<search::Design>{};
-        const int rounds = (settings().evolution.populationSize * kTrapsPerIndividual +
-                            static_cast<int>(kTrapsInRound) - 1) /
-                           static_cast<int>(kTrapsInRound);
+        const int inRound = static_cast<int>(kTrapsInRound);
+        const int rounds = (settings().evolution.plannedTraps + inRound - 1) / inRound;
         // What is found first decides in which ways traps lead, and what is tried next. So several plans
         // begin by themselves, and what is best of each is what the last part of the work begins with.
         const int begun = 2 * rounds / 3;
         const int islands = std::min(begun / kRoundsOfIsland, kMostIslands);
-        std::vector<Piece> found;
+        std::vector<KnownTrap> found;
         int round = 0;
         for (int island = 0; islands > 1 && island < islands; ++island) {
             const int end = (island + 1) * begun / islands;
-            // To turn parts pays from the first trap on, to throw them out pays late.
-            bitsOfHalving_ = island % 2 == 0 ? objectives::kBitsOfHalving : kBitsOfBoldHalving;
+            // Where throwing parts out costs more, a plan turns as many as it can.
+            search_.setBitsOfHalving(island % 2 == 0 ? kBitsOfDearHalving : objectives::kBitsOfHalving);
             if (const auto done = goOn(round, end, rounds); !done) return done.error();
             round = end;
-            leaveIsland(found);
+            // What is of use joins the others', and the next plan begins with nothing.
+            std::ranges::move(search_.leave(found.empty() ? kinds_.size() : 0), std::back_inserter(found));
+            met_.clear();
         }
-        bitsOfHalving_ = objectives::kBitsOfHalving;
-        pieces_ = std::move(found);
-        if (!pieces_.empty()) {
+        search_.setBitsOfHalving(objectives::kBitsOfHalving);
+        search_.traps() = std::move(found);
+        if (!search_.traps().empty()) {
             if (const auto joined = plan(kOnTheWay); !joined) return joined.error();
         }
         if (const auto done = goOn(round, rounds, rounds); !done) return done.error();
         if (const auto last = plan(kAtTheEnd); !last) return last.error();
-        return listDesigns(most);
+        return judge(listDesigns(most));
     }
 
     /// Rounds of traps, planned with from time to time.
@@ -154,26 +137,10 @@ class Planner {
             if (const auto tried = tryTraps(round); !tried) return tried.error();
             if (round + 1 < end && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
             if (const auto improved = plan(kOnTheWay); !improved) return improved.error();
-            if (round + 1 == end || chains_.empty()) continue;
+            if (round + 1 == end || search_.chains().empty()) continue;
             if (const auto followed = followParts(); !followed) return followed.error();
         }
         return base::success();
-    }
-
-    /// What is of use joins `found`, and the next plan begins with nothing.
-    void leaveIsland(std::vector<Piece>& found) {
-        std::set<std::size_t> kept(used_.begin(), used_.end());
-        kept.insert(sieves_.begin(), sieves_.end());
-        for (std::size_t i = 0; i < kinds_.size() && found.empty(); ++i)
-            kept.insert(i);  // that do nothing
-        for (const std::size_t i : kept)
-            found.push_back(std::move(pieces_[i]));
-        pieces_.clear();
-        used_.clear();
-        sieves_.clear();
-        chains_.clear();
-        niches_.clear();
-        met_.clear();
     }
 
     /// From so many trials.
@@ -188,14 +155,20 @@ class Planner {
              findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, kMostWays)) {
             if (mode.count * kTrialsOfWays >= kLeastOfWay * trials) ways_.push_back(mode.orientation);
         }
+        ChainProblem problem;
+        problem.ways = ways_.size();
+        problem.places = places_;
+        problem.forgivesFalls = forgivesFalls(settings().evolution);
+        problem.arriving.assign(problem.columns(), 0.0);
+        search_ = ChainSearch(problem);  // findColumn() asks it
         starts_.resize(ways_.size() + 1);
-        arriving_.assign(columns(), 0.0);
         const double bottom = lowestAt(**track, (*track)->finish);
         fallBefore_ = settings().track.segmentHeight - bottom;
+        problem.mostFall = bottom;
         for (const trial::Outcome& outcome : outcomes->front()) {
             const trial::PartOutcome& part = outcome.parts.front();
             const std::size_t column = findColumn(part);
-            arriving_[column] += 1.0 / trials;
+            problem.arriving[column] += 1.0 / trials;
             if (column >= starts_.size()) continue;
             base::Pose start = part.farthest;
             start.position.z() -= bottom;
@@ -204,6 +177,8 @@ class Planner {
         // Too few to be tried from count as the most frequent way.
         if (static_cast<int>(starts_.back().size()) * kTrialsOfWays < kLeastOfWay * trials)
             starts_.pop_back();
+        problem.rows = starts_.size();
+        search_ = ChainSearch(std::move(problem));
         return base::success();
     }
 
@@ -212,9 +187,6 @@ class Planner {
 
  private:
     [[nodiscard]] const Settings& settings() const { return inputs_->settings; }
-    [[nodiscard]] std::size_t stuck() const { return ways_.size() + 1; }
-    [[nodiscard]] std::size_t fallen() const { return ways_.size() + 2; }
-    [[nodiscard]] std::size_t columns() const { return ways_.size() + 3; }
     void tellProgress(std::int64_t trials) const {
         if (!planned_) return;
         const EvolutionSettings& evolution = settings().evolution;
@@ -248,12 +220,13 @@ class Planner {
     }
 
     [[nodiscard]] base::Result<std::shared_ptr<const track::Track>> buildChain(
-        std::span<const std::size_t> pieces) const {
+        std::span<const std::size_t> used) const {
         traps::TrapChain chain(kGroovesBefore, chain_.front());
         search::Design design = designOfGrooves();
-        for (const std::size_t i : pieces) {
-            chain.push_back(kinds_[pieces_[i].kind]);
-            design.insert(design.end(), pieces_[i].numbers.begin(), pieces_[i].numbers.end());
+        for (const std::size_t i : used) {
+            const KnownTrap& trap = search_.traps()[i];
+            chain.push_back(kinds_[trap.kind]);
+            design.insert(design.end(), trap.numbers.begin(), trap.numbers.end());
         }
         return build(chain, design);
     }
@@ -275,8 +248,8 @@ class Planner {
     }
 
     [[nodiscard]] std::size_t findColumn(const trial::PartOutcome& part) const {
-        if (part.ending == trial::Ending::fellOff) return fallen();
-        if (part.ending != trial::Ending::finished) return stuck();
+        if (part.ending == trial::Ending::fellOff) return search_.problem().fallen();
+        if (part.ending != trial::Ending::finished) return search_.problem().stuck();
         std::size_t nearest = ways_.size();
         double least = kNearWay;
         for (std::size_t way = 0; way < ways_.size(); ++way) {
@@ -318,15 +291,15 @@ class Planner {
         }
     }
 
-    /// So many trials more of each piece, from each way.
+    /// So many trials more of each trap, from each way.
     base::Status measure(std::span<const Work> works) {
         std::vector<trial::TrialBatch> batches;
         std::vector<std::vector<std::size_t>> from;
         batches.reserve(works.size());
         for (const Work& work : works) {
-            const auto track = buildWith(kinds_[work.piece->kind], work.piece->numbers);
+            const auto track = buildWith(kinds_[work.trap->kind], work.trap->numbers);
             if (!track) return track.error();
-            work.piece->fall =
+            work.trap->fall =
                 settings().track.segmentHeight - lowestAt(**track, (*track)->finish) - fallBefore_;
             std::vector<std::size_t>& ways = from.emplace_back();
             for (std::size_t way = 0; way < rows(); ++way)
@@ -338,146 +311,90 @@ class Planner {
         const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
         if (!outcomes) return outcomes.error();
         for (std::size_t i = 0; i < works.size(); ++i) {
-            Piece& piece = *works[i].piece;
+            KnownTrap& trap = *works[i].trap;
             for (std::size_t k = 0; k < from[i].size(); ++k)
-                piece.counts[from[i][k]][findColumn((*outcomes)[i][k].parts.front())] += 1.0;
-            piece.chances = calcChances(piece.counts);
+                trap.counts[from[i][k]][findColumn((*outcomes)[i][k].parts.front())] += 1.0;
+            trap.chances = search_.calcChances(trap.counts);
         }
         return base::success();
-    }
-
-    /// Counts as probabilities. A few trials that none saw spoil what few trials make look perfect: parts may
-    /// always get stuck or be turned.
-    [[nodiscard]] Counts calcChances(const Counts& counts) const {
-        constexpr double kUnseenTurns = 1.0;
-        constexpr double kUnseenStuck = 0.2;
-        Counts chances(columns(), Belief(columns(), 0.0));
-        for (std::size_t from = 0; from < rows(); ++from) {
-            double sum = 0.0;
-            for (std::size_t to = 0; to < columns(); ++to) {
-                double& chance = chances[from][to];
-                chance = counts[from][to];
-                if (to == stuck()) chance += kUnseenStuck;
-                if (to != from && to < stuck()) chance += kUnseenTurns / static_cast<double>(ways_.size());
-                sum += chance;
-            }
-            for (double& chance : chances[from])
-                chance /= sum;
-        }
-        if (rows() == ways_.size()) chances[ways_.size()] = chances[0];
-        chances[stuck()][stuck()] = 1.0;
-        chances[fallen()][fallen()] = 1.0;
-        return chances;
-    }
-
-    [[nodiscard]] Belief pass(const Belief& parts, const Counts& chances) const {
-        Belief after(columns(), 0.0);
-        for (std::size_t from = 0; from < columns(); ++from) {
-            if (parts[from] == 0.0) continue;
-            for (std::size_t to = 0; to < columns(); ++to)
-                after[to] += parts[from] * chances[from][to];
-        }
-        return after;
-    }
-
-    /// Minus the bits of objectives::sorting(), or of objectives::disorder().
-    [[nodiscard]] double worthOf(const Belief& parts) const {
-        constexpr double kLeast = 1.0 / 256.0;
-        double alike = 0.0;
-        for (std::size_t way = 0; way < ways_.size(); ++way)
-            alike += parts[way] * parts[way];
-        const double staying = 1.0 - parts[fallen()];
-        if (!forgivesFalls_) return std::log2(alike + kLeast);
-        if (staying < kLeast) return std::log2(kLeast);
-        return std::log2(alike / (staying * staying) + kLeast) + bitsOfHalving_ * std::log2(staying);
     }
 
     static double drawNumber(const search::Dimension& dimension, base::Random& random) {
         return search::roundToBits(random.uniform(), dimension.bits);
     }
 
-    [[nodiscard]] Piece makePiece(std::size_t kind, std::vector<double> numbers) const {
-        return {kind, std::move(numbers), Counts(rows(), Belief(columns(), 0.0)), {}, 0.0};
+    [[nodiscard]] KnownTrap makeTrap(std::size_t kind, std::vector<double> numbers) const {
+        WayMatrix counts(rows(), WayShares(search_.problem().columns(), 0.0));
+        return {kind, std::move(numbers), std::move(counts), {}, 0.0};
     }
 
-    Piece drawPiece(std::size_t kind, base::Random& random) const {
-        Piece piece = makePiece(kind, {});
+    KnownTrap drawTrap(std::size_t kind, base::Random& random) const {
+        KnownTrap trap = makeTrap(kind, {});
         for (const search::Dimension& dimension : dimensions_[kind])
-            piece.numbers.push_back(drawNumber(dimension, random));
-        return piece;
+            trap.numbers.push_back(drawNumber(dimension, random));
+        return trap;
     }
 
-    Piece mutate(const Piece& parent, base::Random& random) const {
-        Piece piece = makePiece(parent.kind, parent.numbers);
+    KnownTrap mutate(const KnownTrap& parent, base::Random& random) const {
+        KnownTrap trap = makeTrap(parent.kind, parent.numbers);
         const std::vector<search::Dimension>& dimensions = dimensions_[parent.kind];
         const std::uint32_t changes = 1 + random.below(3);
         const double step = std::exp(random.uniform(std::log(0.01), std::log(0.25)));
         for (std::uint32_t change = 0; change < changes; ++change) {
             const std::size_t i = random.below(static_cast<std::uint32_t>(dimensions.size()));
-            double& number = piece.numbers[i];
+            double& number = trap.numbers[i];
             number = random.uniform() < kRedrawn
                          ? drawNumber(dimensions[i], random)
                          : search::roundToBits(std::clamp(number + step * random.normal(), 0.0, 1.0),
                                                dimensions[i].bits);
         }
-        return piece;
+        return trap;
     }
 
     /// A round of new traps: all a few times, and those that do something more often.
     base::Status tryTraps(int round) {
         base::Random random(
             {settings().evolution.seed, 0, static_cast<std::uint32_t>(round), 0, base::Purpose::planning});
-        std::vector<Piece> tried;
+        std::vector<KnownTrap> tried;
         for (std::size_t i = 0; i < kTrapsInRound; ++i) {
-            if (pieces_.empty() && i < kinds_.size()) {
+            if (search_.traps().empty() && i < kinds_.size()) {
                 // All numbers in the middle: a cut-out that cuts nothing lets a chain do with fewer.
-                Piece typical = drawPiece(i, random);
+                KnownTrap typical = drawTrap(i, random);
                 for (std::size_t k = 0; k < typical.numbers.size(); ++k)
                     typical.numbers[k] = search::roundToBits(0.5, dimensions_[i][k].bits);
                 tried.push_back(std::move(typical));
-            } else if (!used_.empty() && random.uniform() < kMutants) {
-                const std::vector<std::size_t>& parents = random.boolean() ? used_ : sieves_;
-                tried.push_back(mutate(
-                    pieces_[parents[random.below(static_cast<std::uint32_t>(parents.size()))]], random));
+            } else if (!search_.used().empty() && random.uniform() < kMutants) {
+                const std::vector<std::size_t>& parents =
+                    random.boolean() ? search_.used() : search_.sieves();
+                tried.push_back(
+                    mutate(search_.traps()[parents[random.below(static_cast<std::uint32_t>(parents.size()))]],
+                           random));
             } else {
-                tried.push_back(drawPiece(i % kinds_.size(), random));
+                tried.push_back(drawTrap(i % kinds_.size(), random));
             }
         }
         std::vector<Work> works;
         works.reserve(tried.size());
-        for (Piece& piece : tried)
-            works.push_back({&piece, shareTrials(kFirstTrials)});
+        for (KnownTrap& trap : tried)
+            works.push_back({&trap, shareTrials(kFirstTrials)});
         if (const auto measured = measure(works); !measured) return measured.error();
         works.clear();
-        for (const std::size_t i : choosePromising(tried, pieces_.empty() ? kinds_.size() : 0))
+        for (const std::size_t i : choosePromising(tried, search_.traps().empty() ? kinds_.size() : 0))
             works.push_back({&tried[i], shareTrials(kMoreTrials)});
         if (works.empty()) return base::success();
         if (const auto measured = measure(works); !measured) return measured.error();
         for (const Work& work : works)
-            pieces_.push_back(std::move(*work.piece));
+            search_.traps().push_back(std::move(*work.trap));
         return base::success();
-    }
-
-    /// Of the parts that come to each trap of a chain, the shares that lie in each way.
-    [[nodiscard]] std::vector<Belief> listComing(const Chain& chain) const {
-        std::vector<Belief> coming;
-        Belief parts = arriving_;
-        for (const std::size_t used : chain.pieces) {
-            const double staying = std::max(1e-9, 1.0 - parts[stuck()] - parts[fallen()]);
-            Belief& shares = coming.emplace_back(parts.begin(), parts.begin() + std::ssize(starts_));
-            for (double& share : shares)
-                share /= staying;
-            parts = pass(parts, pieces_[used].chances);
-        }
-        return coming;
     }
 
     /// Trials from each way, `each` on average: the more, the larger a share of the parts lies so before any
     /// trap, as what is not known of a way counts by how many come in it.
     [[nodiscard]] std::vector<int> shareTrials(int each) const {
-        Belief most(arriving_.begin(), arriving_.begin() + std::ssize(starts_));
-        for (const Chain& chain : niches_) {
-            for (const Belief& coming : listComing(chain))
+        WayShares most(search_.problem().arriving.begin(),
+                       search_.problem().arriving.begin() + std::ssize(starts_));
+        for (const Chain& chain : search_.niches()) {
+            for (const WayShares& coming : search_.listComing(chain))
                 std::transform(coming.begin(), coming.end(), most.begin(), most.begin(),
                                [](double a, double b) { return std::max(a, b); });
         }
@@ -491,17 +408,18 @@ class Planner {
 
     /// The traps to look at closer: the first `sure` ones, those that would be of most use in the best chains
     /// of today, and those that bring most order by themselves; none that gets parts stuck.
-    [[nodiscard]] std::vector<std::size_t> choosePromising(const std::vector<Piece>& tried,
+    [[nodiscard]] std::vector<std::size_t> choosePromising(const std::vector<KnownTrap>& tried,
                                                            std::size_t sure) const {
+        const ChainProblem& problem = search_.problem();
         std::set<std::size_t> chosen;
         for (std::size_t i = 0; i < sure; ++i)
             chosen.insert(i);
         std::vector<std::size_t> fit;
         std::vector<double> alone(tried.size());
         for (std::size_t i = sure; i < tried.size(); ++i) {
-            const Belief once = pass(arriving_, tried[i].chances);
-            alone[i] = std::max(worthOf(once), worthOf(repeat(tried[i])));
-            if (once[stuck()] - arriving_[stuck()] <= kMostStuck) fit.push_back(i);
+            const WayShares once = search_.pass(problem.arriving, tried[i].chances);
+            alone[i] = std::max(search_.worthOf(once), search_.worthOf(search_.repeat(tried[i])));
+            if (once[problem.stuck()] - problem.arriving[problem.stuck()] <= kMostStuck) fit.push_back(i);
         }
         const auto choose = [&](const std::vector<double>& worth, std::size_t count) {
             std::stable_sort(fit.begin(), fit.end(),
@@ -509,183 +427,37 @@ class Planner {
             chosen.insert(fit.begin(),
                           fit.begin() + static_cast<std::ptrdiff_t>(std::min(count, fit.size())));
         };
-        choose(alone, niches_.empty() ? 2 * kPromising : kPromising);
-        for (std::size_t niche = 0; niche < niches_.size(); ++niche) {
+        choose(alone, search_.niches().empty() ? 2 * kPromising : kPromising);
+        for (std::size_t niche = 0; niche < search_.niches().size(); ++niche) {
             std::vector<double> inChain(tried.size());
             for (const std::size_t i : fit)
-                inChain[i] = worthInChain(tried[i], niches_[niche]);
+                inChain[i] = search_.worthInChain(tried[i], search_.niches()[niche]);
             // The best chain's share is what the others leave.
-            choose(inChain, niche > 0 ? 1 : kPromising + 1 - niches_.size());
+            choose(inChain, niche > 0 ? 1 : kPromising + 1 - search_.niches().size());
         }
         return {chosen.begin(), chosen.end()};
     }
 
-    /// Of a chain if this piece took the place that suits it most.
-    [[nodiscard]] double worthInChain(const Piece& piece, const Chain& chain) const {
-        double most = -1e300;
-        Belief before = arriving_;
-        for (std::size_t place = 0; place < places_.size(); ++place) {
-            if (places_[place] == piece.kind)
-                most = std::max(most, worthOf(passOn(pass(before, piece.chances), chain, place + 1)));
-            before = pass(before, pieces_[chain.pieces[place]].chances);
-        }
-        return most;
-    }
-
-    /// Where parts are behind a chain if they are so before one of its places.
-    [[nodiscard]] Belief passOn(Belief parts, const Chain& chain, std::size_t place) const {
-        for (; place < places_.size(); ++place)
-            parts = pass(parts, pieces_[chain.pieces[place]].chances);
-        return parts;
-    }
-
-    /// Where parts are behind as many of these as there are places of their kind.
-    [[nodiscard]] Belief repeat(const Piece& piece) const {
-        Belief parts = arriving_;
-        for (const std::size_t kind : places_) {
-            if (kind == piece.kind) parts = pass(parts, piece.chances);
-        }
-        return parts;
-    }
-
-    /// The way in which most parts lie behind it.
-    [[nodiscard]] std::size_t wayOf(const Chain& chain) const {
-        const auto ways = std::span(chain.parts).first(ways_.size());
-        return static_cast<std::size_t>(std::max_element(ways.begin(), ways.end()) - ways.begin());
-    }
-
-    /// Finds the best chains of what is known: a beam search from the first trap on, whose best ones, and the
-    /// best for each of so many ways, then have traps exchanged.
-    void findChains(std::size_t niches) {
-        chains_ = searchBeam(emptyChain(), kBeam);
-        std::set<std::size_t> ways;
-        for (std::size_t i = 0; i < chains_.size(); ++i) {
-            const bool isFirst = ways.size() < niches && ways.insert(wayOf(chains_[i])).second;
-            if (isFirst || i < kImproved) exchangeTraps(chains_[i]);
-        }
-        std::stable_sort(chains_.begin(), chains_.end(),
-                         [](const Chain& a, const Chain& b) { return a.worth > b.worth; });
-        niches_.clear();
-        ways.clear();
-        for (const Chain& chain : chains_) {
-            if (niches_.size() < niches && ways.insert(wayOf(chain)).second) niches_.push_back(chain);
-        }
-        used_.clear();
-        for (const Chain& chain : niches_) {
-            const std::set<std::size_t> pieces(chain.pieces.begin(), chain.pieces.end());
-            used_.insert(used_.end(), pieces.begin(), pieces.end());
-        }
-    }
-
-    [[nodiscard]] Chain append(const Chain& chain, std::size_t index) const {
-        const Piece& piece = pieces_[index];
-        Chain longer{chain.pieces, pass(chain.parts, piece.chances), 0.0, chain.fall + piece.fall};
-        longer.pieces.push_back(index);
-        longer.worth = worthOf(longer.parts);
-        return longer;
-    }
-
-    [[nodiscard]] Chain emptyChain() const { return {{}, arriving_, worthOf(arriving_), 0.0}; }
-
-    /// So that a chain stays within the track's height.
-    [[nodiscard]] double mostFall() const { return settings().track.segmentHeight - fallBefore_; }
-
-    /// The best chains that begin like this one, if so many are followed up at each place.
-    [[nodiscard]] std::vector<Chain> searchBeam(Chain start, std::size_t width) const {
-        std::vector<Chain> beam{std::move(start)};
-        for (std::size_t place = beam.front().pieces.size(); place < places_.size(); ++place) {
-            const std::size_t kind = places_[place];
-            std::vector<Chain> next;
-            for (const Chain& chain : beam) {
-                for (std::size_t i = 0; i < pieces_.size(); ++i) {
-                    const Piece& piece = pieces_[i];
-                    if (piece.kind != kind || chain.fall + piece.fall > mostFall()) continue;
-                    next.push_back(append(chain, i));
-                }
-            }
-            std::stable_sort(next.begin(), next.end(),
-                             [](const Chain& a, const Chain& b) { return a.worth > b.worth; });
-            beam.clear();
-            std::vector<std::size_t> ofWay(ways_.size(), 0);
-            for (Chain& chain : next) {
-                if (beam.size() == width) break;
-                std::size_t& alike = ofWay[wayOf(chain)];
-                // Chains of the same worth are the same traps in another order.
-                constexpr double kSame = 1e-9;
-                if (alike == kBeamOfWay || (!beam.empty() && beam.back().worth - chain.worth <= kSame))
-                    continue;
-                ++alike;
-                beam.push_back(std::move(chain));
-            }
-        }
-        return beam;
-    }
-
-    /// Exchanges the one trap for the one other that makes a chain worth most, as long as it gains.
-    void exchangeTraps(Chain& chain) const {
-        constexpr double kGain = 1e-6;
-        for (bool gained = true; gained;) {
-            gained = false;
-            Chain best = chain;
-            Belief before = arriving_;
-            for (std::size_t place = 0; place < places_.size(); ++place) {
-                const Piece& current = pieces_[chain.pieces[place]];
-                for (std::size_t i = 0; i < pieces_.size(); ++i) {
-                    const double fall = chain.fall - current.fall + pieces_[i].fall;
-                    if (pieces_[i].kind != places_[place] || fall > mostFall()) continue;
-                    Belief parts = pass(before, pieces_[i].chances);
-                    for (std::size_t later = place + 1; later < places_.size(); ++later)
-                        parts = pass(parts, pieces_[chain.pieces[later]].chances);
-                    const double worth = worthOf(parts);
-                    if (worth <= best.worth + kGain) continue;
-                    best = {chain.pieces, std::move(parts), worth, fall};
-                    best.pieces[place] = i;
-                    gained = true;
-                }
-                before = pass(before, current.chances);
-            }
-            chain = std::move(best);
-        }
-    }
-
-    /// Those that would be worth most one after the other, at every place of their kind: what throws one way
-    /// out and lets another pass does it better every time, even where the best chain of today uses others.
-    [[nodiscard]] std::vector<std::size_t> findSieves() const {
-        std::vector<std::pair<double, std::size_t>> worths;
-        for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            worths.emplace_back(-worthOf(repeat(pieces_[i])), i);
-        }
-        std::sort(worths.begin(), worths.end());
-        std::vector<std::size_t> sieves;
-        for (const auto& [worth, i] : worths) {
-            if (sieves.size() < kSieves) sieves.push_back(i);
-        }
-        return sieves;
-    }
-
     /// Finds the best chains, and measures what they use, until that is known well enough.
     base::Status plan(const Care& care) {
-        sieves_ = findSieves();
-        if (pieces_.size() > kMostTraps) {
-            forget();
-            sieves_ = findSieves();
-        }
+        search_.findSieves();
+        if (search_.traps().size() > kMostTraps) search_.forget(kinds_.size(), kLatestTraps);
         for (int again = 0; again < care.inARow; ++again) {
-            findChains(care.niches);
-            if (chains_.empty()) return base::success();
-            sieves_ = findSieves();
-            std::set<std::size_t> looked(used_.begin(), used_.end());
-            looked.insert(sieves_.begin(),
-                          sieves_.begin() + std::min<std::ptrdiff_t>(2, std::ssize(sieves_)));
+            search_.findChains(care.niches);
+            if (search_.chains().empty()) return base::success();
+            search_.findSieves();
+            const std::vector<std::size_t>& sieves = search_.sieves();
+            std::set<std::size_t> looked(search_.used().begin(), search_.used().end());
+            looked.insert(sieves.begin(), sieves.begin() + std::min<std::ptrdiff_t>(2, std::ssize(sieves)));
             std::vector<Work> works;
             for (const std::size_t i : looked) {
                 Work work = findUncertain(i, care.trials);
-                if (work.piece != nullptr) works.push_back(std::move(work));
+                if (work.trap != nullptr) works.push_back(std::move(work));
             }
             if (works.empty()) break;
             if (const auto measured = measure(works); !measured) return measured.error();
         }
-        findChains(care.niches);
+        search_.findChains(care.niches);
         return base::success();
     }
 
@@ -694,10 +466,10 @@ class Planner {
     base::Status followParts() {
         std::vector<trial::TrialBatch> batches;
         std::vector<double> bottoms;
-        const int each = kTrialsOfFollowed / static_cast<int>(niches_.size());
-        for (const Chain& chain : niches_) {
+        const int each = kTrialsOfFollowed / static_cast<int>(search_.niches().size());
+        for (const Chain& chain : search_.niches()) {
             for (std::size_t place = 1; place < places_.size(); ++place) {
-                const auto track = buildChain(std::span(chain.pieces).first(place));
+                const auto track = buildChain(std::span(chain.traps).first(place));
                 if (!track) return track.error();
                 bottoms.push_back(lowestAt(**track, (*track)->finish));
                 batches.push_back(makeBatch(*track, each));
@@ -714,65 +486,80 @@ class Planner {
                 met_[column].back().position.z() -= bottoms[i];
             }
         }
-        for (const std::size_t i : std::set<std::size_t>(used_.begin(), used_.end())) {
-            for (Belief& counts : pieces_[i].counts)
+        for (const std::size_t i : std::set<std::size_t>(search_.used().begin(), search_.used().end())) {
+            for (WayShares& counts : search_.traps()[i].counts)
                 for (double& count : counts)
                     count *= 0.5;
         }
         return base::success();
     }
 
-    /// Trials that tell more of a piece, from the ways in which parts come to it in the chains that use it;
+    /// Trials that tell more of a trap, from the ways in which parts come to it in the chains that use it;
     /// none if all of them are known well.
     Work findUncertain(std::size_t index, int trials) {
-        Belief coming(rows(), 0.0);
+        WayShares coming(rows(), 0.0);
         bool isUsed = false;
-        for (const Chain& chain : niches_) {
-            const std::vector<Belief> before = listComing(chain);
-            for (std::size_t place = 0; place < chain.pieces.size(); ++place) {
-                if (chain.pieces[place] != index) continue;
+        for (const Chain& chain : search_.niches()) {
+            const std::vector<WayShares> before = search_.listComing(chain);
+            for (std::size_t place = 0; place < chain.traps.size(); ++place) {
+                if (chain.traps[place] != index) continue;
                 isUsed = true;
                 for (std::size_t way = 0; way < rows(); ++way)
                     coming[way] = std::max(coming[way], before[place][way]);
             }
         }
-        if (!isUsed) coming = arriving_;
+        if (!isUsed) coming = search_.problem().arriving;
         Work work{nullptr, std::vector<int>(rows(), 0)};
         for (std::size_t way = 0; way < rows(); ++way) {
-            const Belief& counts = pieces_[index].counts[way];
+            const WayShares& counts = search_.traps()[index].counts[way];
             const auto known = static_cast<int>(std::accumulate(counts.begin(), counts.end(), 0.0));
             const auto wanted = static_cast<int>(std::min(kMostFromWay, coming[way]) * trials);
             if (known >= wanted) continue;
             work.trials[way] = wanted - known;
-            work.piece = &pieces_[index];
+            work.trap = &search_.traps()[index];
         }
         return work;
     }
 
-    void forget() {
-        std::vector<Piece> kept;
-        std::vector<std::size_t> used;
-        for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            const bool isUsed = std::find(used_.begin(), used_.end(), i) != used_.end();
-            const bool isSieve = std::find(sieves_.begin(), sieves_.end(), i) != sieves_.end();
-            if (!isUsed && !isSieve && i >= kinds_.size() && i + kLatestTraps < pieces_.size()) continue;
-            if (isUsed) used.push_back(kept.size());
-            kept.push_back(std::move(pieces_[i]));
-        }
-        pieces_ = std::move(kept);
-        used_ = std::move(used);
-    }
-
     [[nodiscard]] std::vector<search::Design> listDesigns(std::size_t most) const {
         std::vector<search::Design> designs;
-        for (const Chain& chain : chains_) {
+        for (const Chain& chain : search_.chains()) {
             if (designs.size() == most) break;
             search::Design design = designOfGrooves();
-            for (const std::size_t i : chain.pieces)
-                design.insert(design.end(), pieces_[i].numbers.begin(), pieces_[i].numbers.end());
+            for (const std::size_t i : chain.traps) {
+                const std::vector<double>& numbers = search_.traps()[i].numbers;
+                design.insert(design.end(), numbers.begin(), numbers.end());
+            }
             if (std::find(designs.begin(), designs.end(), design) == designs.end())
                 designs.push_back(std::move(design));
         }
+        return designs;
+    }
+
+    /// The best by arithmetic are judged again by trials of whole tracks, as a generation is, in a race
+    /// (core/ search/racing.h): what a trap does to parts depends a little on the traps before it, and the
+    /// one that looks best of many is often one that was lucky. The others follow as they were.
+    base::Result<std::vector<search::Design>> judge(std::vector<search::Design> designs) {
+        const std::size_t judged = std::min(designs.size(), kJudged);
+        StudyInputs race = *inputs_;
+        race.settings.evolution.trialsPerEvaluation = kTrialsOfJudged;
+        race.settings.evolution.racingTrials = kFirstOfJudged;
+        race.settings.evolution.racingShare = search::kTopShare;
+        std::vector<search::Proposal> proposals(judged);
+        for (std::size_t i = 0; i < judged; ++i)
+            proposals[i].design = designs[i];
+        const auto tell = [&](const GenerationPlan& plan) {
+            tellProgress(plan.doneBefore - doneBefore_ + plan.trials);
+        };
+        const auto judgement = evaluateGeneration(race, 0, proposals, tell, control_.run);
+        if (!judgement) return judgement.error();
+        std::vector<double> totals;
+        for (const IndividualRecord& record : judgement->individuals)
+            totals.push_back(record.fitness.total);
+        const std::vector<search::Design> before = designs;
+        const std::vector<std::size_t> ranking = search::rankByFitness(totals);
+        std::transform(ranking.begin(), ranking.end(), designs.begin(),
+                       [&](std::size_t i) { return before[i]; });
         return designs;
     }
 
@@ -781,22 +568,15 @@ class Planner {
     const std::function<void(const GenerationPlan&)>& planned_;
     LearningControl control_;
     std::int64_t doneBefore_;
-    double fallBefore_ = 0.0;  // of the grooves [m]
-    int batches_ = 0;          // so far
-    bool forgivesFalls_;
-    double bitsOfHalving_ = objectives::kBitsOfHalving;
+    double fallBefore_ = 0.0;                                 // of the grooves [m]
+    int batches_ = 0;                                         // so far
     std::vector<const traps::TrapKind*> kinds_;               // of the traps behind the grooves, each once
     std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind
     std::vector<std::size_t> places_;                         // kinds, along the track
     std::vector<base::Quaternion> ways_;                      // in which parts lie
     std::vector<std::vector<base::Pose>> starts_;  // of each way, and of others; z from the groove's bottom
     std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chains
-    Belief arriving_;                              // at the first trap
-    std::vector<Piece> pieces_;                    // that are known
-    std::vector<std::size_t> used_;                // of these, by the niches' chains, in their order
-    std::vector<std::size_t> sieves_;              // of these, findSieves()
-    std::vector<Chain> chains_;                    // best first
-    std::vector<Chain> niches_;  // of these, the best for each of the ways that most parts can be brought to
+    ChainSearch search_;
 };
 
 }  // namespace
@@ -841,7 +621,20 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways)
     constexpr int kPlans = 12;
     constexpr int kMost = kMostShared;
     const int each = kShared * std::min(ways, kMost) + kOthers * std::max(0, ways - kMost) + kPlans;
-    return kTrialsOfWays + std::int64_t{settings.populationSize} * kTrapsPerIndividual * each;
+    return kTrialsOfWays + std::int64_t{settings.plannedTraps} * each;
+}
+
+std::int64_t estimateJudgingTrials(const EvolutionSettings& settings) {
+    if (!isPlanned(settings)) return 0;
+    const std::size_t judged = std::min(kJudged, countPlanned(settings));
+    const std::vector<int> none(judged, 0);
+    return search::countRacingTrials(
+        none, static_cast<int>(judged),
+        search::makeRacingStages(judged, kFirstOfJudged, kTrialsOfJudged, search::kTopShare));
+}
+
+std::size_t countPlanned(const EvolutionSettings& settings) {
+    return (static_cast<std::size_t>(settings.populationSize) + 1) / 2;
 }
 
 TrackSettings planningTrack(const TrackSettings& settings) {

@@ -24,13 +24,15 @@ std::string findPlanningProblem(const TrackSettings& settings);
 
 /// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
 /// ends, and if the settings sum up the objective sorting by that of those that stay on the track. None if
-/// parts come through no groove. About kTrapsPerIndividual traps for each individual of the population are
-/// tried; the same settings give the same designs. `planned` is told of the work as of generation 0. Errors:
-/// traps that cannot be planned, engine, cancelled, or stopped: there is no generation to wait for.
+/// parts come through no groove. The best of them are judged by trials of whole tracks in the end, in a race,
+/// by what the study maximises. About evolution.plannedTraps traps are tried; the same settings give the same
+/// designs. `planned` is told of the work as of generation 0. Errors: traps that cannot be planned, engine,
+/// cancelled, or stopped: there is no generation to wait for.
 base::Result<std::vector<search::Design>> planDesigns(
     const StudyInputs& inputs, std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
     const LearningControl& control);
-inline constexpr int kTrapsPerIndividual = 50;
+/// How many of a first generation are planned designs: half of it.
+std::size_t countPlanned(const EvolutionSettings& settings);
 
 /// In how many ways parts lie when they come to the first trap, as a plan tells them apart, from some hundred
 /// trials. The settings must be those of a planned study. Errors: engine, cancelled.
@@ -42,6 +44,8 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways)
 /// 1 / kPlanningShare times as much, as parts start at its second groove and many come to no end.
 TrackSettings planningTrack(const TrackSettings& settings);
 inline constexpr double kPlanningShare = 0.6;
+/// Trials of whole tracks by which a plan's best chains are judged; 0 if these settings plan none.
+std::int64_t estimateJudgingTrials(const EvolutionSettings& settings);
 
 /// Whether generation 0 is planned.
 bool isPlanned(const EvolutionSettings& settings);

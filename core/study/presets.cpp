@@ -114,10 +114,13 @@ Settings sortingMode(Settings settings, const part::Part& part) {
     settings.evolution.search = search::Method::genetic;
     settings.evolution.objectives = objectives::kSorting;
     settings.evolution.firstGeneration = search::ga::FirstGeneration::planned;
-    settings.evolution.populationSize = 60;
+    settings.evolution.plannedTraps = 3000;
+    // Hardly any generation gets further than the plan: what follows are a few chains like its best ones.
+    settings.evolution.populationSize = 24;
     settings.evolution.trialsPerEvaluation = 100;
     settings.evolution.racingTrials = 20;
-    settings.evolution.generations = 8;
+    settings.evolution.tournamentSize = 6;
+    settings.evolution.generations = 2;
     return settings;
 }
 

@@ -98,8 +98,7 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
     }
 
     if (!last && isPlanned(settings.evolution)) {
-        const std::size_t most = static_cast<std::size_t>(settings.evolution.populationSize + 1) / 2;
-        const auto designs = planDesigns(inputs, most, events.planned, control);
+        const auto designs = planDesigns(inputs, countPlanned(settings.evolution), events.planned, control);
         if (control.run.cancelled()) return LearningEnd::cancelled;
         if (control.stopRequested()) return LearningEnd::stopped;
         if (!designs) return designs.error();

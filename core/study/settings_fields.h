@@ -82,6 +82,7 @@ void visitFields(Visitor& v, SettingsType& s) {
              Choices<search::ga::FirstGeneration, 3>{{{"graded", search::ga::FirstGeneration::graded},
                                                       {"random", search::ga::FirstGeneration::random},
                                                       {"planned", search::ga::FirstGeneration::planned}}});
+    v.count({"evolution.plannedTraps", 32, 1000000}, s.evolution.plannedTraps);
     v.text("evolution.objectives", s.evolution.objectives);
     v.choice("evolution.orientationDistance", s.evolution.orientationDistance,
              Choices<trial::OrientationDistance, 2>{{{"symmetric", trial::OrientationDistance::symmetric},

@@ -80,6 +80,36 @@ base::Result<double> timeLayout(const study::StudyInputs& inputs, const study::T
     });
 }
 
+/// Before there is a generation. [s]
+double planningTime(const study::EvolutionSettings& evolution, const TrialCost& cost) {
+    return static_cast<double>(study::estimatePlanningTrials(evolution, cost.ways)) * cost.planning +
+           static_cast<double>(study::estimateJudgingTrials(evolution)) * cost.learning;
+}
+
+/// As many traps as take `seconds` to plan with, and two generations, as those that follow gain little.
+std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSettings& full, double seconds,
+                                                   const TrialCost& cost) {
+    constexpr int kFewestTraps = 500;
+    constexpr int kGenerations = 2;
+    constexpr int kPopulation = 24;
+    constexpr int kTrials = 100;
+    study::EvolutionSettings fitted = full;
+    fitted.generations = std::min(full.generations, kGenerations);
+    fitted.populationSize = std::min(full.populationSize, kPopulation);
+    fitted.trialsPerEvaluation = std::min(full.trialsPerEvaluation, kTrials);
+    fitted.racingTrials = std::min(fitted.racingTrials, fitted.trialsPerEvaluation);
+    fitted.tournamentSize = std::min(fitted.tournamentSize, fitted.populationSize);
+    const auto timeOf = [&](int traps) {
+        fitted.plannedTraps = traps;
+        return learningTime(fitted, fitted.generations, cost);
+    };
+    const double before = timeOf(0);
+    const double count = std::floor((seconds - before) / (timeOf(1) - before));
+    if (!(count >= std::min(full.plannedTraps, kFewestTraps))) return std::nullopt;
+    fitted.plannedTraps = static_cast<int>(std::min<double>(count, full.plannedTraps));
+    return fitted;
+}
+
 }  // namespace
 
 base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budget,
@@ -110,8 +140,7 @@ base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budg
 double learningTime(const study::EvolutionSettings& evolution, int generations, const TrialCost& cost) {
     double time = static_cast<double>(evolution.populationSize) * evolution.trialsPerEvaluation *
                   generations * cost.learning;
-    if (generations >= evolution.generations)
-        time += static_cast<double>(study::estimatePlanningTrials(evolution, cost.ways)) * cost.planning;
+    if (generations >= evolution.generations) time += planningTime(evolution, cost);
     return time;
 }
 
@@ -120,6 +149,7 @@ bool costTheSame(const study::Settings& a, const study::Settings& b) {
     same.evolution.populationSize = a.evolution.populationSize;
     same.evolution.trialsPerEvaluation = a.evolution.trialsPerEvaluation;
     same.evolution.generations = a.evolution.generations;
+    same.evolution.plannedTraps = a.evolution.plannedTraps;
     study::takePoseWeights(same.part, a.part);
     same.validation = a.validation;
     same.feeder = a.feeder;
@@ -129,16 +159,12 @@ bool costTheSame(const study::Settings& a, const study::Settings& b) {
 std::optional<study::EvolutionSettings> fitEvolution(const study::EvolutionSettings& full, double seconds,
                                                      const TrialCost& cost) {
     if (!(cost.learning > 0.0)) return std::nullopt;
+    if (study::isPlanned(full)) return fitPlanned(full, seconds, cost);
     for (const Size& size : kSizes) {
         const int population = std::min(size.population, full.populationSize);
         const int each = std::min(size.trials, full.trialsPerEvaluation);
-        study::EvolutionSettings smaller = full;
-        smaller.populationSize = population;
-        smaller.trialsPerEvaluation = each;
-        const double planning =
-            static_cast<double>(study::estimatePlanningTrials(smaller, cost.ways)) * cost.planning;
         const double generations =
-            std::floor((seconds - planning) / (static_cast<double>(population) * each * cost.learning));
+            std::floor(seconds / (static_cast<double>(population) * each * cost.learning));
         if (!(generations >= std::min(size.generations, full.generations))) continue;
         study::EvolutionSettings fitted = full;
         fitted.populationSize = population;

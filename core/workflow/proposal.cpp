@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/study/planning.h"
@@ -18,9 +17,6 @@ namespace {
 constexpr double kTimingBudget = 3.0;  // [s]
 /// Of the user's time: the rest is for checks and selection, and for what an estimate misses.
 constexpr double kLearningShare = 0.85;
-constexpr int kFewestPlanned = 10;  // individuals: 200 traps
-constexpr int kMostPlanned = 400;   // 8000 traps
-constexpr int kPlannedGenerations = 6;
 
 /// Whether a part looks another way when it comes the other end first: a track has to tell the two apart.
 bool hasTwoEnds(const part::SymmetryGroup& symmetry) {
@@ -48,24 +44,12 @@ std::string trackText(const study::TrackSettings& track) {
                        1e3 * track.segmentHeight, 1e3 * track.minSegmentLength, 1e3 * track.maxSegmentLength);
 }
 
-/// As many individuals as take `seconds`; their plan takes most of it. None if too few do.
-std::optional<study::EvolutionSettings> fitPlanned(study::EvolutionSettings evolution, double seconds,
-                                                   const TrialCost& cost) {
-    evolution.generations = kPlannedGenerations;
-    evolution.populationSize = 0;
-    const double before = learningTime(evolution, evolution.generations, cost);
-    evolution.populationSize = 1;
-    const double each = learningTime(evolution, evolution.generations, cost) - before;
-    const double count = std::floor((seconds - before) / each);
-    if (!(count >= kFewestPlanned)) return std::nullopt;
-    evolution.populationSize = static_cast<int>(std::min<double>(count, kMostPlanned));
-    evolution.tournamentSize = std::min(evolution.tournamentSize, evolution.populationSize);
-    return evolution;
-}
-
-/// The most that learning on a free-form trap is given.
+/// The most that learning is given.
 study::EvolutionSettings mostOfSearch(study::EvolutionSettings evolution) {
     constexpr int kMostEach = 400;
+    constexpr int kMostTraps = 100000;
+    evolution.plannedTraps = kMostTraps;
+    if (study::isPlanned(evolution)) return evolution;
     evolution.populationSize = kMostEach;
     evolution.trialsPerEvaluation = kMostEach;
     evolution.generations = 2000;
@@ -86,9 +70,7 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
     settings = isSorted ? study::sortingMode(settings, part) : study::turningMode(settings, part);
     const auto cost = timeTrials(proposed, kTimingBudget, control);
     if (!cost) return cost.error();
-    const double time = kLearningShare * seconds;
-    const auto fitted = isSorted ? fitPlanned(settings.evolution, time, *cost)
-                                 : fitEvolution(mostOfSearch(settings.evolution), time, *cost);
+    const auto fitted = fitEvolution(mostOfSearch(settings.evolution), kLearningShare * seconds, *cost);
     if (!fitted)
         return base::Error{
             fmt::format("In {} no track for {} can be learned on this machine: a trial takes {:.2g} ms. Take "
@@ -105,7 +87,7 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
                         "track turns such a "
                         "part round: what lies wrong is thrown out, by eight gaps planned from {} traps "
                         "tried one by one.",
-                        part.name, part.symmetry.name, fitted->populationSize * study::kTrapsPerIndividual));
+                        part.name, part.symmetry.name, fitted->plannedTraps));
     } else {
         proposal.reasons.push_back(fmt::format(
             "{} (symmetry {}) looks alike with either end in front: a free-form trap turns it over, and "

@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <tuple>
 
+#include "core/study/planning.h"
 #include "core/study/presets.h"
 #include "core/workflow/estimate.h"
 #include "ui/look/icon.h"
@@ -342,6 +343,7 @@ void TrackPage::refresh() {
     for (const char* key : {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
                             "evolution.smoothingLimit", "evolution.firstGeneration"})
         form_->setVisible(key, genetic);
+    form_->setVisible("evolution.plannedTraps", study::isPlanned(settings.evolution));
     const bool locked = design_->locked();
     form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });
     contact_->setEnabled(!locked);

@@ -154,6 +154,7 @@ class StudyChecksTest : public QObject {
         expected.evolution.learningStuckTime = expected.simulation.termination.stuckTime;
         expected.evolution.learningStep = 0.2e-3;
         expected.evolution.firstGeneration = search::ga::FirstGeneration::random;
+        expected.evolution.plannedTraps = 50 * expected.evolution.populationSize;
         QVERIFY(study->loadSettings().value() == expected);
         QCOMPARE(study->loadSettings().value().evolution.racingTrials, 0);
         QVERIFY(study->loadChecks().value() == std::vector{sampleCheck(1)});
@@ -162,7 +163,8 @@ class StudyChecksTest : public QObject {
         const std::string json = database.execAndGet("SELECT settings FROM study").getString();
         for (const char* pinned :
              {"\"racingTrials\":0", "\"racingShare\":0.3", "\"commonRandomNumbers\":false",
-              "\"learningStuckTime_s\":1.5", "\"learningStep_ms\":0.2", "\"firstGeneration\":\"random\""}) {
+              "\"learningStuckTime_s\":1.5", "\"learningStep_ms\":0.2", "\"firstGeneration\":\"random\"",
+              "\"plannedTraps\":"}) {
             QVERIFY2(json.find(pinned) != std::string::npos, json.c_str());
         }
     }

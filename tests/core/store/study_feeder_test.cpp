@@ -207,6 +207,7 @@ class StudyFeederTest : public QObject {
         study::Settings expected = sample::settings();
         expected.evolution.learningStep = 0.2e-3;  // the only one that there was
         expected.evolution.firstGeneration = search::ga::FirstGeneration::random;
+        expected.evolution.plannedTraps = 50 * expected.evolution.populationSize;
         QVERIFY(study->loadSettings().value() == expected);
         QVERIFY(study->loadPhysicalValidations().value().empty());
         QVERIFY(study->loadDriveLog(-kForEver, kForEver).value().empty());

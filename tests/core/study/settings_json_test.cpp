@@ -46,6 +46,7 @@ Settings unusualSettings() {
                    0.7,
                    1e-7,
                    search::ga::FirstGeneration::random,
+                   777,
                    "success, F_C",
                    trial::OrientationDistance::plain,
                    true,

@@ -73,15 +73,24 @@ class EstimateTest : public QObject {
         const workflow::TrialCost cost{1e-3, 5e-4, 9};
         const double planning = workflow::learningTime(planned, planned.generations, cost) -
                                 workflow::learningTime(graded, graded.generations, cost);
-        QVERIFY(std::abs(planning - 5e-4 * static_cast<double>(study::estimatePlanningTrials(planned, 9))) <
-                1e-6);
+        QCOMPARE(study::estimateJudgingTrials(graded), std::int64_t{0});
+        const double told = 5e-4 * static_cast<double>(study::estimatePlanningTrials(planned, 9)) +
+                            1e-3 * static_cast<double>(study::estimateJudgingTrials(planned));
+        QVERIFY(std::abs(planning - told) < 1e-6);
         QVERIFY(planning > 0.0);
         QCOMPARE(workflow::learningTime(planned, planned.generations - 1, cost),
                  workflow::learningTime(graded, graded.generations - 1, cost));
-        // A draft has time for it.
-        const auto draft = workflow::fitEvolution(planned, workflow::kDraftLearningTime, cost);
-        QVERIFY(draft.has_value());
-        QVERIFY(workflow::learningTime(*draft, draft->generations, cost) <= workflow::kDraftLearningTime);
+        // A draft has time for it, and for more traps where there is more time, up to all.
+        int before = 0;
+        for (const double seconds : {60.0, 150.0, 450.0, 36000.0}) {
+            const auto draft = workflow::fitEvolution(planned, seconds, cost);
+            QVERIFY(draft.has_value());
+            QVERIFY(workflow::learningTime(*draft, draft->generations, cost) <= seconds);
+            QVERIFY(draft->plannedTraps > before || draft->plannedTraps == planned.plannedTraps);
+            before = draft->plannedTraps;
+        }
+        QCOMPARE(before, planned.plannedTraps);
+        QVERIFY(!workflow::fitEvolution(planned, 20.0, cost).has_value());
     }
 
     // Tests of the operators that a draft must not break.

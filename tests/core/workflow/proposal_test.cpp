@@ -53,8 +53,10 @@ class ProposalTest : public QObject {
             QVERIFY(proposal->seconds > 0.0 && proposal->seconds <= seconds);
             QVERIFY(proposal->reasons.size() >= 3);
             // More of it where there is more time.
-            const double size = 1.0 * settings.evolution.populationSize * settings.evolution.generations *
-                                settings.evolution.trialsPerEvaluation;
+            const double size = isSorted ? settings.evolution.plannedTraps
+                                         : 1.0 * settings.evolution.populationSize *
+                                               settings.evolution.generations *
+                                               settings.evolution.trialsPerEvaluation;
             QVERIFY(size >= before);
             before = size;
             // What is not learning is the user's.

@@ -1,0 +1,184 @@
+// Chains by arithmetic: what a product of matrices by hand gives, and every chain of few traps tried.
+
+#include "core/study/chain_search.h"
+
+#include <QtTest>
+#include <cmath>
+
+#include "core/base/random.h"
+
+using namespace trapwright;
+using study::Chain;
+using study::ChainProblem;
+using study::ChainSearch;
+using study::KnownTrap;
+using study::WayMatrix;
+using study::WayShares;
+
+namespace {
+
+constexpr std::size_t kWays = 3;
+
+ChainProblem makeProblem(std::vector<std::size_t> places, bool forgivesFalls = true) {
+    ChainProblem problem;
+    problem.ways = kWays;
+    problem.rows = kWays;
+    problem.arriving = {0.5, 0.3, 0.2, 0.0, 0.0, 0.0};
+    problem.places = std::move(places);
+    problem.mostFall = 1.0;
+    problem.forgivesFalls = forgivesFalls;
+    return problem;
+}
+
+/// From each way to three ways, others, stuck, fallen; of a million trials, so that what none saw is nothing.
+KnownTrap makeTrap(const ChainSearch& search, std::size_t kind, WayMatrix shares, double fall = 0.01) {
+    for (WayShares& row : shares)
+        for (double& share : row)
+            share *= 1e6;
+    KnownTrap trap{kind, {static_cast<double>(kind)}, shares, {}, fall};
+    trap.chances = search.calcChances(trap.counts);
+    return trap;
+}
+
+WayMatrix leaveAlone() {
+    return {{1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}};
+}
+
+WayMatrix drawMatrix(base::Random& random) {
+    WayMatrix matrix(kWays, WayShares(kWays + 3, 0.0));
+    for (WayShares& row : matrix) {
+        double sum = 0.0;
+        for (double& share : row)
+            sum += share = std::pow(random.uniform(), 6.0);
+        for (double& share : row)
+            share /= sum;
+    }
+    return matrix;
+}
+
+}  // namespace
+
+class ChainSearchTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void rowsSumUpToOneAndNothingIsCertain() {
+        const ChainSearch search(makeProblem({0}));
+        WayMatrix counts(kWays, WayShares(kWays + 3, 0.0));
+        counts[0][0] = 6.0;  // of six trials from the first way, none from others
+        const WayMatrix chances = search.calcChances(counts);
+        QCOMPARE(chances.size(), kWays + 3);
+        for (const WayShares& row : chances) {
+            double sum = 0.0;
+            for (const double share : row)
+                sum += share;
+            QVERIFY(std::abs(sum - 1.0) < 1e-12);
+        }
+        QVERIFY(chances[0][0] < 0.9 && chances[0][1] > 0.02 && chances[0][kWays + 1] > 0.01);
+        QCOMPARE(chances[kWays + 2][kWays + 2], 1.0);
+        // What is in none of the ways is not tried from: it is taken for the first way.
+        QVERIFY(chances[kWays] == chances[0]);
+    }
+
+    void worthIsMinusTheBitsOfWhatStays() {
+        ChainSearch forgiving(makeProblem({0}, true));
+        const ChainSearch strict(makeProblem({0}, false));
+        const WayShares halves{0.25, 0.25, 0.0, 0.0, 0.0, 0.5};
+        QVERIFY(std::abs(forgiving.worthOf(halves) - (-1.0 - objectives::kBitsOfHalving)) < 0.02);
+        QVERIFY(std::abs(strict.worthOf(halves) - (-3.0)) < 0.06);
+        forgiving.setBitsOfHalving(0.0);
+        QVERIFY(std::abs(forgiving.worthOf(halves) - (-1.0)) < 0.02);
+        QVERIFY(forgiving.worthOf({0, 0, 0, 0, 0, 1.0}) <= -8.0);
+    }
+
+    // A sieve for the second way and one for the third, behind each other; what turns everything into chaos
+    // is known, too.
+    void findsTheTwoThatLeaveOneWay() {
+        ChainSearch search(makeProblem({0, 0}));
+        const WayMatrix chaos(kWays, {0.4, 0.3, 0.3, 0, 0, 0});
+        search.traps() = {makeTrap(search, 0, chaos), makeTrap(search, 0, leaveAlone()),
+                          makeTrap(search, 0, {{1, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 1, 0, 0, 0}}),
+                          makeTrap(search, 0, {{1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 1}})};
+        search.findSieves();
+        search.findChains(2);
+        QVERIFY(!search.chains().empty());
+        const Chain& best = search.chains().front();
+        QVERIFY(
+            (best.traps == std::vector<std::size_t>{2, 3} || best.traps == std::vector<std::size_t>{3, 2}));
+        QVERIFY(std::abs(best.parts[0] - 0.5) < 1e-3 && std::abs(best.parts[kWays + 2] - 0.5) < 1e-3);
+        const std::vector<WayShares> coming = search.listComing(best);
+        QVERIFY(std::abs(coming[0][0] - 0.5) < 1e-3);
+        QVERIFY(coming[1][0] > 0.6);  // of those that still move
+        QVERIFY(std::abs(search.worthInChain(search.traps()[1], best) - best.worth) > 0.1);
+    }
+
+    // Against every chain of three of twelve traps of two kinds.
+    void missesNoBetterChain_data() {
+        QTest::addColumn<bool>("forgivesFalls");
+        QTest::newRow("what falls comes again") << true;
+        QTest::newRow("falls count") << false;
+    }
+    void missesNoBetterChain() {
+        QFETCH(bool, forgivesFalls);
+        base::Random random({7, 0, 0, 0, base::Purpose::planning});
+        for (int again = 0; again < 20; ++again) {
+            ChainSearch search(makeProblem({0, 1, 0}, forgivesFalls));
+            for (std::size_t i = 0; i < 12; ++i)
+                search.traps().push_back(makeTrap(search, i % 2, drawMatrix(random)));
+            search.findChains(1);
+            double most = -1e9;
+            for (std::size_t a = 0; a < 12; a += 2) {
+                for (std::size_t b = 1; b < 12; b += 2) {
+                    for (std::size_t c = 0; c < 12; c += 2) {
+                        WayShares parts = search.problem().arriving;
+                        for (const std::size_t i : {a, b, c})
+                            parts = search.pass(parts, search.traps()[i].chances);
+                        most = std::max(most, search.worthOf(parts));
+                    }
+                }
+            }
+            QVERIFY(std::abs(search.chains().front().worth - most) < 1e-9);
+        }
+    }
+
+    void keepsWithinTheHeight() {
+        ChainSearch search(makeProblem({0, 0, 0}));
+        const WayMatrix good{{1, 0, 0, 0, 0, 0}, {0.9, 0.1, 0, 0, 0, 0}, {0.9, 0, 0.1, 0, 0, 0}};
+        search.traps() = {makeTrap(search, 0, leaveAlone(), 0.1), makeTrap(search, 0, good, 0.6)};
+        search.findChains(1);
+        for (const Chain& chain : search.chains()) {
+            QVERIFY(chain.fall <= 1.0);
+            QCOMPARE(std::count(chain.traps.begin(), chain.traps.end(), 1), 1);
+        }
+        ChainSearch none(makeProblem({0}));
+        none.traps() = {makeTrap(none, 0, good, 1.1)};
+        none.findChains(1);
+        QVERIFY(none.chains().empty());
+    }
+
+    void whatIsOfUseIsKept() {
+        base::Random random({8, 0, 0, 0, base::Purpose::planning});
+        ChainSearch search(makeProblem({0, 0}));
+        for (std::size_t i = 0; i < 60; ++i)
+            search.traps().push_back(makeTrap(search, 0, drawMatrix(random)));
+        search.findSieves();
+        search.findChains(3);
+        QVERIFY(search.niches().size() > 1);
+        const double best = search.chains().front().worth;
+        search.forget(1, 5);
+        QVERIFY(search.traps().size() < 35);
+        for (const std::size_t i : search.used())
+            QVERIFY(i < search.traps().size());
+        search.findChains(3);
+        QCOMPARE(search.chains().front().worth, best);
+
+        std::vector<KnownTrap> given = search.leave(0);
+        QVERIFY(search.traps().empty() && search.chains().empty() && search.used().empty());
+        search.traps() = std::move(given);
+        search.findChains(3);
+        QCOMPARE(search.chains().front().worth, best);
+    }
+};
+
+QTEST_APPLESS_MAIN(ChainSearchTest)
+#include "chain_search_test.moc"
