@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -180,6 +181,29 @@ class Planner {
         problem.rows = starts_.size();
         search_ = ChainSearch(std::move(problem));
         return base::success();
+    }
+
+    /// Seconds of a trial of traps at random, by so many traps as take about `budget` seconds; 0 if parts
+    /// come through no groove.
+    base::Result<double> timeTraps(double budget) {
+        using Clock = std::chrono::steady_clock;
+        if (ways_.empty()) return 0.0;
+        base::Random random({settings().evolution.seed, 0, 0, 0, base::Purpose::planning});
+        for (std::size_t count = kTrapsInRound / 4;; count *= 2) {
+            std::vector<KnownTrap> tried;
+            for (std::size_t i = 0; i < count; ++i)
+                tried.push_back(drawTrap(i % kinds_.size(), random));
+            std::vector<Work> works;
+            works.reserve(count);
+            for (KnownTrap& trap : tried)
+                works.push_back({&trap, shareTrials(kFirstTrials)});
+            const std::int64_t before = control_.run.done();
+            const Clock::time_point begin = Clock::now();
+            if (const auto measured = measure(works); !measured) return measured.error();
+            const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+            if (2.0 * seconds < budget && count < kMostTraps) continue;
+            return seconds / static_cast<double>(std::max<std::int64_t>(1, control_.run.done() - before));
+        }
     }
 
     /// That traps are tried from: the ways, and the others together.
@@ -602,14 +626,16 @@ bool isPlanned(const EvolutionSettings& settings) {
            settings.firstGeneration == search::ga::FirstGeneration::planned;
 }
 
-base::Result<int> countWays(const StudyInputs& inputs, const base::RunControl& control) {
+base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double budget,
+                                            const base::RunControl& control) {
     constexpr int kTrials = 600;
     LearningControl counting;
     counting.run = control;
     Planner planner(inputs, traps::readTraps(inputs.settings.track.traps).value(), {}, counting);
-    const auto found = planner.findWays(kTrials);
-    if (!found) return found.error();
-    return static_cast<int>(planner.rows());
+    if (const auto found = planner.findWays(kTrials); !found) return found.error();
+    const auto each = planner.timeTraps(budget);
+    if (!each) return each.error();
+    return PlanningSample{static_cast<int>(planner.rows()), *each};
 }
 
 std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways) {
@@ -635,15 +661,6 @@ std::int64_t estimateJudgingTrials(const EvolutionSettings& settings) {
 
 std::size_t countPlanned(const EvolutionSettings& settings) {
     return (static_cast<std::size_t>(settings.populationSize) + 1) / 2;
-}
-
-TrackSettings planningTrack(const TrackSettings& settings) {
-    TrackSettings track = settings;
-    track.leadOutSegments = 1;
-    const auto chain = traps::readTraps(settings.traps);
-    if (!chain || chain->size() <= kGroovesBefore) return track;
-    track.traps = fmt::format("{}, {}, {}", (*chain)[0]->key, (*chain)[1]->key, (*chain)[2]->key);
-    return track;
 }
 
 base::Result<std::vector<search::Design>> planDesigns(

@@ -34,16 +34,18 @@ base::Result<std::vector<search::Design>> planDesigns(
 /// How many of a first generation are planned designs: half of it.
 std::size_t countPlanned(const EvolutionSettings& settings);
 
-/// In how many ways parts lie when they come to the first trap, as a plan tells them apart, from some hundred
-/// trials. The settings must be those of a planned study. Errors: engine, cancelled.
-base::Result<int> countWays(const StudyInputs& inputs, const base::RunControl& control);
+/// What a plan meets on this machine.
+struct PlanningSample {
+    int ways = 0;          // in which parts lie when they come to the first trap
+    double seconds = 0.0;  // of a trial of a trap by itself, all threads at work
+};
+/// Simulates some hundred parts up to the first trap, then traps at random for about `budget` seconds. The
+/// settings must be those of a planned study. Errors: engine, cancelled.
+base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double budget,
+                                            const base::RunControl& control);
 /// Trials of traps by themselves that a plan takes where parts lie in so many ways; 0 if these settings plan
 /// none. An estimate.
 std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways);
-/// What such a trial is like, so that it can be timed: a whole way along the layout of this track costs
-/// 1 / kPlanningShare times as much, as parts start at its second groove and many come to no end.
-TrackSettings planningTrack(const TrackSettings& settings);
-inline constexpr double kPlanningShare = 0.6;
 /// Trials of whole tracks by which a plan's best chains are judged; 0 if these settings plan none.
 std::int64_t estimateJudgingTrials(const EvolutionSettings& settings);
 

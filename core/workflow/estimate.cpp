@@ -62,9 +62,9 @@ base::Result<double> timeRandomTracks(const study::StudyInputs& inputs, double b
     return *each / inputs.settings.evolution.trialsPerEvaluation;
 }
 
-base::Result<double> timeLayout(const study::StudyInputs& inputs, const study::TrackSettings& settings,
-                                double budget, const base::RunControl& control) {
-    auto track = study::buildLayout(settings);
+base::Result<double> timeLayout(const study::StudyInputs& inputs, double budget,
+                                const base::RunControl& control) {
+    auto track = study::buildLayout(inputs.settings.track);
     if (!track) return track.error();
     const auto flat = std::make_shared<const track::Track>(std::move(*track));
     study::SimulationSettings simulation = inputs.settings.simulation;
@@ -124,16 +124,14 @@ base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budg
         evolution.trialsPerEvaluation = std::min(evolution.trialsPerEvaluation, kTimedTrials);
     const auto random = timeRandomTracks(timed, each, control);
     if (!random) return random.error();
-    const auto flat = timeLayout(timed, timed.settings.track, each, control);
+    const auto flat = timeLayout(timed, each, control);
     if (!flat) return flat.error();
     TrialCost cost{evolution.racingTrials == 0 ? std::max(*random, *flat) : *random, 0.0, 0};
     if (!isPlanned) return cost;
-    const auto planning = timeLayout(timed, study::planningTrack(timed.settings.track), each, control);
-    if (!planning) return planning.error();
-    cost.planning = study::kPlanningShare * *planning;
-    const auto ways = study::countWays(timed, control);
-    if (!ways) return ways.error();
-    cost.ways = *ways;
+    const auto sample = study::samplePlanning(timed, each, control);
+    if (!sample) return sample.error();
+    cost.planning = sample->seconds;
+    cost.ways = sample->ways;
     return cost;
 }
 

@@ -13,13 +13,13 @@ namespace trapwright::workflow {
 struct TrialCost {
     double learning = 0.0;  // 0: not known
     double planning = 0.0;  // of a trap by itself, before generation 0; 0 where none is planned
-    int ways = 0;           // in which parts come to a trap then (study::countWays)
+    int ways = 0;           // in which parts come to a trap then
 };
 
 /// Times trials as this study learns by. Simulates for about `budget` seconds: random individuals, whose
 /// parts often do not come far, and parts on the flat layout, which go all the way as on a good track; the
 /// dearer of the two counts, so that the estimate does not grow while the tracks get better. Of a planned
-/// study also the part of the layout that a trap is tried on. Errors: settings or part that cannot be used,
+/// study also traps at random by themselves. Errors: settings or part that cannot be used,
 /// engine, cancelled.
 base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budget,
                                    const base::RunControl& control);
