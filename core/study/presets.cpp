@@ -111,6 +111,9 @@ Settings sortingMode(Settings settings, const part::Part& part) {
     settings.track.startFromLeadInEnd = std::max(settings.track.startFromLeadInEnd, inProportion(10e-3));
     settings.track.leadInLength =
         std::max(settings.track.leadInLength, settings.track.startFromLeadInEnd + inProportion(60e-3));
+    // Along a chain of traps, of half a metre and more, what is slow is not stuck. [s]
+    constexpr double kLongest = 30.0;
+    settings.simulation.termination.timeLimit = std::max(settings.simulation.termination.timeLimit, kLongest);
     settings.evolution.search = search::Method::genetic;
     settings.evolution.objectives = objectives::kSorting;
     settings.evolution.firstGeneration = search::ga::FirstGeneration::planned;

@@ -29,8 +29,8 @@ Settings paperMode(Settings settings);
 Settings turningMode(Settings settings, const part::Part& part);
 
 /// Changes settings to those of a track that throws out what lies wrong, in proportion to the part: two
-/// grooves and eight gaps, planned, judged by sorting (decisions.md#sorting), with a few generations
-/// behind the plan. Lengths are whole half millimetres.
+/// grooves and eight gaps, planned, judged by sorting (decisions.md#sorting), with two generations behind the
+/// plan, and time for parts to go all the way. Lengths are whole half millimetres.
 Settings sortingMode(Settings settings, const part::Part& part);
 
 /// What the engines need of a pair of materials.
