@@ -84,10 +84,10 @@ double lowestAt(const track::Track& track, double x) {
 class Planner {
  public:
     Planner(const StudyInputs& inputs, traps::TrapChain chain,
-            const std::function<void(const GenerationPlan&)>& planned, const LearningControl& control)
+            std::function<void(const GenerationPlan&)> planned, const LearningControl& control)
         : inputs_(&inputs),
           chain_(std::move(chain)),
-          planned_(planned),
+          planned_(std::move(planned)),
           control_(control),
           doneBefore_(control_.run.done()) {
         for (std::size_t i = kGroovesBefore; i < chain_.size(); ++i) {
@@ -589,7 +589,7 @@ class Planner {
 
     const StudyInputs* inputs_;
     traps::TrapChain chain_;
-    const std::function<void(const GenerationPlan&)>& planned_;
+    std::function<void(const GenerationPlan&)> planned_;
     LearningControl control_;
     std::int64_t doneBefore_;
     double fallBefore_ = 0.0;                                 // of the grooves [m]

@@ -2,6 +2,7 @@
 // cited by surname and year.
 
 #include <QDirIterator>
+#include <QLocale>
 #include <QRegularExpression>
 #include <QtTest>
 
@@ -170,7 +171,9 @@ class DocsTest : public QObject {
 
     void everyPaperIsInTheBibliography() {
         const QString bibliography = readText(kRoot + "/resources/docs/bibliography.md");
-        const QStringList noAuthors = {"GDC", "Qt", "Detection", "Properties", "Nov", "Debian"};
+        QStringList noAuthors = {"GDC", "Qt", "Detection", "Properties", "Nov", "Debian"};
+        for (int month = 1; month <= 12; ++month)
+            noAuthors << QLocale::c().monthName(month);
         int checked = 0;
         QStringList missing;
         QStringList files = findDocuments();
