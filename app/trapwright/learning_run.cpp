@@ -11,6 +11,7 @@
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
 #include "core/study/selection.h"
+#include "core/study/track_design.h"
 #include "core/workflow/learning.h"
 #include "sim/engines/registry.h"
 
@@ -123,7 +124,7 @@ std::string describeGeneration(const study::EvolutionSettings& settings,
     const objectives::Fitness& best = record.statistics.best;
     const objectives::Fitness& top = record.statistics.topMean;
     std::string curves;
-    for (const search::NumberInfo& info : search::describeMethod(settings.search).curves) {
+    for (const search::NumberInfo& info : study::describeSearch(settings).curves) {
         const auto value = search::findNumber(record.statistics.curves, info.key);
         curves += fmt::format(" {:>{}}", value ? fmt::format("{:.{}f}", *value, info.decimals) : "-",
                               widthOf(info));
@@ -203,7 +204,7 @@ Attempt<bool> finishChecks(store::StudyFile& file, const study::StudyInputs& inp
 
 std::string learningHeading(const study::EvolutionSettings& settings) {
     std::string curves;
-    for (const search::NumberInfo& curve : search::describeMethod(settings.search).curves)
+    for (const search::NumberInfo& curve : study::describeSearch(settings).curves)
         curves += fmt::format(" {:>{}}", curve.key, widthOf(curve));
     std::string scores;
     for (const objectives::Objective* objective : study::summedObjectives(settings))

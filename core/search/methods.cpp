@@ -12,7 +12,7 @@ namespace {
 /// All that is known of a method, one for each, in the order of kMethods.
 struct Entry {
     Method method;
-    MethodInfo (*describe)();
+    MethodInfo (*describe)(ga::StrategyScope scope);
     std::unique_ptr<Search> (*make)(DesignSpace space, const SearchParameters& parameters);
 };
 
@@ -39,21 +39,25 @@ std::optional<double> findNumber(std::span<const NamedNumber> numbers, std::stri
     return found->value;
 }
 
-const MethodInfo& describeMethod(Method method) {
-    static const std::vector<MethodInfo> all = [] {
-        std::vector<MethodInfo> infos;
-        infos.reserve(kEntries.size());
-        for (const Entry& entry : kEntries)
-            infos.push_back(entry.describe());
+const MethodInfo& describeMethod(Method method, ga::StrategyScope scope) {
+    using Scopes = std::array<MethodInfo, ga::kStrategyScopes.size()>;
+    static const auto all = [] {
+        std::array<Scopes, kEntries.size()> infos;
+        for (std::size_t i = 0; i < kEntries.size(); ++i) {
+            for (const auto& [name, one] : ga::kStrategyScopes)
+                infos[i][static_cast<std::size_t>(one)] = kEntries[i].describe(one);
+        }
         return infos;
     }();
-    return all[static_cast<std::size_t>(&entryOf(method) - kEntries.data())];
+    return all[static_cast<std::size_t>(&entryOf(method) - kEntries.data())][static_cast<std::size_t>(scope)];
 }
 
 const NumberInfo* findCurve(std::string_view key) {
     for (const auto& [name, method] : kMethods) {
-        for (const NumberInfo& curve : describeMethod(method).curves)
-            if (curve.key == key) return &curve;
+        for (const auto& [scopeName, scope] : ga::kStrategyScopes) {
+            for (const NumberInfo& curve : describeMethod(method, scope).curves)
+                if (curve.key == key) return &curve;
+        }
     }
     return nullptr;
 }

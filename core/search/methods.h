@@ -24,7 +24,8 @@ struct MethodInfo {
     std::vector<NumberInfo> curves;  // of each generation
 };
 
-const MethodInfo& describeMethod(Method method);
+/// The genetic algorithm tells of its strategy values, by their scope; other methods have none.
+const MethodInfo& describeMethod(Method method, ga::StrategyScope scope = ga::StrategyScope::individual);
 
 /// The trait or curve of that name, whichever method has it; null if none has.
 const NumberInfo* findCurve(std::string_view key);

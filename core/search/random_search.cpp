@@ -14,7 +14,7 @@ constexpr std::uint8_t kStateVersion = 1;
 
 }  // namespace
 
-MethodInfo describeRandomSearch() {
+MethodInfo describeRandomSearch(ga::StrategyScope /*scope*/) {
     return {{},
             {{"best_so_far", "best so far", "The best fitness of all generations up to here.", "Fitness",
               false, 3},

@@ -8,7 +8,7 @@
 
 namespace trapwright::search {
 
-MethodInfo describeRandomSearch();
+MethodInfo describeRandomSearch(ga::StrategyScope scope);
 
 /// Designs at random, each number uniform and independent of all others: what any other search must beat for
 /// the same number of trials. Design i of generation g draws from (seed, g, i, randomDesign).

@@ -78,7 +78,7 @@ void writeDesign(SQLite::Statement& update, int generation, const OldIndividual&
         ga::limitStrategy(ga::decodeStrategy(individual.genes.strategy), parameters);
     const std::string packed = search::packDesign(design);
     const std::string traits =
-        packNumbers(std::array{strategy.crossover, strategy.mutation, strategy.smoothing});
+        packNumbers(std::array{strategy.points.crossover, strategy.points.mutation, strategy.smoothing});
     update.reset();
     update.bind(1, packed.data(), static_cast<int>(packed.size()));
     update.bind(2, traits.data(), static_cast<int>(traits.size()));

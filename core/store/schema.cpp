@@ -341,7 +341,12 @@ UPDATE study SET settings = json_set(settings, '$.evolution.plannedTraps',
     max(32, 50 * json_extract(settings, '$.evolution.populationSize')));
 )sql";
 
-constexpr std::array<Migration, 13> kMigrations = {{{1, kVersion1},
+// One set of rates for an individual.
+constexpr const char* kVersion14 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.evolution.strategyScope', 'individual');
+)sql";
+
+constexpr std::array<Migration, 14> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -353,7 +358,8 @@ constexpr std::array<Migration, 13> kMigrations = {{{1, kVersion1},
                                                     {10, kVersion10},
                                                     {11, kVersion11},
                                                     {12, kVersion12},
-                                                    {13, kVersion13}}};
+                                                    {13, kVersion13},
+                                                    {14, kVersion14}}};
 
 }  // namespace
 

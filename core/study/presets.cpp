@@ -74,6 +74,7 @@ Settings paperMode(Settings settings) {
     settings.evolution.orientationDistance = trial::OrientationDistance::plain;
     settings.evolution.smoothingLimit = 1.0;
     settings.evolution.mutationFloor = 0.0;
+    settings.evolution.strategyScope = search::ga::StrategyScope::individual;
     settings.evolution.firstGeneration = search::ga::FirstGeneration::random;
     settings.evolution.simulateOverlapping = true;
     settings.evolution.racingTrials = 0;

@@ -33,6 +33,7 @@ struct EvolutionSettings {
     double staticMutation = 0.002;  // p_sm
     double smoothingLimit = 0.3;    // what p_s = 1 stands for; 1 in the paper
     double mutationFloor = 0.0005;  // floor of p_dm; 0 in the paper
+    search::ga::StrategyScope strategyScope = search::ga::StrategyScope::individual;    // of p_x and p_dm
     search::ga::FirstGeneration firstGeneration = search::ga::FirstGeneration::graded;  // random in the paper
     int plannedTraps = 1500;  // that are tried by themselves for a first generation that is planned
     // Whose sum a search maximises (objectives::readObjectives).

@@ -78,6 +78,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"evolution.staticMutation", none, 0.0, 1.0}, s.evolution.staticMutation);
     v.number({"evolution.smoothingLimit", none, 0.0, 1.0}, s.evolution.smoothingLimit);
     v.number({"evolution.mutationFloor", none, 0.0, 1.0}, s.evolution.mutationFloor);
+    v.choice("evolution.strategyScope", s.evolution.strategyScope, search::ga::kStrategyScopes);
     v.choice("evolution.firstGeneration", s.evolution.firstGeneration,
              Choices<search::ga::FirstGeneration, 3>{{{"graded", search::ga::FirstGeneration::graded},
                                                       {"random", search::ga::FirstGeneration::random},

@@ -51,7 +51,12 @@ search::SearchParameters searchParameters(const EvolutionSettings& settings) {
     parameters.genetic.transition = {settings.staticMutation, settings.smoothingLimit,
                                      settings.mutationFloor};
     parameters.genetic.first = settings.firstGeneration;
+    parameters.genetic.scope = settings.strategyScope;
     return parameters;
+}
+
+const search::MethodInfo& describeSearch(const EvolutionSettings& settings) {
+    return search::describeMethod(settings.search, settings.strategyScope);
 }
 
 std::unique_ptr<search::Search> makeSearch(const Settings& settings) {

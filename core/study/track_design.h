@@ -23,6 +23,9 @@ double calcTypicalFall(const TrackSettings& settings);
 /// The settings as a search takes them.
 search::SearchParameters searchParameters(const EvolutionSettings& settings);
 
+/// What the search that these settings name tells of itself.
+const search::MethodInfo& describeSearch(const EvolutionSettings& settings);
+
 /// The search that these settings name, before its first generation.
 std::unique_ptr<search::Search> makeSearch(const Settings& settings);
 

@@ -90,13 +90,14 @@ int GenerationModel::firstDetail() {
 }
 
 void GenerationModel::setGenerations(const std::vector<study::GenerationSummary>& summaries,
-                                     const std::vector<study::CheckRecord>& checks, search::Method method) {
+                                     const std::vector<study::CheckRecord>& checks,
+                                     const search::MethodInfo& search) {
     std::vector<GenerationRow> rows;
     rows.reserve(summaries.size());
     for (const study::GenerationSummary& summary : summaries)
         rows.push_back({summary, std::nullopt});
     std::vector<Column<GenerationRow>> columns = makeColumns();
-    for (const search::NumberInfo& curve : search::describeMethod(method).curves)
+    for (const search::NumberInfo& curve : search.curves)
         columns.push_back(
             numberColumn<Row>(curve, [](const Row& r) { return std::span(r.summary.statistics.curves); }));
     reset(std::move(rows), std::move(columns));

@@ -38,7 +38,7 @@ class GenerationModel : public RecordModel<GenerationRow> {
 
     /// Of a study that is searched so: its curves get a column each.
     void setGenerations(const std::vector<study::GenerationSummary>& summaries,
-                        const std::vector<study::CheckRecord>& checks, search::Method method);
+                        const std::vector<study::CheckRecord>& checks, const search::MethodInfo& search);
     void append(const study::GenerationSummary& summary);
     /// The check of a generation that is there; others are ignored.
     void setCheck(const study::CheckRecord& check);

@@ -59,7 +59,7 @@ int IndividualModel::firstDetail() {
     return FirstScore + static_cast<int>(scoredObjectives(false).size());
 }
 
-void IndividualModel::setGeneration(const study::GenerationRecord& record, search::Method method) {
+void IndividualModel::setGeneration(const study::GenerationRecord& record, const search::MethodInfo& search) {
     std::vector<IndividualRow> rows;
     rows.reserve(record.individuals.size());
     for (std::size_t i = 0; i < record.individuals.size(); ++i) {
@@ -67,7 +67,7 @@ void IndividualModel::setGeneration(const study::GenerationRecord& record, searc
         rows.push_back({{{record.index, number}, record.individuals[i]}, number == record.winner});
     }
     std::vector<Column<IndividualRow>> columns = makeColumns();
-    for (const search::NumberInfo& trait : search::describeMethod(method).traits)
+    for (const search::NumberInfo& trait : search.traits)
         columns.push_back(numberColumn<Row>(trait, [](const Row& r) { return std::span(r.record.traits); }));
     reset(std::move(rows), std::move(columns));
 }

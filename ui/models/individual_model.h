@@ -30,7 +30,7 @@ class IndividualModel : public RecordModel<IndividualRow> {
     explicit IndividualModel(QObject* parent = nullptr);
 
     /// Of a study that is searched so: its traits get a column each.
-    void setGeneration(const study::GenerationRecord& record, search::Method method);
+    void setGeneration(const study::GenerationRecord& record, const search::MethodInfo& search);
     void clear();
 
  protected:

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
+#include "core/study/track_design.h"
 #include "ui/pages/details_button.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -47,8 +48,9 @@ QWidget* GenerationTable::makeHead() {
 void GenerationTable::setRuns(const StudyRuns* runs) {
     if (runs_) runs_->disconnect(this);
     runs_ = runs;
-    if (!runs_) return model_.setGenerations({}, {}, search::Method::genetic);
-    model_.setGenerations(runs_->summaries(), runs_->checks(), runs_->design().settings().evolution.search);
+    if (!runs_) return model_.setGenerations({}, {}, {});
+    model_.setGenerations(runs_->summaries(), runs_->checks(),
+                          study::describeSearch(runs_->design().settings().evolution));
     connect(runs_, &StudyRuns::generationSaved, this, [this] { model_.append(runs_->summaries().back()); });
     connect(runs_, &StudyRuns::checkSaved, this, [this] { model_.setCheck(runs_->checks().back()); });
 }

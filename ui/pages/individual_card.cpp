@@ -96,7 +96,7 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
     }
     scores_->show(scores);
     Facts traits;
-    for (const search::NumberInfo& info : search::describeMethod(settings.evolution.search).traits) {
+    for (const search::NumberInfo& info : study::describeSearch(settings.evolution).traits) {
         const QString name = QString::fromStdString(info.name);
         const auto value = search::findNumber(record.traits, info.key);
         traits.emplace_back(name.left(1).toUpper() + name.mid(1),

@@ -6,6 +6,7 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "core/study/track_design.h"
 #include "ui/pages/details_button.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -91,7 +92,7 @@ void IndividualTable::load() {
             return;
         }
         loaded_ = generation_;
-        model_.setGeneration(*record, runs_->design().settings().evolution.search);
+        model_.setGeneration(*record, study::describeSearch(runs_->design().settings().evolution));
         count_->setText(
             tr("%1 individuals, %L2 trials").arg(model_.rowCount()).arg(study::summarize(*record).trials));
     }

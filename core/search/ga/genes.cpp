@@ -64,8 +64,9 @@ std::vector<double> decodeGray(std::span<const std::uint8_t> bits, int bitsPerVa
     return values;
 }
 
-ChromosomeLayout layOut(const DesignSpace& space) {
+ChromosomeLayout layOut(const DesignSpace& space, StrategyScope scope) {
     ChromosomeLayout layout;
+    layout.scope = scope;
     for (const Dimension& dimension : space.dimensions)
         (dimension.ofPoint ? layout.pointBits : layout.singleBits).push_back(bitsOf(dimension));
     return layout;
@@ -74,7 +75,7 @@ ChromosomeLayout layOut(const DesignSpace& space) {
 bool fits(const Chromosome& chromosome, const ChromosomeLayout& layout) {
     return chromosome.points.size() == sumOf(layout.pointBits) &&
            chromosome.singles.size() == sumOf(layout.singleBits) &&
-           chromosome.strategy.size() == std::size_t{3} * kStrategyBits;
+           chromosome.strategy.size() == countStrategyValues(layout.scope) * kStrategyBits;
 }
 
 Design decodeDesign(const Chromosome& chromosome, const DesignSpace& space) {

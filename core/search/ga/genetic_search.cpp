@@ -1,5 +1,7 @@
 #include "core/search/ga/genetic_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -14,15 +16,22 @@ namespace {
 constexpr std::uint8_t kStateVersion = 1;
 constexpr std::uint32_t kMostIndividuals = 10'000'000;
 
-std::vector<NamedNumber> listed(const StrategyValues& values) {
-    return {{"p_x", values.crossover}, {"p_dm", values.mutation}, {"p_s", values.smoothing}};
+std::vector<NamedNumber> listed(const StrategyValues& values, StrategyScope scope) {
+    std::vector<NamedNumber> numbers = {
+        {"p_x", values.points.crossover}, {"p_dm", values.points.mutation}, {"p_s", values.smoothing}};
+    if (scope == StrategyScope::individual) return numbers;
+    numbers.push_back({"p_x2", values.singles.crossover});
+    numbers.push_back({"p_dm2", values.singles.mutation});
+    numbers.push_back({"p_x3", values.strategy.crossover});
+    numbers.push_back({"p_dm3", values.strategy.mutation});
+    return numbers;
 }
 
 }  // namespace
 
-MethodInfo describeGeneticSearch() {
+MethodInfo describeGeneticSearch(StrategyScope scope) {
     const std::string axis = "Probability, mean of top 30 %";
-    return {
+    MethodInfo info{
         {{"p_x", "crossover p_x", "Crossover rate of this individual."},
          {"p_dm", "mutation p_dm", "Dynamic mutation rate of this individual, not below its floor."},
          {"p_s", "smoothing p_s", "Smoothing rate of this individual, scaled to its limit."}},
@@ -33,10 +42,43 @@ MethodInfo describeGeneticSearch() {
           true},
          {"p_s", "smoothing p_s",
           "How often points of the surface are smoothed away: geometric mean of the top 30 %.", axis, true}}};
+    if (scope == StrategyScope::individual) return info;
+    // Seven curves are read more easily in two plots.
+    const std::string crossoverAxis = "Crossover rate, mean of top 30 %";
+    const std::string mutationAxis = "Mutation and smoothing, mean of top 30 %";
+    for (NumberInfo& curve : info.curves)
+        curve.axis = curve.key == "p_x" ? crossoverAxis : mutationAxis;
+    info.curves[0].name = info.traits[0].name = "crossover p_x, points";
+    info.curves[1].name = info.traits[1].name = "mutation p_dm, points";
+    info.curves[0].help =
+        "How often a child changes the parent that it copies points of: geometric mean of the top 30 %.";
+    info.traits[0].help = "Crossover rate of this individual's points.";
+    info.traits[1].help = "Dynamic mutation rate of this individual's points, not below its floor.";
+    for (const auto& [number, of] : {std::pair("2", "single numbers"), std::pair("3", "strategy values")}) {
+        const std::string crossover = fmt::format("p_x{}", number);
+        const std::string mutation = fmt::format("p_dm{}", number);
+        const std::string crossoverName = fmt::format("crossover {}, {}", crossover, of);
+        const std::string mutationName = fmt::format("mutation {}, {}", mutation, of);
+        info.traits.push_back(
+            {crossover, crossoverName, fmt::format("Crossover rate of this individual's {}.", of)});
+        info.traits.push_back(
+            {mutation, mutationName,
+             fmt::format("Dynamic mutation rate of this individual's {}, not below its floor.", of)});
+        info.curves.push_back({crossover, crossoverName,
+                               fmt::format("How often a child changes the parent that it copies {} of: "
+                                           "geometric mean of the top 30 %.",
+                                           of),
+                               crossoverAxis, true});
+        info.curves.push_back(
+            {mutation, mutationName,
+             fmt::format("How often {} are changed at random: geometric mean of the top 30 %.", of),
+             mutationAxis, true});
+    }
+    return info;
 }
 
 GeneticSearch::GeneticSearch(DesignSpace space, const SearchParameters& parameters)
-    : space_(std::move(space)), layout_(layOut(space_)), parameters_(parameters) {}
+    : space_(std::move(space)), layout_(layOut(space_, parameters.genetic.scope)), parameters_(parameters) {}
 
 void GeneticSearch::begin(std::span<const Design> designs) {
     first_.assign(designs.begin(), designs.end());
@@ -63,7 +105,8 @@ std::vector<Proposal> GeneticSearch::ask() {
     std::vector<Proposal> proposals;
     proposals.reserve(asked_.size());
     for (const Chromosome& chromosome : asked_)
-        proposals.push_back({decodeDesign(chromosome, space_), listed(strategyOf(chromosome))});
+        proposals.push_back(
+            {decodeDesign(chromosome, space_), listed(strategyOf(chromosome), layout_.scope)});
     return proposals;
 }
 
@@ -81,7 +124,7 @@ std::vector<NamedNumber> GeneticSearch::report() const {
     std::vector<StrategyValues> best;
     for (const std::size_t i : findTop(scores_))
         best.push_back(strategyOf(population_[i]));
-    return listed(calcGeometricMean(best));
+    return listed(calcGeometricMean(best), layout_.scope);
 }
 
 std::string GeneticSearch::save() const {
@@ -106,11 +149,10 @@ base::Status GeneticSearch::load(std::string_view state) {
             *gene = std::move(*bits);
         }
         if (!fits(chromosome, layout_)) {
-            return base::Error{
-                "The search's last individuals have genes of " + std::to_string(chromosome.points.size()) +
-                " and " + std::to_string(chromosome.singles.size()) +
-                " bits, which is not what these settings need. Use the settings that the study "
-                "was learned with."};
+            return base::Error{fmt::format(
+                "The search's last individuals have genes of {}, {} and {} bits, which is not what "
+                "these settings need. Use the settings that the study was learned with.",
+                chromosome.points.size(), chromosome.singles.size(), chromosome.strategy.size())};
         }
         population.push_back(std::move(chromosome));
         reader(scores.emplace_back());

@@ -12,8 +12,9 @@
 
 namespace trapwright::search::ga {
 
-/// p_x, p_dm and p_s, of each individual and of a generation.
-MethodInfo describeGeneticSearch();
+/// p_x, p_dm and p_s, of each individual and of a generation; by gene these are of the points, and p_x and
+/// p_dm of genes 2 and 3 follow.
+MethodInfo describeGeneticSearch(StrategyScope scope);
 
 /// The paper's self-adaptive genetic algorithm (sections 4 and 5). Numbers of points are its gene 1, all
 /// others its gene 2. Traits are an individual's strategy values as they take effect; curves their geometric

@@ -23,7 +23,8 @@ Chromosome createRandomChromosome(const ChromosomeLayout& layout, base::Random& 
     Chromosome chromosome;
     chromosome.points = drawBits(layout.pointBits, random);
     chromosome.singles = drawBits(layout.singleBits, random);
-    chromosome.strategy = drawBits({3 * kStrategyBits}, random);
+    chromosome.strategy =
+        drawBits(std::vector<int>(countStrategyValues(layout.scope), kStrategyBits), random);
     return chromosome;
 }
 
@@ -47,7 +48,10 @@ void gradePopulation(std::vector<Chromosome>& population, const DesignSpace& spa
         encodeDesign(design, space, population[i]);
 
         std::vector<double> values = decodeGray(population[i].strategy, kStrategyBits);
-        values[1] = std::exp(random.uniform(std::log(kLeastFirstMutation), 0.0));
+        for (const std::size_t mutation : {1, 4, 6}) {  // of genes 1, 2 and 3
+            if (mutation < values.size())
+                values[mutation] = std::exp(random.uniform(std::log(kLeastFirstMutation), 0.0));
+        }
         population[i].strategy = encodeGray(values, kStrategyBits);
     }
 }

@@ -21,6 +21,7 @@ struct GenerationParameters {
     int tournamentSize = 6;  // s
     TransitionParameters transition;
     FirstGeneration first = FirstGeneration::random;
+    StrategyScope scope = StrategyScope::individual;
 };
 
 /// Every bit drawn at random.
@@ -30,7 +31,7 @@ Chromosome createRandomChromosome(const ChromosomeLayout& layout, base::Random& 
 std::vector<Chromosome> createPopulation(const ChromosomeLayout& layout, int size, std::uint64_t seed);
 
 /// Of individual i's dimensions of relief all come nearer to 0.5 by a factor of its own, from kLeastRelief to
-/// 1, and its p_dm becomes one from kLeastFirstMutation to 1; the logarithms of both are uniform, from the
+/// 1, and each p_dm becomes one from kLeastFirstMutation to 1; the logarithms of all are uniform, from the
 /// stream (seed, 0, i, 1, initialPopulation). Most designs at random are so rough that no part comes through,
 /// and half of all p_dm at random make a child that has nothing of its parents: a search learns only that for
 /// its first ten generations.

@@ -22,19 +22,19 @@ using Smooth = std::function<Chromosome(Chromosome child, double probability, ba
 /// Geometric mean (Eq. 6); 0 if any value is 0. The values are not negative, at least one.
 double combineGeometricMean(std::span<const double> values);
 
-/// What gene 3 says, before any bound.
+/// What gene 3 says, before any bound; how many values it holds tells their scope.
 StrategyValues decodeStrategy(const Bits& gene);
 
 /// Component by component (Eq. 6).
 StrategyValues calcGeometricMean(std::span<const StrategyValues> values);
 
-/// What takes effect: p_dm not below its floor, p_s scaled to [0, limit]. Cut off at the limit instead, all
-/// genes above it would act alike, selection could not tell them apart, and p_s would stay at the limit.
+/// What takes effect: each p_dm not below its floor, p_s scaled to [0, limit]. Cut off at the limit instead,
+/// all genes above it would act alike, selection could not tell them apart, and p_s would stay at the limit.
 StrategyValues limitStrategy(StrategyValues values, const TransitionParameters& parameters);
 
 /// The transition function (paper, section 5, Algorithm 2): one child of two parents. Strategy values first,
-/// by their parents' geometric means; then single numbers and points by the child's own values; last comes
-/// smoothing.
+/// by their parents' geometric means; then single numbers and points by the child's own values, those of
+/// their gene; last comes smoothing.
 Chromosome transition(const Chromosome& parent1, const Chromosome& parent2, const ChromosomeLayout& layout,
                       const TransitionParameters& parameters, const Smooth& smooth, base::Random& random);
 

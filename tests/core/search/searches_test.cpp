@@ -119,6 +119,36 @@ class SearchesTest : public QObject {
         QVERIFY(search::findCurve("nothing") == nullptr);
     }
 
+    // Rates gene by gene are told of, saved and loaded; the state of one scope is none of the other.
+    void ratesByGeneAreToldOf() {
+        search::SearchParameters parameters = someParameters();
+        parameters.genetic.scope = ga::StrategyScope::gene;
+        const search::MethodInfo& info = search::describeMethod(Method::genetic, ga::StrategyScope::gene);
+        QCOMPARE(info.curves.size(), std::size_t{7});
+        const auto search = search::makeSearch(Method::genetic, someSpace(), parameters);
+        const auto proposals = search->ask();
+        search->tell(judge(proposals));
+        QVERIFY(keysOf(search->report()) == keysOf(info.curves));
+        for (const search::Proposal& proposal : proposals)
+            QVERIFY(keysOf(proposal.traits) == keysOf(info.traits));
+        for (const search::NumberInfo& curve : info.curves) {
+            QVERIFY(!curve.name.empty() && curve.help.ends_with('.') && !curve.axis.empty());
+            QVERIFY(search::findCurve(curve.key) != nullptr);
+        }
+        const auto resumed = search::makeSearch(Method::genetic, someSpace(), parameters);
+        QVERIFY(resumed->load(search->save()).ok());
+        const auto next = search->ask();
+        const auto nextResumed = resumed->ask();
+        QCOMPARE(nextResumed.size(), next.size());
+        for (std::size_t i = 0; i < next.size(); ++i)
+            QVERIFY(nextResumed[i].design == next[i].design && nextResumed[i].traits == next[i].traits);
+        const auto other = search::makeSearch(Method::genetic, someSpace(), someParameters());
+        const auto refused = other->load(search->save());
+        QVERIFY(!refused.ok());
+        QVERIFY2(refused.error().message.find("140 bits") != std::string::npos,
+                 refused.error().message.c_str());
+    }
+
     void askingTwiceGivesTheSame_data() { addMethods(); }
     void askingTwiceGivesTheSame() {
         QFETCH(int, method);
@@ -189,7 +219,7 @@ class SearchesTest : public QObject {
         search::DesignSpace smaller = someSpace();
         smaller.dimensions.pop_back();
         const auto other = search::makeSearch(Method::genetic, smaller, someParameters());
-        QVERIFY(messageOf(other->load(search->save())).contains("120 and 56 bits"));
+        QVERIFY(messageOf(other->load(search->save())).contains("120, 56 and 60 bits"));
     }
 
     // The paper's algorithm does what it is there for, drawing at random does not.
@@ -212,7 +242,7 @@ class SearchesTest : public QObject {
 
     void designsAreTheirGenes() {
         const search::DesignSpace space = someSpace();
-        const ga::ChromosomeLayout layout = ga::layOut(space);
+        const ga::ChromosomeLayout layout = ga::layOut(space, ga::StrategyScope::individual);
         QCOMPARE(layout.pointBits, std::vector<int>(12, 10));
         QCOMPARE(layout.singleBits, (std::vector<int>{6, 6, 6, 6, 6, 6, ga::kRealBits}));
         base::Random random({.seed = 2});

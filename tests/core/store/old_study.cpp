@@ -106,6 +106,8 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 14)
+        database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.strategyScope')");
     if (version < 13)
         database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.plannedTraps')");
     if (version < 12)

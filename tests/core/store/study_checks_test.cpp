@@ -164,7 +164,7 @@ class StudyChecksTest : public QObject {
         for (const char* pinned :
              {"\"racingTrials\":0", "\"racingShare\":0.3", "\"commonRandomNumbers\":false",
               "\"learningStuckTime_s\":1.5", "\"learningStep_ms\":0.2", "\"firstGeneration\":\"random\"",
-              "\"plannedTraps\":"}) {
+              "\"plannedTraps\":", "\"strategyScope\":\"individual\""}) {
             QVERIFY2(json.find(pinned) != std::string::npos, json.c_str());
         }
     }

@@ -75,6 +75,7 @@ class SettingsCheckTest : public QObject {
         QVERIFY(s.evolution.orientationDistance == trial::OrientationDistance::plain);
         QCOMPARE(s.evolution.smoothingLimit, 1.0);
         QCOMPARE(s.evolution.mutationFloor, 0.0);
+        QVERIFY(s.evolution.strategyScope == search::ga::StrategyScope::individual);
         QVERIFY(s.evolution.firstGeneration == search::ga::FirstGeneration::random);
         QVERIFY(s.evolution.simulateOverlapping);
         QCOMPARE(s.evolution.racingTrials, 0);

@@ -45,6 +45,7 @@ Settings unusualSettings() {
                    0.1 / 3.0,
                    0.7,
                    1e-7,
+                   search::ga::StrategyScope::gene,
                    search::ga::FirstGeneration::random,
                    777,
                    "success, F_C",

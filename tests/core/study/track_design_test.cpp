@@ -178,6 +178,7 @@ class TrackDesignTest : public QObject {
         settings.smoothingLimit = 0.77;
         settings.mutationFloor = 0.003;
         settings.firstGeneration = search::ga::FirstGeneration::random;
+        settings.strategyScope = search::ga::StrategyScope::gene;
         settings.populationSize = 17;
         settings.seed = 99;
         QCOMPARE(study::searchParameters(settings).populationSize, 17);
@@ -188,6 +189,7 @@ class TrackDesignTest : public QObject {
         QCOMPARE(parameters.transition.smoothingLimit, 0.77);
         QCOMPARE(parameters.transition.mutationFloor, 0.003);
         QVERIFY(parameters.first == search::ga::FirstGeneration::random);
+        QVERIFY(parameters.scope == search::ga::StrategyScope::gene);
     }
 };
 

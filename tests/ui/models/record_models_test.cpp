@@ -74,7 +74,7 @@ class RecordModelsTest : public QObject {
         GenerationModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
         model.setGenerations({sample::summary(0), sample::summary(1)}, {sample::check(1, 10, 9)},
-                             search::Method::genetic);
+                             search::describeMethod(search::Method::genetic));
         QCOMPARE(model.rowCount(), 2);
         QCOMPARE(textAt(model, 0, GenerationModel::ReferenceSuccess), QString());
         QCOMPARE(textAt(model, 1, GenerationModel::ReferenceSuccess), QString("90.0"));
@@ -96,7 +96,7 @@ class RecordModelsTest : public QObject {
 
     void generationShowsItsNumbers() {
         GenerationModel model;
-        model.setGenerations({sample::summary(4, 0.75)}, {}, search::Method::genetic);
+        model.setGenerations({sample::summary(4, 0.75)}, {}, search::describeMethod(search::Method::genetic));
         QCOMPARE(textAt(model, 0, GenerationModel::Generation), QString("4"));
         QCOMPARE(textAt(model, 0, GenerationModel::firstDetail()), QString("-1.500"));
         QCOMPARE(textAt(model, 0, columnOf(model, "F_C")), QString("-2"));
@@ -112,7 +112,7 @@ class RecordModelsTest : public QObject {
         study::GenerationSummary old = sample::summary(1);
         old.statistics.success.reset();
         old.statistics.topSuccess.reset();
-        model.setGenerations({sample::summary(0), old}, {}, search::Method::genetic);
+        model.setGenerations({sample::summary(0), old}, {}, search::describeMethod(search::Method::genetic));
         QCOMPARE(textAt(model, 0, GenerationModel::Success), QString("85.0"));
         QCOMPARE(textAt(model, 0, GenerationModel::Bounds), QString("62.1 … 96.8"));
         QCOMPARE(textAt(model, 0, GenerationModel::TopSuccess), QString("50.0"));
@@ -143,7 +143,7 @@ class RecordModelsTest : public QObject {
         GenerationModel model;
         study::GenerationSummary summary = sample::summary(0);
         summary.statistics.best = testing::paperFitness(-0.0, -1e-9, 1.0);
-        model.setGenerations({summary}, {}, search::Method::genetic);
+        model.setGenerations({summary}, {}, search::describeMethod(search::Method::genetic));
         QCOMPARE(textAt(model, 0, columnOf(model, "F_C")), QString("0"));
         QCOMPARE(textAt(model, 0, columnOf(model, "F_D [segments]")), QString("0.000"));
     }
@@ -155,7 +155,7 @@ class RecordModelsTest : public QObject {
         record.individuals = {individual(0.1, {0.25, 0.002, 0.3}), individual(0.9, {1.0, 0.5, 0.5})};
         IndividualModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
-        model.setGeneration(record, search::Method::genetic);
+        model.setGeneration(record, search::describeMethod(search::Method::genetic));
         QCOMPARE(model.rowCount(), 2);
         const int columns = model.columnCount();
         QCOMPARE(textAt(model, 0, columnOf(model, "p_x")), QString("0.2500"));
@@ -188,7 +188,7 @@ class RecordModelsTest : public QObject {
         for (const double fitness : {0.5, 10.0, -3.0, 9.0})
             record.individuals.push_back(individual(fitness, {0.0, 0.0, 0.0}));
         IndividualModel model;
-        model.setGeneration(record, search::Method::genetic);
+        model.setGeneration(record, search::describeMethod(search::Method::genetic));
         QSortFilterProxyModel sorted;
         sorted.setSourceModel(&model);
         sorted.setSortRole(models::ValueRole);

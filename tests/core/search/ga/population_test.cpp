@@ -42,7 +42,7 @@ class PopulationTest : public QObject {
             space.dimensions.push_back({"z", "", 0.0, 1.0, 10, true, true});
         }
         space.dimensions.push_back({"length", "", 0.0, 1.0, 10});
-        const ga::ChromosomeLayout layout = ga::layOut(space);
+        const ga::ChromosomeLayout layout = ga::layOut(space, ga::StrategyScope::individual);
         const auto before = ga::createPopulation(layout, 400, 4);
         auto population = before;
         ga::gradePopulation(population, space, 4);
@@ -66,10 +66,11 @@ class PopulationTest : public QObject {
             if (relief / whole < std::sqrt(ga::kLeastRelief)) ++flat;
             const ga::StrategyValues strategy = ga::decodeStrategy(population[i].strategy);
             const ga::StrategyValues strategyBefore = ga::decodeStrategy(before[i].strategy);
-            QCOMPARE(strategy.crossover, strategyBefore.crossover);
+            QCOMPARE(strategy.points.crossover, strategyBefore.points.crossover);
             QCOMPARE(strategy.smoothing, strategyBefore.smoothing);
-            QVERIFY(strategy.mutation > 0.99 * ga::kLeastFirstMutation && strategy.mutation <= 1.0);
-            if (strategy.mutation < std::sqrt(ga::kLeastFirstMutation)) ++rare;
+            QVERIFY(strategy.points.mutation > 0.99 * ga::kLeastFirstMutation &&
+                    strategy.points.mutation <= 1.0);
+            if (strategy.points.mutation < std::sqrt(ga::kLeastFirstMutation)) ++rare;
         }
         // Half of each, within four deviations.
         QVERIFY2(std::abs(flat - 200) < 40 && std::abs(rare - 200) < 40,
@@ -78,6 +79,34 @@ class PopulationTest : public QObject {
         std::vector<ga::Chromosome> three(before.begin(), before.begin() + 3);
         ga::gradePopulation(three, space, 4);
         QVERIFY(three[2] == population[2]);
+    }
+
+    // By gene there are three mutation rates to be graded, each by itself.
+    void everyMutationRateIsGraded() {
+        search::DesignSpace space;
+        space.dimensions.resize(4);
+        const ga::ChromosomeLayout layout = ga::layOut(space, ga::StrategyScope::gene);
+        auto population = ga::createPopulation(layout, 400, 4);
+        for (const ga::Chromosome& each : population) {
+            QVERIFY(ga::fits(each, layout));
+            QVERIFY(!ga::fits(each, ga::layOut(space, ga::StrategyScope::individual)));
+        }
+        ga::gradePopulation(population, space, 4);
+        std::array<int, 3> rare{};
+        int alike = 0;
+        for (const ga::Chromosome& each : population) {
+            const ga::StrategyValues values = ga::decodeStrategy(each.strategy);
+            const std::array rates = {values.points.mutation, values.singles.mutation,
+                                      values.strategy.mutation};
+            for (std::size_t gene = 0; gene < rates.size(); ++gene) {
+                QVERIFY(rates[gene] > 0.99 * ga::kLeastFirstMutation);
+                if (rates[gene] < std::sqrt(ga::kLeastFirstMutation)) ++rare[gene];
+            }
+            if (rates[0] == rates[1] || rates[1] == rates[2]) ++alike;
+        }
+        QVERIFY2(alike < 8, QByteArray::number(alike));
+        for (const int count : rare)
+            QVERIFY2(std::abs(count - 200) < 40, QByteArray::number(count));
     }
 
     void childrenHaveTheirOwnStreams() {
@@ -101,10 +130,11 @@ class PopulationTest : public QObject {
     }
 
     void strategyMean() {
-        const std::vector<ga::StrategyValues> values = {{0.2, 1e-4, 0.0}, {0.8, 1e-2, 0.5}};
+        const std::vector<ga::StrategyValues> values = {ga::sameForGenes(0.2, 1e-4, 0.0),
+                                                        ga::sameForGenes(0.8, 1e-2, 0.5)};
         const auto mean = ga::calcGeometricMean(values);
-        QVERIFY(std::abs(mean.crossover - 0.4) < 1e-14);
-        QVERIFY(std::abs(mean.mutation - 1e-3) < 1e-16);
+        QVERIFY(std::abs(mean.points.crossover - 0.4) < 1e-14);
+        QVERIFY(std::abs(mean.points.mutation - 1e-3) < 1e-16);
         QCOMPARE(mean.smoothing, 0.0);
     }
 

@@ -57,12 +57,13 @@ class TransitionTest : public QObject {
 
     void boundsTakeEffect() {
         const TransitionParameters parameters{0.002, 0.3, 0.0005};
-        const auto values = ga::limitStrategy({0.9, 1e-5, 0.8}, parameters);
-        QCOMPARE(values, (ga::StrategyValues{0.9, 0.0005, 0.8 * 0.3}));
-        const auto inside = ga::limitStrategy({0.9, 0.1, 0.2}, parameters);
-        QCOMPARE(inside, (ga::StrategyValues{0.9, 0.1, 0.2 * 0.3}));
+        const auto values = ga::limitStrategy(ga::sameForGenes(0.9, 1e-5, 0.8), parameters);
+        QCOMPARE(values, ga::sameForGenes(0.9, 0.0005, 0.8 * 0.3));
+        const auto inside = ga::limitStrategy(ga::sameForGenes(0.9, 0.1, 0.2), parameters);
+        QCOMPARE(inside, ga::sameForGenes(0.9, 0.1, 0.2 * 0.3));
         // The paper's own choices bound nothing.
-        QCOMPARE(ga::limitStrategy({1.0, 0.0, 1.0}, {0.002, 1.0, 0.0}), (ga::StrategyValues{1.0, 0.0, 1.0}));
+        QCOMPARE(ga::limitStrategy(ga::sameForGenes(1.0, 0.0, 1.0), {0.002, 1.0, 0.0}),
+                 ga::sameForGenes(1.0, 0.0, 1.0));
     }
 
     // Without crossover, mutation and smoothing the child is parent 2.
@@ -178,6 +179,50 @@ class TransitionTest : public QObject {
         QVERIFY(std::abs(strategyChanges - kRuns * 60 * 0.015) < 4.0 * std::sqrt(kRuns * 60 * 0.015));
         QVERIFY(counted > 5);
         QVERIFY(std::abs(lengthChanges / counted / 1e5 - 0.015) < 4.0 * std::sqrt(0.015 / 1e5 / counted));
+    }
+
+    // Rates of every gene (paper, section 9): the order of the values is p_x, p_dm and p_s of the points, p_x
+    // and p_dm of the numbers, p_x and p_dm of the strategy values themselves.
+    void eachGeneHasItsOwnRates() {
+        const auto genes = [](const std::array<double, 7>& values) {
+            const Bits strategy = ga::encodeGray(values, ga::kStrategyBits);
+            return std::pair(Chromosome{Bits(20000, 0), Bits(20000, 0), strategy},
+                             Chromosome{Bits(20000, 1), Bits(20000, 1), strategy});
+        };
+        const auto differing = [&](const std::array<double, 7>& values) {
+            const auto [zeros, ones] = genes(values);
+            base::Random random = makeRandom(21);
+            const auto child = ga::transition(zeros, ones, layoutOf(zeros), {0.0, 1.0, 0.0}, keep, random);
+            return std::array{countDifferent(child.points, ones.points) / 20000.0,
+                              countDifferent(child.singles, ones.singles) / 20000.0,
+                              countDifferent(child.strategy, ones.strategy)};
+        };
+        using Shares = std::array<double, 3>;
+        QVERIFY(differing({0, 0, 0, 0, 0, 0, 0}) == (Shares{0.0, 0.0, 0.0}));
+        // Crossover: half of the bits are of the other parent, in the one gene alone.
+        const auto isHalf = [](double share) { return std::abs(share - 0.5) < 0.02; };
+        const Shares points = differing({1, 0, 0, 0, 0, 0, 0});
+        QVERIFY(isHalf(points[0]) && points[1] == 0.0);
+        const Shares singles = differing({0, 0, 0, 1, 0, 0, 0});
+        QVERIFY(singles[0] == 0.0 && isHalf(singles[1]));
+        // Mutation, too.
+        QVERIFY(differing({0, 1, 0, 0, 0, 0, 0})[1] == 0.0 && differing({0, 1, 0, 0, 0, 0, 0})[0] > 0.3);
+        QVERIFY(differing({0, 0, 0, 0, 1, 0, 0})[0] == 0.0 && isHalf(differing({0, 0, 0, 0, 1, 0, 0})[1]));
+        QCOMPARE(differing({0, 1, 0, 0, 1, 0, 0})[2], 0.0);
+        // All bits of gene 3 are drawn anew, half of 140 change.
+        const double strategy = differing({0, 0, 0, 0, 0, 0, 1})[2];
+        QVERIFY2(std::abs(strategy - 70.0) < 4.0 * std::sqrt(35.0), QByteArray::number(strategy));
+        const ga::StrategyValues read = ga::decodeStrategy(
+            ga::encodeGray(std::array{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}, ga::kStrategyBits));
+        const ga::StrategyValues expected{{0.1, 0.2}, {0.4, 0.5}, {0.6, 0.7}, 0.3};
+        for (const auto gene :
+             {&ga::StrategyValues::points, &ga::StrategyValues::singles, &ga::StrategyValues::strategy}) {
+            QVERIFY(std::abs((read.*gene).crossover - (expected.*gene).crossover) < 1e-6);
+            QVERIFY(std::abs((read.*gene).mutation - (expected.*gene).mutation) < 1e-6);
+        }
+        QVERIFY(std::abs(read.smoothing - expected.smoothing) < 1e-6);
+        const auto limited = ga::limitStrategy(expected, {0.0, 0.5, 0.6});
+        QCOMPARE(limited, (ga::StrategyValues{{0.1, 0.6}, {0.4, 0.6}, {0.6, 0.7}, 0.15}));
     }
 
     void smoothingLimitReachesTheSmoother() {
