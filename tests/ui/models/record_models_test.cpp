@@ -179,8 +179,11 @@ class RecordModelsTest : public QObject {
         model.clear();
         QCOMPARE(model.rowCount(), 0);
         // A study that is searched otherwise.
-        model.setGeneration(record, search::Method::random);
+        model.setGeneration(record, search::describeMethod(search::Method::random));
         QCOMPARE(model.columnCount(), columns - 3);
+        model.setGeneration(record,
+                            search::describeMethod(search::Method::genetic, search::ga::StrategyScope::gene));
+        QCOMPARE(model.columnCount(), columns + 4);
     }
 
     void individualsAreSortedByNumber() {
