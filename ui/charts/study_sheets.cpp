@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "core/search/methods.h"
@@ -288,7 +289,7 @@ ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
 ChartSheet searchSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
     const std::array styles{kBest, kMean, kThird};
-    std::size_t count = 0;
+    std::map<QString, std::size_t> counts;  // of the curves of each axis
     for (const std::string& key : curveKeys(studies)) {
         const search::NumberInfo* known = search::findCurve(key);
         const search::NumberInfo info = known != nullptr ? *known : search::NumberInfo{key, key, {}, key};
@@ -304,7 +305,7 @@ ChartSheet searchSheet(const std::vector<StudyCurves>& studies) {
             made.leastHeight = info.logarithmic ? 1.0 : 0.1;
             plot = sheet.plots.insert(sheet.plots.end(), std::move(made));
         }
-        const CurveStyle style = styles[count++ % styles.size()];
+        const CurveStyle style = styles[counts[axis]++ % styles.size()];
         const QString name = QString::fromStdString(info.name);
         sheet.legend.push_back({QString::fromStdString(key), name, QString::fromStdString(info.help), style});
         addCurves(*plot, studies, QString::fromStdString(key), name, QString::fromStdString(key), style,

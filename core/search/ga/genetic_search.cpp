@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/byte_archive.h"
 #include "core/search/ranking.h"
@@ -43,22 +44,14 @@ MethodInfo describeGeneticSearch(StrategyScope scope) {
          {"p_s", "smoothing p_s",
           "How often points of the surface are smoothed away: geometric mean of the top 30 %.", axis, true}}};
     if (scope == StrategyScope::individual) return info;
-    // Seven curves are read more easily in two plots.
-    const std::string crossoverAxis = "Crossover rate, mean of top 30 %";
-    const std::string mutationAxis = "Mutation and smoothing, mean of top 30 %";
-    for (NumberInfo& curve : info.curves)
-        curve.axis = curve.key == "p_x" ? crossoverAxis : mutationAxis;
-    info.curves[0].name = info.traits[0].name = "crossover p_x, points";
-    info.curves[1].name = info.traits[1].name = "mutation p_dm, points";
-    info.curves[0].help =
-        "How often a child changes the parent that it copies points of: geometric mean of the top 30 %.";
-    info.traits[0].help = "Crossover rate of this individual's points.";
-    info.traits[1].help = "Dynamic mutation rate of this individual's points, not below its floor.";
-    for (const auto& [number, of] : {std::pair("2", "single numbers"), std::pair("3", "strategy values")}) {
+    // The three above are those of the points.
+    for (const auto& [number, of, title] : {std::tuple("2", "single numbers", "Single numbers"),
+                                            std::tuple("3", "strategy values", "Strategy values")}) {
         const std::string crossover = fmt::format("p_x{}", number);
         const std::string mutation = fmt::format("p_dm{}", number);
         const std::string crossoverName = fmt::format("crossover {}, {}", crossover, of);
         const std::string mutationName = fmt::format("mutation {}, {}", mutation, of);
+        const std::string axisOf = fmt::format("{}, probability, mean of top 30 %", title);
         info.traits.push_back(
             {crossover, crossoverName, fmt::format("Crossover rate of this individual's {}.", of)});
         info.traits.push_back(
@@ -68,11 +61,11 @@ MethodInfo describeGeneticSearch(StrategyScope scope) {
                                fmt::format("How often a child changes the parent that it copies {} of: "
                                            "geometric mean of the top 30 %.",
                                            of),
-                               crossoverAxis, true});
+                               axisOf, true});
         info.curves.push_back(
             {mutation, mutationName,
-             fmt::format("How often {} are changed at random: geometric mean of the top 30 %.", of),
-             mutationAxis, true});
+             fmt::format("How often {} are changed at random: geometric mean of the top 30 %.", of), axisOf,
+             true});
     }
     return info;
 }
