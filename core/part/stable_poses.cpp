@@ -278,4 +278,42 @@ NearestPose findStablePose(const Part& part, const Quaternion& orientation) {
     return nearest;
 }
 
+LengthInPose findLength(const Part& part, const StablePose& pose) {
+    constexpr int kDirections = 720;  // of half a turn
+    LengthInPose found;
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kDirections; ++k) {
+        const double angle = kPi * k / kDirections;
+        const Vec3 along = pose.rotation.conjugate() * Vec3(std::cos(angle), std::sin(angle), 0.0);
+        const Vec3 across = pose.rotation.conjugate() * Vec3(-std::sin(angle), std::cos(angle), 0.0);
+        const auto extent = [&](const Vec3& direction) {
+            std::pair range(std::numeric_limits<double>::infinity(),
+                            -std::numeric_limits<double>::infinity());
+            for (const Vec3& vertex : part.hull.vertices) {
+                range.first = std::min(range.first, direction.dot(vertex));
+                range.second = std::max(range.second, direction.dot(vertex));
+            }
+            return range;
+        };
+        const auto [left, right] = extent(across);
+        if (right - left >= narrowest) continue;
+        narrowest = right - left;
+        const auto [rear, front] = extent(along);
+        found = {front - rear, 0.5 * std::abs(front + rear)};
+    }
+    return found;
+}
+
+LengthInPose findUnevenLength(const Part& part) {
+    constexpr double kOften = 0.1;
+    assert(!part.stablePoses.empty());
+    LengthInPose uneven = findLength(part, part.stablePoses.front());
+    for (const StablePose& pose : part.stablePoses) {
+        if (pose.probability < kOften) continue;
+        const LengthInPose length = findLength(part, pose);
+        if (length.offset * uneven.length > uneven.offset * length.length) uneven = length;
+    }
+    return uneven;
+}
+
 }  // namespace trapwright::part

@@ -53,4 +53,18 @@ struct NearestPose {
 /// them.
 NearestPose findStablePose(const Part& part, const base::Quaternion& orientation);
 
+/// How a part in a pose lies in a groove: along the direction in which it is narrowest across.
+struct LengthInPose {
+    double length = 0.0;  // [m]
+    double offset = 0.0;  // of the centre of mass from the middle of the length, not negative [m]
+};
+
+/// The part must be in its frame, as buildPart gives it.
+LengthInPose findLength(const Part& part, const StablePose& pose);
+
+/// Of the poses in which the part lands at least one time in ten (the most probable one, if there is none)
+/// the one in which the centre of mass is farthest from the middle, as a share of the length: the more, the
+/// more easily a track tells which end comes first (learning.md).
+LengthInPose findUnevenLength(const Part& part);
+
 }  // namespace trapwright::part

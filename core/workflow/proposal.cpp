@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/part/stable_poses.h"
 #include "core/study/planning.h"
 #include "core/study/presets.h"
 #include "core/workflow/estimate.h"
@@ -15,6 +16,9 @@ namespace trapwright::workflow {
 namespace {
 
 constexpr double kTimingBudget = 3.0;  // [s]
+/// Of a part's length: what is sorted by its ends has its centre of mass farther from the middle than this
+/// (learning.md).
+constexpr double kBalanced = 0.03;
 /// Of the user's time: the rest is for checks and selection, and for what an estimate misses.
 constexpr double kLearningShare = 0.85;
 
@@ -88,6 +92,14 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
                         "part round: what lies wrong is thrown out, by eight gaps planned from {} traps "
                         "tried one by one.",
                         part.name, part.symmetry.name, fitted->plannedTraps));
+        const part::LengthInPose uneven = part::findUnevenLength(part);
+        if (uneven.offset < kBalanced * uneven.length) {
+            proposal.reasons.push_back(
+                fmt::format("Its centre of mass is {:.2g} mm from the middle of its length of {:.3g} mm: of "
+                            "parts that balance so no track so far tells which end comes first, and about "
+                            "half will come the other way round.",
+                            uneven.offset / base::kMillimetre, uneven.length / base::kMillimetre));
+        }
     } else {
         proposal.reasons.push_back(fmt::format(
             "{} (symmetry {}) looks alike with either end in front: a free-form trap turns it over, and "

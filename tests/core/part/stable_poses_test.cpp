@@ -248,6 +248,25 @@ class StablePosesTest : public QObject {
         QCOMPARE(groups[1].poses.size(), std::size_t{2});
     }
 
+    // A pin of two cylinders: 8 mm of radius 3 mm and 5 mm of radius 1.5 mm. Its centre of mass is at
+    // (9 x 8 x 4 + 2.25 x 5 x 10.5) / (9 x 8 + 2.25 x 5) = 4.88 mm of 13.
+    void lengthAndOffsetAreThoseOfTheAxis() {
+        const std::array<Vec2, 6> profile = {Vec2(0, 0),         Vec2(3e-3, 0),       Vec2(3e-3, 8e-3),
+                                             Vec2(1.5e-3, 8e-3), Vec2(1.5e-3, 13e-3), Vec2(0, 13e-3)};
+        const part::Part part = partOf(CentredSolid(part::makeTurned(profile, 48)));
+        const part::LengthInPose found = part::findUnevenLength(part);
+        QVERIFY2(std::abs(found.length - 13e-3) < 0.05e-3, QByteArray::number(1e3 * found.length));
+        QVERIFY2(std::abs(found.offset - (6.5 - 4.878) * 1e-3) < 0.05e-3,
+                 QByteArray::number(1e3 * found.offset));
+        // The heading does not matter.
+        part::StablePose turned = part.stablePoses.front();
+        const part::LengthInPose before = part::findLength(part, turned);
+        turned.rotation = base::Quaternion(Eigen::AngleAxisd(0.7, base::Vec3::UnitZ())) * turned.rotation;
+        const part::LengthInPose after = part::findLength(part, turned);
+        QVERIFY(std::abs(after.length - before.length) < 0.05e-3);
+        QVERIFY(std::abs(after.offset - before.offset) < 0.05e-3);
+    }
+
     void posesHaveNames_data() {
         QTest::addColumn<QList<int>>("poses");
         QTest::addColumn<QString>("name");

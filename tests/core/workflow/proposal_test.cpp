@@ -68,6 +68,28 @@ class ProposalTest : public QObject {
         }
     }
 
+    // Whose ends balance is told so.
+    void balancedPartsAreToldOf_data() {
+        QTest::addColumn<QByteArray>("name");
+        QTest::addColumn<bool>("balances");
+        for (const char* name : {"d-shaft", "housing", "cup"})
+            QTest::newRow(name) << QByteArray(name) << true;
+        for (const char* name : {"pin", "wedge", "plate", "bracket", "cuboid"})
+            QTest::newRow(name) << QByteArray(name) << false;
+    }
+    void balancedPartsAreToldOf() {
+        QFETCH(QByteArray, name);
+        QFETCH(bool, balances);
+        const auto proposal = workflow::proposeSettings(inputsFor(name.constData()), 600.0, {});
+        QVERIFY(proposal.ok());
+        const auto& reasons = proposal->reasons;
+        QCOMPARE(std::any_of(reasons.begin(), reasons.end(),
+                             [](const std::string& reason) {
+                                 return reason.find("from the middle of its length") != std::string::npos;
+                             }),
+                 balances);
+    }
+
     void tracksAreInProportion() {
         study::StudyInputs inputs = inputsFor("cup");
         const auto small = workflow::proposeSettings(inputs, 600.0, {});
