@@ -47,6 +47,7 @@ constexpr int kTrialsOfFollowed = 300;     // behind each trap, shared by the be
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
+constexpr double kLevel = 0.25;            // of angles, cuts and steps of new traps: none, or the middle
 constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
 constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
@@ -344,7 +345,8 @@ class Planner {
     }
 
     static double drawNumber(const search::Dimension& dimension, base::Random& random) {
-        return search::roundToBits(random.uniform(), dimension.bits);
+        const bool isLevel = dimension.isRelief && random.uniform() < kLevel;
+        return search::roundToBits(isLevel ? 0.5 : random.uniform(), dimension.bits);
     }
 
     [[nodiscard]] KnownTrap makeTrap(std::size_t kind, std::vector<double> numbers) const {
