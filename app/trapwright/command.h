@@ -31,6 +31,7 @@ void addSettingsCommand(CLI::App& program, Invocation& invocation);
 void addEvolveCommand(CLI::App& program, Invocation& invocation);
 void addSelectCommand(CLI::App& program, Invocation& invocation);
 void addValidateCommand(CLI::App& program, Invocation& invocation);
+void addRobustnessCommand(CLI::App& program, Invocation& invocation);
 void addPhysicalCommand(CLI::App& program, Invocation& invocation);
 void addExportCommand(CLI::App& program, Invocation& invocation);
 void addReplayCommand(CLI::App& program, Invocation& invocation);

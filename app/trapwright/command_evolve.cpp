@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/trapwright/command.h"
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/learning_run.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_options.h"
+#include "core/study/standstill.h"
 #include "sim/engines/registry.h"
 
 namespace trapwright::app {
@@ -122,6 +124,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     console.print(fmt::format("{}: {} generations in {}, {} trials in {:.1f} s ({:.1f}/s)\n",
                               ran->interrupted ? "Stopped" : "Done", summaries->size(), options.study,
                               report.trials, report.seconds, rate));
+    const std::optional<int> standstill = study::findStandstill(*summaries);
+    if (standstill) {
+        console.print(fmt::format(
+            "Nothing was gained since generation {}. What is left to gain is in the ways in which "
+            "parts end: trapwright export {} track.json; trapwright track track.json --part {}\n",
+            *standstill, options.study, study->settings.part.file));
+    }
     const auto* reference = engines::registry().referenceFor(study->settings.simulation.engine);
     const auto unchecked = study->file.loadUncheckedWinners();
     if (!unchecked) return Failure{ExitCode::badInput, unchecked.error().message};
@@ -138,6 +147,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         generations.push_back(toJson(summary));
     console.emit({{"study", options.study},
                   {"engine", inputs->engine->name()},
+                  {"nothing_gained_since",
+                   standstill ? nlohmann::ordered_json(*standstill) : nlohmann::ordered_json()},
                   {"reference_engine",
                    reference != nullptr ? nlohmann::ordered_json(reference->name) : nlohmann::ordered_json()},
                   {"learning_step_ms", study::chooseLearningStep(study->settings) * 1e3},

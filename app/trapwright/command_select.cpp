@@ -20,6 +20,7 @@ struct Options {
     std::optional<int> winners;
     std::optional<int> trials;
     std::optional<std::string> engine;
+    std::optional<std::string> conditions;
     unsigned threads = 0;
 };
 
@@ -28,12 +29,14 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!study) return study.error();
     auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
     if (!inputs) return inputs.error();
+    if (const auto taken = takeConditions(options.conditions, inputs->settings); !taken) return taken.error();
     study::ValidationSettings& validation = inputs->settings.validation;
     validation.selectionWinners = options.winners.value_or(validation.selectionWinners);
     validation.selectionTrials = options.trials.value_or(validation.selectionTrials);
 
     auto record = selectAndSave(study->file, *inputs, console);
     if (!record) return record.error();
+    if (record->box) console.print("Conditions vary over the operating box.\n");
     console.print(study::formatSelection(*record));
     console.emit({{"study", options.study}, {"selection", toJson(*record)}});
     return ExitCode::ok;
@@ -52,6 +55,7 @@ void addSelectCommand(CLI::App& program, Invocation& invocation) {
     command.addOption("--winners", options->winners,
                       "How many of the highest winners (default: as in the study)");
     command.addOption("--trials", options->trials, "Trials of each (default: as in the study)");
+    addConditionsOption(command, options->conditions);
     command.addOption("--engine", options->engine, "What simulates (default: as in the study)");
     command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }

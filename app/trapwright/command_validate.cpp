@@ -23,6 +23,7 @@ struct Options {
     std::optional<double> tolerance;  // [deg]
     std::vector<double> expected;     // w x y z
     std::optional<std::string> engine;
+    std::optional<std::string> conditions;
     unsigned threads = 0;
     bool everyPose = false;
 };
@@ -43,6 +44,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!individual) return individual.error();
     auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
     if (!inputs) return inputs.error();
+    if (const auto taken = takeConditions(options.conditions, inputs->settings); !taken) return taken.error();
     study::ValidationSettings& validation = inputs->settings.validation;
     validation.trialsPerPose = options.trials.value_or(validation.trialsPerPose);
     if (options.tolerance) validation.tolerance = *options.tolerance * base::kDegree;
@@ -53,9 +55,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const std::vector<part::PoseGroup> groups = study::weighPoseGroups(*study->part, study->settings);
     console.print(fmt::format(
         "Generation {}, individual {}, engine {}; success: finished within {:g} deg of the orientation "
-        "(w, x, y, z) = ({:.3f}, {:.3f}, {:.3f}, {:.3f})\n{}",
+        "(w, x, y, z) = ({:.3f}, {:.3f}, {:.3f}, {:.3f}){}\n{}",
         record->generation, record->individual, record->engine, record->tolerance / base::kDegree, goal.w(),
-        goal.x(), goal.y(), goal.z(),
+        goal.x(), goal.y(), goal.z(), record->box ? "; conditions vary over the operating box" : "",
         study::formatValidation(study::tabulate(*record, groups), options.everyPose)));
     console.emit({{"study", options.study}, {"validation", toJson(*record, *study->part, groups)}});
     return ExitCode::ok;
@@ -82,6 +84,7 @@ void addValidateCommand(CLI::App& program, Invocation& invocation) {
         .addOption("--expected", options->expected,
                    "The orientation that counts as success, w x y z (default: the most frequent final one)")
         .values(4);
+    addConditionsOption(command, options->conditions);
     command.addOption("--engine", options->engine, "What simulates (default: as in the study)");
     command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }

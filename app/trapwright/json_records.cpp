@@ -109,14 +109,16 @@ Json toJson(const study::SelectionRecord& record) {
                            {"oriented", shareToJson(entry.oriented, entry.trials)},
                            {"modal_orientation", toJson(entry.modalOrientation)}});
     }
-    return {{"engine", record.engine}, {"entries", entries}};
+    Json json = {{"engine", record.engine}, {"entries", entries}};
+    if (record.box) json.update(Json::parse(study::boxToJson(*record.box)));
+    return json;
 }
 
-Json toJson(const stats::WeightedRate& weighted) {
+Json toJson(const stats::WeightedRate& weighted, const char* bounds) {
     return {{"share", weighted.rate ? Json(*weighted.rate) : Json()},
             {"low", weighted.interval.low},
             {"high", weighted.interval.high},
-            {"bounds", "95 % profile limits"}};
+            {"bounds", bounds}};
 }
 
 Json toJson(const study::ValidationRecord& record, const part::Part& part,
@@ -135,15 +137,18 @@ Json toJson(const study::ValidationRecord& record, const part::Part& part,
         json.update(rowToJson(row));
         rows.push_back(json);
     }
-    return {{"generation", record.generation},
-            {"individual", record.individual},
-            {"engine", record.engine},
-            {"expected_orientation", toJson(record.expectedOrientation)},
-            {"tolerance_deg", record.tolerance / base::kDegree},
-            {"groups", alike},
-            {"poses", rows},
-            {"weighted_success", toJson(table.weighted)},
-            {"total", rowToJson(table.total)}};
+    Json json = {{"generation", record.generation},
+                 {"individual", record.individual},
+                 {"engine", record.engine},
+                 {"expected_orientation", toJson(record.expectedOrientation)},
+                 {"tolerance_deg", record.tolerance / base::kDegree},
+                 {"groups", alike},
+                 {"poses", rows},
+                 {"weighted_success", toJson(table.weighted)},
+                 {"correct", toJson(table.correct, "95 % Korn and Graubard")},
+                 {"total", rowToJson(table.total)}};
+    if (record.box) json.update(Json::parse(study::boxToJson(*record.box)));
+    return json;
 }
 
 Json numbersToJson(std::span<const int> poses) {

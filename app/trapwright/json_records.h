@@ -23,7 +23,8 @@ nlohmann::ordered_json toJson(const study::SelectionRecord& record);
 nlohmann::ordered_json toJson(const study::ValidationRecord& record, const part::Part& part,
                               std::span<const part::PoseGroup> groups);
 /// {"share", "low", "high", "bounds"}; no share where it is not known.
-nlohmann::ordered_json toJson(const stats::WeightedRate& weighted);
+nlohmann::ordered_json toJson(const stats::WeightedRate& weighted,
+                              const char* bounds = "95 % profile limits");
 /// Counted from 1.
 nlohmann::ordered_json numbersToJson(std::span<const int> poses);
 /// {"count", "share", "low", "high", "bounds"} of `count` successes in `trials`; "bounds" names the interval.

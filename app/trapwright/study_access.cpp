@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
@@ -120,6 +121,23 @@ Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::option
     if (!made) return made.error();
     return study::StudyInputs{study.settings, study.part, *made,
                               threads == 0 ? base::availableThreads() : threads};
+}
+
+void addConditionsOption(Command command, std::optional<std::string>& conditions) {
+    command.addOption(
+        "--conditions", conditions,
+        "nominal: all trials as set; varied: over the operating box (default: as in the study)");
+}
+
+Attempt<ExitCode> takeConditions(const std::optional<std::string>& conditions, study::Settings& settings) {
+    if (!conditions) return ExitCode::ok;
+    auto taken = study::settingsFromJson(nlohmann::json{{"validation", {{"conditions", *conditions}}}}.dump(),
+                                         settings);
+    if (!taken)
+        return Failure{ExitCode::usage,
+                       fmt::format("--conditions is \"{}\"; it must be nominal or varied.", *conditions)};
+    settings = std::move(*taken);
+    return ExitCode::ok;
 }
 
 }  // namespace trapwright::app

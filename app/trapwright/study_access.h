@@ -46,6 +46,11 @@ void addIndividualOptions(Command command, IndividualChoice& choice);
 /// (study::findBestWinner).
 Attempt<study::Individual> findIndividual(const store::StudyFile& file, const IndividualChoice& choice);
 
+/// Adds --conditions: what selection and validation are judged under.
+void addConditionsOption(Command command, std::optional<std::string>& conditions);
+/// Puts it into the settings, if it was given.
+Attempt<ExitCode> takeConditions(const std::optional<std::string>& conditions, study::Settings& settings);
+
 /// The engine for this use that the study's setting, or the one named, means; made for these threads (0:
 /// all).
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,

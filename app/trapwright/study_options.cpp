@@ -136,6 +136,10 @@ bool CreationOptions::given() const {
            contact || surface || settingsFile || paper || sorting || time;
 }
 
+bool SettingOptions::given() const {
+    return !assignments.empty() || generations || population || trials || seed || engine;
+}
+
 void addCreationOptions(Command command, CreationOptions& options) {
     command.addOption("--preset", options.preset, "Start from the paper's Table 1: cuboid or cone");
     command.addOption("--part", options.part.part, "The part: a file, or the name of a bundled one");

@@ -37,6 +37,9 @@ struct SettingOptions {
     std::optional<int> trials;
     std::optional<std::uint64_t> seed;
     std::optional<std::string> engine;
+
+    /// Whether the user gave any of them.
+    [[nodiscard]] bool given() const;
 };
 
 void addCreationOptions(Command command, CreationOptions& options);

@@ -92,7 +92,13 @@ Status writeFile(const std::filesystem::path& path, std::string_view content) {
         ::unlink(beside.c_str());
         return makeError("write", path, reason);
     }
+    syncFolder(std::filesystem::absolute(path).parent_path());
     return success();
+}
+
+void syncFolder(const std::filesystem::path& folder) {
+    const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (opened.get() >= 0) ::fsync(opened.get());
 }
 
 }  // namespace trapwright::base

@@ -14,7 +14,11 @@ namespace trapwright::base {
 Result<std::string> readFile(const std::filesystem::path& path, std::size_t mostBytes = 1ULL << 30U);
 
 /// Puts `content` where `path` is, or leaves there what was: the content is written to a new file beside it,
-/// synced and renamed. An error (full disk, read-only folder) names the file and the system's reason.
+/// synced and renamed, and the folder synced. An error (full disk, read-only folder) names the file and the
+/// system's reason.
 Status writeFile(const std::filesystem::path& path, std::string_view content);
+
+/// Makes a rename in the folder survive a loss of power, where its file system can.
+void syncFolder(const std::filesystem::path& folder);
 
 }  // namespace trapwright::base

@@ -20,6 +20,9 @@ enum class Purpose : std::uint8_t {
     physicalOrder = 9,
     randomDesign = 10,
     planning = 11,
+    conditions = 12,
+    specimen = 13,
+    robustness = 14,
     test = 255
 };
 

@@ -6,7 +6,6 @@
 #include "core/study/presets.h"
 #include "core/study/trial_batches.h"
 #include "core/track/track_file.h"
-#include "core/track/track_solid.h"
 #include "core/verify/scenes.h"
 
 namespace trapwright::bench {
@@ -28,16 +27,6 @@ base::Result<std::shared_ptr<const part::Part>> makeBundledPart(std::string_view
     return std::make_shared<const part::Part>(std::move(prepared->part));
 }
 
-/// The same cross-sections around a bowl of the default radius.
-std::shared_ptr<const track::Track> bendRound(const track::Track& straight) {
-    track::Track bent = straight;
-    bent.shape.type = track::FeederType::bowl;
-    track::TrackSolid solid = track::buildTrackSolid(bent.shape, bent.sections, bent.baseThickness);
-    bent.solid = std::move(solid.mesh);
-    bent.surfaceTriangles = solid.surfaceTriangles;
-    return std::make_shared<const track::Track>(std::move(bent));
-}
-
 }  // namespace
 
 base::Result<std::vector<Scene>> makeScenes() {
@@ -45,6 +34,8 @@ base::Result<std::vector<Scene>> makeScenes() {
     if (!cuboidTrack) return cuboidTrack.error();
     const auto coneTrack = track::readTrackFile(study::findResourceTrack("cone_track.json"));
     if (!coneTrack) return coneTrack.error();
+    const auto bowlTrack = track::readTrackFile(study::findResourceTrack("bowl_track.json"));
+    if (!bowlTrack) return bowlTrack.error();
     const auto cone = makeBundledPart("cone");
     if (!cone) return cone.error();
     const auto bracket = makeBundledPart("bracket");
@@ -66,7 +57,7 @@ base::Result<std::vector<Scene>> makeScenes() {
         {"cone learned", share(*coneTrack), *cone, coneTrack->expectedOrientation, 0.0,
          coneSettings->simulation},
         {"bracket rough", rough, *bracket, std::nullopt, kAboveHills, plastic},
-        {"bowl", bendRound(cuboidTrack->track), cuboid, cuboidTrack->expectedOrientation, 0.0, plastic}};
+        {"bowl", share(*bowlTrack), cuboid, bowlTrack->expectedOrientation, 0.0, plastic}};
 }
 
 trial::TrialBatch makeBatch(const Scene& scene, int trials) {

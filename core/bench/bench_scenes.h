@@ -24,8 +24,8 @@ struct Scene {
     study::SimulationSettings simulation;  // drive, friction, restitution, end conditions
 };
 
-/// All scenes: cuboid flat, cuboid rough, cuboid learned, cone learned, bracket rough, bowl. An error if a
-/// track file of the resources cannot be read.
+/// All scenes: cuboid flat, cuboid rough, cuboid learned, cone learned, bracket rough, bowl (the cuboid on a
+/// track that was learned in it). An error if a track file of the resources cannot be read.
 base::Result<std::vector<Scene>> makeScenes();
 
 /// Trials of the scene from random starts; the same ones every time.

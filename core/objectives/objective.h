@@ -7,6 +7,7 @@
 
 #include "core/part/part.h"
 #include "core/track/track.h"
+#include "core/trial/conditions.h"
 #include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
@@ -25,6 +26,8 @@ struct Evaluation {
     std::optional<base::Quaternion> expected{};
     /// How many ended so, where that is known already. None: counted when it is needed.
     std::optional<int> oriented{};
+    /// Where these trials are in the operating box; empty: they are all alike.
+    std::span<const trial::BoxPlace> places{};
 };
 
 struct Measured {

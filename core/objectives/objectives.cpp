@@ -12,6 +12,7 @@
 #include "core/objectives/disorder.h"
 #include "core/objectives/paper_scores.h"
 #include "core/objectives/success_share.h"
+#include "core/objectives/worst_half.h"
 
 namespace trapwright::objectives {
 
@@ -35,8 +36,9 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {collisions(), distance(),     orientation(),  disorder(),
-                                           sorting(),    successShare(), correctShare(), conveyingSpeed()};
+    static const std::array kObjectives = {collisions(),   distance(),  orientation(),
+                                           disorder(),     sorting(),   successShare(),
+                                           correctShare(), worstHalf(), conveyingSpeed()};
     return kObjectives;
 }
 

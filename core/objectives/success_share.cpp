@@ -7,12 +7,15 @@ namespace trapwright::objectives {
 
 namespace {
 
+base::Quaternion findExpected(const Evaluation& evaluation) {
+    return evaluation.expected ? *evaluation.expected
+                               : trial::findModalOrientation(trial::finalOrientations(evaluation.outcomes),
+                                                             *evaluation.symmetry, evaluation.tolerance);
+}
+
 trial::Tally countVerdicts(const Evaluation& evaluation) {
-    const base::Quaternion expected =
-        evaluation.expected ? *evaluation.expected
-                            : trial::findModalOrientation(trial::finalOrientations(evaluation.outcomes),
-                                                          *evaluation.symmetry, evaluation.tolerance);
-    return trial::tally(evaluation.outcomes, expected, *evaluation.symmetry, evaluation.tolerance);
+    return trial::tally(evaluation.outcomes, findExpected(evaluation), *evaluation.symmetry,
+                        evaluation.tolerance);
 }
 
 Measured measureShare(int count, double of) {
@@ -53,6 +56,18 @@ Measured measureSorting(const Evaluation& evaluation) {
 }
 
 }  // namespace
+
+std::vector<bool> listRight(const Evaluation& evaluation) {
+    const base::Quaternion expected = findExpected(evaluation);
+    std::vector<bool> right;
+    right.reserve(evaluation.outcomes.size());
+    for (const trial::Outcome& outcome : evaluation.outcomes)
+        right.push_back(std::ranges::all_of(outcome.parts, [&](const trial::PartOutcome& part) {
+            return trial::judge(part, expected, *evaluation.symmetry, evaluation.tolerance) ==
+                   trial::Verdict::success;
+        }));
+    return right;
+}
 
 Objective successShare() {
     Objective objective;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/objectives/objective.h"
 
 namespace trapwright::objectives {
@@ -7,6 +9,9 @@ namespace trapwright::objectives {
 /// The share of all trials that finish in the wanted orientation (decisions.md#selection-and-success), with
 /// the binomial's standard error; tables of people show the exact bounds beside it (core/stats/binomial).
 Objective successShare();
+
+/// Which trials are a success. Of trials of several parts those of which all are.
+std::vector<bool> listRight(const Evaluation& evaluation);
 
 /// The same of those that finish alone: what comes out of a track that throws back what lies wrong.
 Objective correctShare();

@@ -5,19 +5,33 @@
 
 namespace trapwright::stats {
 
-Interval calcClopperPearson(int successes, int trials, double confidence) {
-    assert(0 <= successes && successes <= trials && confidence > 0.0 && confidence < 1.0);
+namespace {
+
+Interval findBounds(double successes, double failures, double confidence) {
+    assert(confidence > 0.0 && confidence < 1.0);
     const double tail = 0.5 * (1.0 - confidence);
     Interval interval;
-    if (successes > 0) {
-        const boost::math::beta_distribution<> below(successes, trials - successes + 1);
+    if (successes > 0.0) {
+        const boost::math::beta_distribution<> below(successes, failures + 1.0);
         interval.low = boost::math::quantile(below, tail);
     }
-    if (successes < trials) {
-        const boost::math::beta_distribution<> above(successes + 1, trials - successes);
+    if (failures > 0.0) {
+        const boost::math::beta_distribution<> above(successes + 1.0, failures);
         interval.high = boost::math::quantile(above, 1.0 - tail);
     }
     return interval;
+}
+
+}  // namespace
+
+Interval calcClopperPearson(int successes, int trials, double confidence) {
+    assert(0 <= successes && successes <= trials);
+    return findBounds(successes, trials - successes, confidence);
+}
+
+Interval calcEffectiveBounds(double share, double trials, double confidence) {
+    assert(share >= 0.0 && share <= 1.0 && trials >= 0.0);
+    return findBounds(share * trials, (1.0 - share) * trials, confidence);
 }
 
 }  // namespace trapwright::stats

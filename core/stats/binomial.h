@@ -24,4 +24,7 @@ struct Count {
 /// two-sided.
 Interval calcClopperPearson(int successes, int trials, double confidence = 0.95);
 
+/// The same of numbers that need not be whole, as of trials that count unequally: share in [0, 1] of so many.
+Interval calcEffectiveBounds(double share, double trials, double confidence = 0.95);
+
 }  // namespace trapwright::stats

@@ -237,4 +237,52 @@ std::optional<double> calcWeightedRate(std::span<const Stratum> strata) {
     return successes / weights;
 }
 
+std::vector<Stratum> countRight(std::span<const ArrivalStratum> strata) {
+    std::vector<Stratum> counted;
+    counted.reserve(strata.size());
+    for (const ArrivalStratum& kind : strata)
+        counted.push_back({kind.weight, {kind.right, kind.trials}});
+    return counted;
+}
+
+std::vector<Stratum> countArrived(std::span<const ArrivalStratum> strata) {
+    std::vector<Stratum> counted;
+    counted.reserve(strata.size());
+    for (const ArrivalStratum& kind : strata)
+        counted.push_back({kind.weight, {kind.arrived, kind.trials}});
+    return counted;
+}
+
+WeightedRate estimateCorrect(std::span<const ArrivalStratum> strata, double confidence) {
+    double arrived = 0.0;  // of the mixture
+    double right = 0.0;
+    double squares = 0.0;  // of the weights of the trials that arrived
+    for (const ArrivalStratum& kind : strata) {
+        if (kind.weight <= 0.0) continue;
+        if (kind.trials == 0) return {};
+        const double each = kind.weight / kind.trials;
+        arrived += each * kind.arrived;
+        right += each * kind.right;
+        squares += each * each * kind.arrived;
+    }
+    if (!(arrived > 0.0)) return {};
+    const double share = right / arrived;
+    // Of `right - share * arrived`, whose mean is 0: a trial adds 1 - share, -share, or nothing.
+    double variance = 0.0;
+    for (const ArrivalStratum& kind : strata) {
+        if (kind.weight <= 0.0) continue;
+        const double trials = kind.trials;
+        const double isRight = kind.right / trials;
+        const double isWrong = (kind.arrived - kind.right) / trials;
+        const double mean = (1.0 - share) * isRight - share * isWrong;
+        const double square = (1.0 - share) * (1.0 - share) * isRight + share * share * isWrong;
+        variance += kind.weight * kind.weight * std::max(0.0, square - mean * mean) / trials;
+    }
+    variance /= arrived * arrived;
+    double worth = arrived * arrived / squares;
+    const double spread = share * (1.0 - share);
+    if (spread > 0.0 && variance > 0.0) worth = std::min(worth, spread / variance);
+    return {share, calcEffectiveBounds(share, worth, confidence)};
+}
+
 }  // namespace trapwright::stats

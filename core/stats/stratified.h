@@ -33,4 +33,23 @@ WeightedRate estimateWeighted(std::span<const Stratum> strata, double confidence
 /// that is met was never tried.
 std::optional<double> calcWeightedRate(std::span<const Stratum> strata);
 
+/// A kind of which some trials arrive, and some of these are right.
+struct ArrivalStratum {
+    double weight = 0.0;  // share of the mixture
+    int trials = 0;
+    int arrived = 0;
+    int right = 0;  // of these
+};
+
+/// The right ones of all trials, kind by kind.
+std::vector<Stratum> countRight(std::span<const ArrivalStratum> strata);
+/// Those that arrived, of all trials.
+std::vector<Stratum> countArrived(std::span<const ArrivalStratum> strata);
+
+/// The right ones' share of those that arrive, of the mixture: a ratio of two weighted rates. Bounds: those
+/// of Clopper and Pearson for as many trials as tell a share that well by themselves (Korn and Graubard
+/// 1998), after the variance of the ratio to first order, and no more than the trials that arrived are worth
+/// by their unequal weights (Kish 1965). None if nothing arrived, or a kind that is met was never tried.
+WeightedRate estimateCorrect(std::span<const ArrivalStratum> strata, double confidence = 0.95);
+
 }  // namespace trapwright::stats

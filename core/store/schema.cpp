@@ -346,7 +346,15 @@ constexpr const char* kVersion14 = R"sql(
 UPDATE study SET settings = json_set(settings, '$.evolution.strategyScope', 'individual');
 )sql";
 
-constexpr std::array<Migration, 14> kMigrations = {{{1, kVersion1},
+// Judged under one condition; the operating box is known to be what it was by default then.
+constexpr const char* kVersion15 = R"sql(
+ALTER TABLE selection ADD COLUMN box TEXT;   -- settings of the operating box as JSON; NULL: nominal
+ALTER TABLE validation ADD COLUMN box TEXT;
+UPDATE study SET settings = json_set(settings, '$.evolution.conditions', 'nominal',
+    '$.validation.conditions', 'nominal');
+)sql";
+
+constexpr std::array<Migration, 15> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -359,7 +367,8 @@ constexpr std::array<Migration, 14> kMigrations = {{{1, kVersion1},
                                                     {11, kVersion11},
                                                     {12, kVersion12},
                                                     {13, kVersion13},
-                                                    {14, kVersion14}}};
+                                                    {14, kVersion14},
+                                                    {15, kVersion15}}};
 
 }  // namespace
 

@@ -14,6 +14,7 @@
 #include <ctime>
 #include <system_error>
 
+#include "core/base/file.h"
 #include "core/store/packing.h"
 #include "core/store/schema.h"
 #include "core/store/study_state.h"
@@ -83,14 +84,6 @@ void removeUnfinished(const std::filesystem::path& path) {
     std::filesystem::remove(journal, missing);
 }
 
-/// Makes a rename in the folder survive a loss of power.
-void syncFolder(const std::filesystem::path& folder) {
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::fsync(descriptor);
-    ::close(descriptor);
-}
-
 /// Puts a new study, which `write` writes, where `path` is, and holds its lock. It is written beside and
 /// renamed, so that a study is either whole or not there.
 template <class Write>
@@ -134,7 +127,7 @@ base::Result<FileLock> placeNew(const std::filesystem::path& path, const Write& 
         if (!made.ok()) return made.error();
         return base::Error{"The study " + path.string() + " could not be made (" + failure.message() + ")."};
     }
-    syncFolder(folder);
+    base::syncFolder(folder);
     return lock;
 }
 

@@ -43,6 +43,22 @@ std::optional<study::ValidationRow> readRow(const SQLite::Statement& query) {
     return row;
 }
 
+void saveBox(SQLite::Database& database, const std::string& table, int number,
+             const std::optional<trial::OperatingBox>& box) {
+    if (!box) return;
+    SQLite::Statement set(database, "UPDATE " + table + " SET box = ? WHERE number = ?");
+    SQLite::bind(set, study::boxToJson(*box), number);
+    set.exec();
+}
+
+/// Whether it is one, or none.
+bool readBox(const SQLite::Statement& query, int column, std::optional<trial::OperatingBox>& box) {
+    if (query.getColumn(column).isNull()) return true;
+    const auto read = study::boxFromJson(query.getColumn(column).getString());
+    if (read) box = *read;
+    return read.ok();
+}
+
 }  // namespace
 
 base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
@@ -50,9 +66,10 @@ base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("selection");
-        SQLite::Statement head(database, "INSERT INTO selection VALUES (?, ?, ?)");
+        SQLite::Statement head(database, "INSERT INTO selection (number, program, engine) VALUES (?, ?, ?)");
         SQLite::bind(head, number, state_->program, record.engine);
         head.exec();
+        saveBox(database, "selection", number, record.box);
         SQLite::Statement row(
             database,
             "INSERT INTO selection_entry (selection, rank, generation, individual, fitness, trials, "
@@ -78,7 +95,7 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
     return guarded(path(), "The selections could not be read",
                    [&]() -> base::Result<std::vector<study::SelectionRecord>> {
                        SQLite::Statement heads(*state_->database,
-                                               "SELECT number, engine FROM selection ORDER BY number");
+                                               "SELECT number, engine, box FROM selection ORDER BY number");
                        SQLite::Statement rows(*state_->database,
                                               "SELECT generation, individual, fitness, trials, "
                                               "finished, oriented, modal_w, modal_x, modal_y, modal_z "
@@ -88,6 +105,8 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
                        while (heads.executeStep()) {
                            study::SelectionRecord record;
                            record.engine = heads.getColumn(1).getString();
+                           if (!readBox(heads, 2, record.box))
+                               return damagedValue(path(), "the operating box of a selection");
                            rows.reset();
                            const int number = heads.getColumn(0).getInt();
                            rows.bind(1, number);
@@ -111,10 +130,15 @@ base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("validation");
         const base::Quaternion& q = record.expectedOrientation;
-        SQLite::Statement head(database, "INSERT INTO validation VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        SQLite::Statement head(
+            database,
+            "INSERT INTO validation (number, program, engine, generation, individual, expected_w, "
+            "expected_x, expected_y, expected_z, tolerance) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         SQLite::bind(head, number, state_->program, record.engine, record.generation, record.individual,
                      q.w(), q.x(), q.y(), q.z(), record.tolerance);
         head.exec();
+        saveBox(database, "validation", number, record.box);
         SQLite::Statement row(database, "INSERT INTO validation_row VALUES (?, ?, ?, ?, ?, ?, ?)");
         for (const study::ValidationRow& r : record.rows) {
             row.reset();
@@ -135,7 +159,7 @@ base::Result<std::vector<study::ValidationRecord>> StudyFile::loadValidations() 
         [&]() -> base::Result<std::vector<study::ValidationRecord>> {
             SQLite::Statement heads(*state_->database,
                                     "SELECT number, engine, generation, individual, expected_w, expected_x, "
-                                    "expected_y, expected_z, tolerance FROM validation ORDER BY number");
+                                    "expected_y, expected_z, tolerance, box FROM validation ORDER BY number");
             SQLite::Statement rows(*state_->database,
                                    "SELECT pose, trials, failures, wrong_orientation, stuck, fell_off "
                                    "FROM validation_row WHERE validation = ? ORDER BY pose");
@@ -147,6 +171,8 @@ base::Result<std::vector<study::ValidationRecord>> StudyFile::loadValidations() 
                 record.individual = heads.getColumn(3).getInt();
                 record.expectedOrientation = readRotation(heads, 4);
                 record.tolerance = heads.getColumn(8).getDouble();
+                if (!readBox(heads, 9, record.box))
+                    return damagedValue(path(), "the operating box of a validation");
                 rows.reset();
                 rows.bind(1, heads.getColumn(0).getInt());
                 while (rows.executeStep()) {

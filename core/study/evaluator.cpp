@@ -20,6 +20,7 @@ struct Candidate {
     std::shared_ptr<const track::Track> track;
     bool simulated = false;
     std::vector<trial::Outcome> outcomes;  // so far
+    std::vector<trial::BoxPlace> places;   // of these trials; empty: all alike
     IndividualRecord record;
     std::string failure;
 };
@@ -77,6 +78,7 @@ class Race {
         : inputs_(&inputs),
           generation_(generation),
           candidates_(&candidates),
+          specimens_(makeSpecimens(inputs.settings, inputs.part)),
           summed_(summedObjectives(inputs.settings.evolution)),
           stages_(search::makeRacingStages(candidates.size(), settings().racingTrials,
                                            settings().trialsPerEvaluation, settings().racingShare)),
@@ -106,7 +108,7 @@ class Race {
         base::parallelFor(round.size(), inputs_->threads, [&](std::size_t i, unsigned /*worker*/) {
             const Candidate& candidate = (*candidates_)[round[i].individual];
             const int first = candidate.record.trials;
-            batches[i] = makeLearningBatch(makeScene(inputs_->settings, inputs_->part, candidate.track),
+            batches[i] = makeLearningBatch(makeScene(inputs_->settings, specimens_, candidate.track),
                                            {generation_, static_cast<int>(round[i].individual)},
                                            round[i].trials - first, first);
         });
@@ -114,7 +116,10 @@ class Race {
         if (!outcomes) return outcomes.error();
         // Eq. 5 goes over all pairs, so this is worth the threads, too.
         base::parallelFor(round.size(), inputs_->threads, [&](std::size_t i, unsigned /*worker*/) {
-            score((*outcomes)[i], (*candidates_)[round[i].individual]);
+            Candidate& candidate = (*candidates_)[round[i].individual];
+            const std::vector<trial::BoxPlace> places = listPlaces(batches[i]);
+            candidate.places.insert(candidate.places.end(), places.begin(), places.end());
+            score((*outcomes)[i], candidate);
         });
         return base::success();
     }
@@ -132,14 +137,16 @@ class Race {
     void score(std::span<const trial::Outcome> more, Candidate& candidate) const {
         candidate.outcomes.insert(candidate.outcomes.end(), more.begin(), more.end());
         countEndings(more, candidate.record);
-        candidate.record.fitness = objectives::measureSum(
-            makeEvaluation(*inputs_, *candidate.track, candidate.record.overlaps, candidate.outcomes),
-            summed_);
+        candidate.record.fitness =
+            objectives::measureSum(makeEvaluation(*inputs_, *candidate.track, candidate.record.overlaps,
+                                                  candidate.outcomes, candidate.places),
+                                   summed_);
     }
 
     const StudyInputs* inputs_;
     int generation_;
     std::vector<Candidate>* candidates_;
+    Specimens specimens_;
     objectives::ObjectiveList summed_;
     std::vector<search::RacingStage> stages_;
     int running_;
@@ -187,8 +194,10 @@ objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings) {
 }
 
 objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Track& track, int overlaps,
-                                      std::span<const trial::Outcome> outcomes) {
+                                      std::span<const trial::Outcome> outcomes,
+                                      std::span<const trial::BoxPlace> places) {
     objectives::Evaluation evaluation;
+    evaluation.places = places;
     evaluation.track = &track;
     evaluation.symmetry = &inputs.part->symmetry;
     evaluation.overlaps = overlaps;
@@ -274,7 +283,7 @@ base::Result<JudgedGeneration> evaluateGeneration(const StudyInputs& inputs, int
             trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
         candidate.record.oriented = trial::tally(outcomes, expected, symmetry, tolerance).success;
         objectives::Evaluation evaluation =
-            makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, outcomes);
+            makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, outcomes, candidate.places);
         evaluation.oriented = candidate.record.oriented;
         candidate.record.fitness = objectives::measureOthers(evaluation, candidate.record.fitness);
     });

@@ -78,9 +78,11 @@ struct StudyInputs {
 /// What counts in F. The settings must be without problems (findProblems).
 objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings);
 
-/// These outcomes on this track as objectives look at them. All must outlive the evaluation.
+/// These outcomes on this track as objectives look at them, with the trials' places in the operating box
+/// (listPlaces). All must outlive the evaluation.
 objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Track& track, int overlaps,
-                                      std::span<const trial::Outcome> outcomes);
+                                      std::span<const trial::Outcome> outcomes,
+                                      std::span<const trial::BoxPlace> places = {});
 
 /// An error that lists everything that is wrong with settings and part, if anything is.
 base::Status checkInputs(const StudyInputs& inputs);

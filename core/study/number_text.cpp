@@ -12,6 +12,7 @@ namespace trapwright::study {
 namespace {
 
 constexpr int kMilliShift = 3;
+constexpr int kPercentShift = 2;
 
 /// digits[0].digits[1]... x 10^exponent, the shortest that gives the value back.
 struct Decimal {
@@ -96,6 +97,8 @@ std::string fileText(double value, FileUnit unit) {
         case FileUnit::millimetre:
         case FileUnit::millisecond:
             return shiftedText(value, kMilliShift);
+        case FileUnit::percent:
+            return shiftedText(value, kPercentShift);
         case FileUnit::degree:
             return degreeText(value);
         case FileUnit::none:
@@ -113,6 +116,7 @@ std::optional<double> siValue(std::string_view text, FileUnit unit) {
     }
 
     // Move the decimal point through the exponent.
+    const int shift = unit == FileUnit::percent ? kPercentShift : kMilliShift;
     const std::size_t mark = text.find_first_of("eE");
     int exponent = 0;
     if (mark != std::string_view::npos) {
@@ -121,7 +125,7 @@ std::optional<double> siValue(std::string_view text, FileUnit unit) {
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
         if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
     }
-    return parse(std::string(text.substr(0, mark)) + "e" + std::to_string(exponent - kMilliShift));
+    return parse(std::string(text.substr(0, mark)) + "e" + std::to_string(exponent - shift));
 }
 
 }  // namespace trapwright::study

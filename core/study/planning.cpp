@@ -87,6 +87,7 @@ class Planner {
     Planner(const StudyInputs& inputs, traps::TrapChain chain,
             std::function<void(const GenerationPlan&)> planned, const LearningControl& control)
         : inputs_(&inputs),
+          specimens_(makeSpecimens(inputs.settings, inputs.part)),
           chain_(std::move(chain)),
           planned_(std::move(planned)),
           control_(control),
@@ -268,7 +269,7 @@ class Planner {
     trial::TrialBatch makeBatch(std::shared_ptr<const track::Track> track, int trials) {
         // Behind those of all individuals of generation 0.
         const int individual = settings().evolution.populationSize + batches_++;
-        return makeLearningBatch(makeScene(settings(), inputs_->part, std::move(track)), {0, individual},
+        return makeLearningBatch(makeScene(settings(), specimens_, std::move(track)), {0, individual},
                                  trials);
     }
 
@@ -590,6 +591,7 @@ class Planner {
     }
 
     const StudyInputs* inputs_;
+    Specimens specimens_;
     traps::TrapChain chain_;
     std::function<void(const GenerationPlan&)> planned_;
     LearningControl control_;

@@ -81,7 +81,9 @@ Settings paperMode(Settings settings) {
     settings.evolution.commonRandomNumbers = false;
     settings.evolution.learningStuckTime = settings.simulation.termination.stuckTime;
     settings.evolution.learningStep = 0.2e-3;  // engines' own
-    settings.simulation.engine = "simbody";    // a setting like the others: the one that judges every trial
+    settings.evolution.conditions = TrialConditions::nominal;
+    settings.validation.conditions = TrialConditions::nominal;
+    settings.simulation.engine = "simbody";  // a setting like the others: the one that judges every trial
     return settings;
 }
 

@@ -8,6 +8,7 @@
 #include "core/objectives/objectives.h"
 #include "core/search/search.h"
 #include "core/stats/binomial.h"
+#include "core/trial/conditions.h"
 #include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
@@ -142,6 +143,7 @@ struct SelectionRecord {
     std::string engine;
     std::vector<SelectionEntry> entries;
     trial::MadeOutcomes made{};  // of all trials, one entry after the other; until they are saved
+    std::optional<trial::OperatingBox> box{};  // that the trials varied over; none: all alike
 };
 
 /// One row of the paper's Tables 2 and 3.
@@ -156,7 +158,8 @@ struct ValidationRecord : IndividualId {
     base::Quaternion expectedOrientation = base::Quaternion::Identity();
     double tolerance = 0.0;  // [rad]
     std::vector<ValidationRow> rows;
-    trial::MadeOutcomes made{};  // of all trials, one row after the other; until they are saved
+    trial::MadeOutcomes made{};                // of all trials, one row after the other; until they are saved
+    std::optional<trial::OperatingBox> box{};  // that the trials varied over; none: all alike
 };
 
 }  // namespace trapwright::study

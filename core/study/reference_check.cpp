@@ -15,14 +15,14 @@ namespace trapwright::study {
 namespace {
 
 EngineScore scoreOf(const StudyInputs& inputs, const trial::Engine& engine, const track::Track& track,
-                    std::span<const trial::Outcome> outcomes, int overlaps,
-                    const base::Quaternion& expected) {
+                    std::span<const trial::Outcome> outcomes, std::span<const trial::BoxPlace> places,
+                    int overlaps, const base::Quaternion& expected) {
     EngineScore score;
     score.engine = engine.name();
     score.finished = static_cast<int>(trial::finalOrientations(outcomes).size());
     score.oriented =
         trial::tally(outcomes, expected, inputs.part->symmetry, inputs.settings.validation.tolerance).success;
-    objectives::Evaluation evaluation = makeEvaluation(inputs, track, overlaps, outcomes);
+    objectives::Evaluation evaluation = makeEvaluation(inputs, track, overlaps, outcomes, places);
     evaluation.oriented = score.oriented;
     score.fitness = objectives::measureAll(evaluation, summedObjectives(inputs.settings.evolution));
     return score;
@@ -54,12 +54,13 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
     const base::Quaternion expected = trial::findModalOrientation(
         trial::finalOrientations(own), inputs.part->symmetry, inputs.settings.validation.tolerance);
     const int overlaps = winner.record.overlaps;
+    const std::vector<trial::BoxPlace> places = listPlaces(batches.front());
     CheckRecord record;
     record.generation = winner.generation;
     record.individual = winner.individual;
     record.trials = static_cast<int>(own.size());
-    record.learning = scoreOf(inputs, *inputs.engine, *track, own, overlaps, expected);
-    record.reference = scoreOf(inputs, reference, *track, judged->front(), overlaps, expected);
+    record.learning = scoreOf(inputs, *inputs.engine, *track, own, places, overlaps, expected);
+    record.reference = scoreOf(inputs, reference, *track, judged->front(), places, overlaps, expected);
     return record;
 }
 

@@ -66,12 +66,13 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
 
     const std::vector<Individual> ranked =
         rankWinners(std::move(winners), settings.validation.selectionWinners);
+    const Specimens specimens = makeSpecimens(settings, inputs.part);
     std::vector<trial::TrialBatch> batches;
     for (const Individual& winner : ranked) {
         auto track = decodeTrack(settings.track, winner.record.design);
         if (!track) return track.error();
         const TrialScene scene =
-            makeScene(settings, inputs.part, std::make_shared<const track::Track>(std::move(track).value()));
+            makeScene(settings, specimens, std::make_shared<const track::Track>(std::move(track).value()));
         batches.push_back(makeSelectionBatch(scene, winner, settings.validation.selectionTrials));
     }
     const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
@@ -79,6 +80,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
 
     const objectives::ObjectiveList summed = summedObjectives(settings.evolution);
     SelectionRecord record{inputs.engine->name(), {}};
+    record.box = boxOfJudging(settings);
     for (std::size_t i = 0; i < ranked.size(); ++i) {
         const std::vector<trial::Outcome>& own = (*outcomes)[i];
         SelectionEntry entry;
@@ -92,8 +94,9 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         entry.oriented =
             trial::tally(own, entry.modalOrientation, inputs.part->symmetry, settings.validation.tolerance)
                 .success;
+        const std::vector<trial::BoxPlace> places = listPlaces(batches[i]);
         objectives::Evaluation evaluation =
-            makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own);
+            makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own, places);
         evaluation.oriented = entry.oriented;
         entry.fitness = objectives::measureAll(evaluation, summed);
         record.entries.push_back(std::move(entry));
@@ -114,26 +117,37 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
 }
 
 stats::Interval TrackSuccess::calcInterval() const {
-    return stats::estimateWeighted(strata).interval;
+    return ofArriving ? stats::estimateCorrect(strata).interval
+                      : stats::estimateWeighted(stats::countRight(strata)).interval;
 }
 
 std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selections,
                                         std::span<const ValidationRecord> validations,
-                                        const Individual& individual,
-                                        std::span<const part::PoseGroup> groups) {
+                                        const Individual& individual, std::span<const part::PoseGroup> groups,
+                                        bool fallsAreForgiven) {
     using Source = TrackSuccess::Source;
     const auto isMeant = [&](const IndividualId& of) { return isSameIndividual(of, individual); };
-    const auto allAlike = [](Source source, const stats::Count& count, int finished) {
-        return TrackSuccess{source, count.share(), count, finished, {{1.0, count}}};
+    const auto weigh = [&](Source source, std::vector<stats::ArrivalStratum> strata,
+                           const stats::Count& count, int finished) -> std::optional<TrackSuccess> {
+        const std::optional<double> right = stats::calcWeightedRate(stats::countRight(strata));
+        const std::optional<double> arriving = stats::calcWeightedRate(stats::countArrived(strata));
+        if (!right || !arriving) return std::nullopt;
+        const std::optional<double> correct =
+            fallsAreForgiven ? stats::estimateCorrect(strata).rate : std::nullopt;
+        return TrackSuccess{source,   correct.has_value(), correct.value_or(*right), *arriving, count,
+                            finished, std::move(strata)};
+    };
+    const auto allAlike = [&](Source source, const stats::Count& count, int finished) {
+        return weigh(source, {{1.0, count.trials, finished, count.successes}}, count, finished);
     };
     const auto validation = std::find_if(validations.rbegin(), validations.rend(), isMeant);
     if (validation != validations.rend()) {
         const ValidationRow total = calcTotal(*validation);
         const stats::Count count{total.tally.success, total.tally.trials()};
-        std::vector<stats::Stratum> strata = listStrata(*validation, groups);
-        if (const auto rate = stats::calcWeightedRate(strata))
-            return TrackSuccess{Source::validation, *rate, count, total.tally.finished(), std::move(strata)};
-        if (count.trials > 0) return allAlike(Source::validation, count, total.tally.finished());
+        const int finished = total.tally.finished();
+        if (auto weighted = weigh(Source::validation, listStrata(*validation, groups), count, finished))
+            return weighted;
+        if (count.trials > 0) return allAlike(Source::validation, count, finished);
     }
     // The newest that has simulated it.
     const SelectionEntry* newest = nullptr;

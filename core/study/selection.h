@@ -34,27 +34,31 @@ const Individual* findBestWinner(std::span<const Individual> winners, bool falls
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Individual> winners,
                                             base::RunControl control);
 
-/// What is known of a track's success, the share of parts that finish in the expected orientation.
+/// What is known of a track's success, the share of parts that finish in the expected orientation. Where
+/// parts that fall off come again, it is that of the parts that arrive: they are *correct*.
 struct TrackSuccess {
     enum class Source { validation, selection, learning };
 
-    Source source = Source::learning;    // whose trials tell it
-    double rate = 0.0;                   // of a validation: weighted by how often parts land in each pose
-    stats::Count count;                  // all its trials alike
-    int finished = 0;                    // of these
-    std::vector<stats::Stratum> strata;  // what `rate` is made of
+    Source source = Source::learning;  // whose trials tell it
+    bool ofArriving = false;           // of the parts that arrive alone
+    double rate = 0.0;                 // of a validation: weighted by how often parts land in each pose
+    double arriving = 0.0;             // the share of parts that arrive, weighted alike
+    stats::Count count;                // right ones of all its trials, all alike
+    int finished = 0;                  // of these
+    std::vector<stats::ArrivalStratum> strata;  // what `rate` is made of
 
-    /// 95 %, as stats::estimateWeighted finds it; takes milliseconds, 0.1 s for a long validation.
+    /// 95 %, as stats::estimateWeighted or estimateCorrect finds it; takes milliseconds, 0.1 s for a long
+    /// validation.
     [[nodiscard]] stats::Interval calcInterval() const;
 };
 
 /// The success of an individual, as every page shows it: of its newest validation, which chose nothing and so
 /// flatters nobody, or else of the newest selection that it is in, or else as it was learned. None if it was
 /// never counted. `groups` are the part's (weighPoseGroups); if none of them was tried, all trials count
-/// alike.
+/// alike. With `fallsAreForgiven` (forgivesFalls) of the parts that arrive, if any did.
 std::optional<TrackSuccess> findSuccess(std::span<const SelectionRecord> selections,
                                         std::span<const ValidationRecord> validations,
-                                        const Individual& individual,
-                                        std::span<const part::PoseGroup> groups);
+                                        const Individual& individual, std::span<const part::PoseGroup> groups,
+                                        bool fallsAreForgiven);
 
 }  // namespace trapwright::study

@@ -38,6 +38,11 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
     return samePose && fields(a) == fields(b);
 }
 
+std::optional<trial::OperatingBox> boxOfJudging(const Settings& settings) {
+    if (settings.validation.conditions == TrialConditions::nominal) return std::nullopt;
+    return settings.box;
+}
+
 double chooseLearningStep(const Settings& settings) {
     if (settings.evolution.learningStep > 0.0) return settings.evolution.learningStep;
     return std::min(kLargestStep, trial::calcLongestStep(settings.simulation.drive, kLearningStepsPerPeriod));
@@ -58,6 +63,7 @@ bool keepsScores(const Settings& before, const Settings& after) {
     if (summed && std::ranges::any_of(*summed, &objectives::Objective::usesTolerance))
         same.validation.tolerance = after.validation.tolerance;
     same.feeder = before.feeder;
+    if (before.evolution.conditions == TrialConditions::nominal) same.box = before.box;
     return same == before;
 }
 

@@ -24,6 +24,9 @@ struct TrackSettings : traps::TrapParameters {
     friend bool operator==(const TrackSettings& a, const TrackSettings& b);
 };
 
+/// Under which conditions trials run: as the settings say, or each somewhere in the operating box.
+enum class TrialConditions { nominal, varied };
+
 /// How designs are searched for and judged (paper, Table 1; decisions.md#smoothing and what follows).
 struct EvolutionSettings {
     search::Method search = search::Method::genetic;
@@ -38,6 +41,7 @@ struct EvolutionSettings {
     int plannedTraps = 1500;  // that are tried by themselves for a first generation that is planned
     // Whose sum a search maximises (objectives::readObjectives).
     std::string objectives{objectives::kPaperObjectives};
+    TrialConditions conditions = TrialConditions::nominal;
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0
     int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody
@@ -74,6 +78,7 @@ struct ValidationSettings {
     int selectionTrials = 1000;
     int trialsPerPose = 1000;
     double tolerance = 25.0 * base::kDegree;  // of the expected orientation [rad]
+    TrialConditions conditions = TrialConditions::nominal;
 
     friend bool operator==(const ValidationSettings&, const ValidationSettings&) = default;
 };
@@ -111,6 +116,7 @@ struct Settings {
     TrackSettings track;
     EvolutionSettings evolution;
     SimulationSettings simulation;
+    trial::OperatingBox box;
     ValidationSettings validation;
     FeederSettings feeder;
 
@@ -123,6 +129,13 @@ void takePoseWeights(PartSettings& part, const PartSettings& other);
 /// Whether scores that were made with `before` still hold with `after`: only the number of generations, the
 /// weights of the stable poses and what concerns selection, validation and the real feeder differ.
 bool keepsScores(const Settings& before, const Settings& after);
+
+/// The box that trials of selection and validation vary over; none where they are nominal.
+std::optional<trial::OperatingBox> boxOfJudging(const Settings& settings);
+
+/// The box alone, as toJson writes it in settings, and back.
+std::string boxToJson(const trial::OperatingBox& box);
+base::Result<trial::OperatingBox> boxFromJson(const std::string& text);
 
 /// The step of learning trials: the one that is set, or the largest with which the rows of `verify` that
 /// matter for the drive and the rates of trials agree with those of engines' own steps

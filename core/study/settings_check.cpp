@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/part/specimen.h"
 #include "core/study/planning.h"
 #include "core/study/pose_weights.h"
 #include "core/study/settings.h"
@@ -170,6 +171,12 @@ std::vector<std::string> findPartProblems(const Settings& settings, const part::
                            millimetres(track.segmentWidth) + " wide. Set track.segmentWidth_mm to at least " +
                            millimetres(2 * (radius + settings.simulation.start.lateral)) +
                            ", or check the units of the part's file.");
+    }
+    const double thinnest = part::calcExtents(part).minCoeff();
+    if (settings.box.sizeBelow > 0.5 * thinnest) {
+        problems.push_back("box.sizeBelow_mm is " + shown(settings.box.sizeBelow, FileUnit::millimetre) +
+                           ", and the part " + part.name + " is only " + millimetres(thinnest) +
+                           " thick. Set it to half of that at most.");
     }
     if (radius > track.startFromLeadInEnd) {
         problems.push_back(size + ", which is more than track.startFromLeadInEnd_mm (" +

@@ -28,6 +28,9 @@ struct CountField {
 template <class Enum, std::size_t N>
 using Choices = std::array<std::pair<std::string_view, Enum>, N>;
 
+inline constexpr Choices<TrialConditions, 2> kConditionChoices = {
+    {{"nominal", TrialConditions::nominal}, {"varied", TrialConditions::varied}}};
+
 /// The one list of all settings: visits every field in the order of the file. The JSON writer, the JSON
 /// reader and the range check are visitors, so that a key, its unit and its range cannot fall apart.
 /// SettingsType is Settings or const Settings.
@@ -85,6 +88,7 @@ void visitFields(Visitor& v, SettingsType& s) {
                                                       {"planned", search::ga::FirstGeneration::planned}}});
     v.count({"evolution.plannedTraps", 32, 1000000}, s.evolution.plannedTraps);
     v.text("evolution.objectives", s.evolution.objectives);
+    v.choice("evolution.conditions", s.evolution.conditions, kConditionChoices);
     v.choice("evolution.orientationDistance", s.evolution.orientationDistance,
              Choices<trial::OrientationDistance, 2>{{{"symmetric", trial::OrientationDistance::symmetric},
                                                      {"plain", trial::OrientationDistance::plain}}});
@@ -117,10 +121,25 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"simulation.gravity_m_s2", none, 0.1, 100.0}, s.simulation.gravity);
     v.text("simulation.engine", s.simulation.engine);
 
+    constexpr auto percent = FileUnit::percent;
+    auto& box = s.box;
+    v.number({"box.friction", none, 0.0, 1.0}, box.friction);
+    v.number({"box.restitution", none, 0.0, 1.0}, box.restitution);
+    v.number({"box.halfStroke_percent", percent, 0.0, 50.0}, box.halfStroke);
+    v.number({"box.frequency_percent", percent, 0.0, 20.0}, box.frequency);
+    v.number({"box.angle_deg", degree, 0.0, 30.0}, box.angle);
+    v.number({"box.sizeBelow_mm", mm, 0.0, 10.0}, box.sizeBelow);
+    v.number({"box.sizeAbove_mm", mm, 0.0, 10.0}, box.sizeAbove);
+    v.number({"box.centre_mm", mm, 0.0, 10.0}, box.centre);
+    v.choice("box.distribution", box.distribution,
+             Choices<trial::BoxDistribution, 2>{
+                 {{"uniform", trial::BoxDistribution::uniform}, {"normal", trial::BoxDistribution::normal}}});
+
     v.count({"validation.selectionWinners", 1, 10000}, s.validation.selectionWinners);
     v.count({"validation.selectionTrials", 1, 1000000}, s.validation.selectionTrials);
     v.count({"validation.trialsPerPose", 1, 1000000}, s.validation.trialsPerPose);
     v.number({"validation.tolerance_deg", degree, 0.1, 180.0}, s.validation.tolerance);
+    v.choice("validation.conditions", s.validation.conditions, kConditionChoices);
 
     v.number({"feeder.highestSetPoint", none, 0.01, 1.0}, s.feeder.highestSetPoint);
     v.number({"feeder.rampPerSecond", none, 0.05, 10.0}, s.feeder.rampPerSecond);

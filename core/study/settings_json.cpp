@@ -363,6 +363,19 @@ base::Result<Settings> settingsFromJson(const std::string& text, const Settings&
     return base::Error{"The settings cannot be read: " + problem};
 }
 
+std::string boxToJson(const trial::OperatingBox& box) {
+    Settings settings;
+    settings.box = box;
+    const nlohmann::json all = nlohmann::json::parse(toJson(settings));
+    return nlohmann::json{{"box", all["box"]}}.dump();
+}
+
+base::Result<trial::OperatingBox> boxFromJson(const std::string& text) {
+    const auto settings = settingsFromJson(text, {});
+    if (!settings) return settings.error();
+    return settings->box;
+}
+
 std::vector<SettingKey> listSettingKeys() {
     KeyCollector collector;
     const Settings settings;

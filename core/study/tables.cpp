@@ -46,13 +46,17 @@ std::string formatValidation(const ValidationTable& table, bool everyPose) {
         for (const ValidationRow& row : group.rows)
             appendRow(text, fmt::format("  {}", row.pose + 1), "", row);
     }
-    const stats::WeightedRate& weighted = table.weighted;
-    if (weighted.rate) {
-        fmt::format_to(std::back_inserter(text), "{:<15} {:>8} {:>7} {:>7}   {}   {:>23}\n",
-                       "Total, weighted", "", "", "", shareText(*weighted.rate, weighted.interval), "");
-    }
+    const auto appendShare = [&](const char* name, const stats::WeightedRate& weighted) {
+        if (!weighted.rate) return;
+        fmt::format_to(std::back_inserter(text), "{:<15} {:>8} {:>7} {:>7}   {}   {:>23}\n", name, "", "", "",
+                       shareText(*weighted.rate, weighted.interval), "");
+    };
+    appendShare("Total, weighted", table.weighted);
+    appendShare("Correct", table.correct);
     appendRow(text, "Total, alike", "", table.total);
-    return text + "Weighted by how often parts land so; alike: all trials count the same.\n";
+    text += "Weighted by how often parts land so; alike: all trials count the same.\n";
+    if (table.correct.rate) text += "Correct: of those that arrive, weighted likewise.\n";
+    return text;
 }
 
 std::string formatSelection(const SelectionRecord& record) {

@@ -11,7 +11,7 @@ namespace trapwright::study {
 namespace {
 
 trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& policy, base::StreamKey first,
-                            int trials) {
+                            int trials, TrialConditions conditions) {
     trial::TrialBatch batch;
     batch.track = scene.track;
     batch.parts = {scene.part};
@@ -20,8 +20,27 @@ trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& p
     batch.termination = scene.simulation->termination;
     batch.gravity = scene.simulation->gravity;
     batch.trials.reserve(static_cast<std::size_t>(trials));
-    for (int i = 0; i < trials; ++i, ++first.trial)
-        batch.trials.push_back(trial::drawTrial(*scene.track, *scene.part, policy, first));
+    if (conditions == TrialConditions::nominal || scene.box == nullptr) {
+        for (int i = 0; i < trials; ++i, ++first.trial)
+            batch.trials.push_back(trial::drawTrial(*scene.track, *scene.part, policy, first));
+        return batch;
+    }
+    batch.parts = scene.specimens;
+    // The purpose keeps places of learning, selection and validation apart.
+    const base::StreamKey key{first.seed, first.generation, static_cast<std::uint32_t>(first.purpose), 0,
+                              base::Purpose::conditions};
+    const BoxPlaces places(*scene.simulation, *scene.box, key);
+    for (const trial::BoxPlace& place : places.draw(static_cast<int>(first.trial), trials)) {
+        const auto count = static_cast<double>(batch.parts.size());
+        const auto specimen = std::min(
+            static_cast<std::size_t>(place[static_cast<std::size_t>(trial::Condition::part)] * count),
+            batch.parts.size() - 1);
+        trial::TrialSpec& spec =
+            batch.trials.emplace_back(trial::drawTrial(*scene.track, *batch.parts[specimen], policy, first));
+        spec.parts.front().part = specimen;
+        putAt(*scene.simulation, *scene.box, place, spec);
+        ++first.trial;
+    }
     return batch;
 }
 
@@ -33,22 +52,32 @@ base::StreamKey keyOf(const TrialScene& scene, const IndividualId& individual, i
 
 }  // namespace
 
-TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part> part,
+TrialScene makeScene(const Settings& settings, const Specimens& specimens,
                      std::shared_ptr<const track::Track> track) {
     return {&settings.simulation,
-            std::move(part),
+            specimens.drawn,
             std::move(track),
             settings.evolution.seed,
             settings.evolution.commonRandomNumbers,
             settings.evolution.learningStuckTime,
-            chooseLearningStep(settings)};
+            chooseLearningStep(settings),
+            &settings.box,
+            specimens.varied,
+            settings.evolution.conditions,
+            settings.validation.conditions};
+}
+
+TrialScene makeScene(const Settings& settings, const std::shared_ptr<const part::Part>& part,
+                     std::shared_ptr<const track::Track> track) {
+    return makeScene(settings, makeSpecimens(settings, part), std::move(track));
 }
 
 trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId& individual, int trials,
                                     int first) {
     const IndividualId stream{individual.generation, scene.commonRandomNumbers ? 0 : individual.individual};
-    trial::TrialBatch batch = makeBatch(scene, scene.simulation->start,
-                                        keyOf(scene, stream, first, base::Purpose::trialStart), trials);
+    trial::TrialBatch batch =
+        makeBatch(scene, scene.simulation->start, keyOf(scene, stream, first, base::Purpose::trialStart),
+                  trials, scene.whileLearning);
     double& stuckTime = batch.termination.stuckTime;
     stuckTime = std::min(stuckTime, scene.learningStuckTime.value_or(stuckTime));
     batch.step = scene.learningStep;
@@ -57,7 +86,7 @@ trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId&
 
 trial::TrialBatch makeSelectionBatch(const TrialScene& scene, const IndividualId& individual, int trials) {
     return makeBatch(scene, scene.simulation->start,
-                     keyOf(scene, individual, 0, base::Purpose::finalSelection), trials);
+                     keyOf(scene, individual, 0, base::Purpose::finalSelection), trials, scene.whileJudging);
 }
 
 trial::TrialBatch makeValidationBatch(const TrialScene& scene, const IndividualId& individual, int pose,
@@ -65,13 +94,20 @@ trial::TrialBatch makeValidationBatch(const TrialScene& scene, const IndividualI
     trial::StartPolicy policy = scene.simulation->start;
     policy.nearPose = scene.part->stablePoses[static_cast<std::size_t>(pose)].rotation;
     return makeBatch(scene, policy, keyOf(scene, individual, pose * trials, base::Purpose::validation),
-                     trials);
+                     trials, scene.whileJudging);
 }
 
 trial::TrialBatch makeTrackBatch(std::shared_ptr<const track::Track> track,
                                  std::shared_ptr<const part::Part> part, const SimulationSettings& simulation,
                                  std::uint64_t seed, int trials) {
     return makeLearningBatch({&simulation, std::move(part), std::move(track), seed}, {0, 0}, trials);
+}
+
+std::vector<trial::BoxPlace> listPlaces(const trial::TrialBatch& batch) {
+    std::vector<trial::BoxPlace> places;
+    for (const trial::TrialSpec& spec : batch.trials)
+        if (spec.place) places.push_back(*spec.place);
+    return places;
 }
 
 TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "core/study/operating_box.h"
 #include "core/study/records.h"
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
@@ -22,15 +23,24 @@ struct TrialScene {
     std::optional<double> learningStuckTime =
         std::nullopt;           // of makeLearningBatch, if less than the simulation's [s]
     double learningStep = 0.0;  // of makeLearningBatch; 0: the engine's own [s]
+    /// The operating box that trials vary over, and the parts that they then have. Null: none does.
+    const trial::OperatingBox* box = nullptr;
+    std::vector<std::shared_ptr<const part::Part>> specimens{};
+    TrialConditions whileLearning = TrialConditions::nominal;
+    TrialConditions whileJudging = TrialConditions::nominal;  // selection and validation
 };
 
 /// The scene of a track of the study. Refers to `settings`.
-TrialScene makeScene(const Settings& settings, std::shared_ptr<const part::Part> part,
+TrialScene makeScene(const Settings& settings, const Specimens& specimens,
+                     std::shared_ptr<const track::Track> track);
+/// Makes the specimens, too: for a single track.
+TrialScene makeScene(const Settings& settings, const std::shared_ptr<const part::Part>& part,
                      std::shared_ptr<const track::Track> track);
 
 /// Each trial's start is drawn from its own stream (seed, generation, individual, trial, purpose), so that
 /// any single trial can be made again from the study alone. Each of these makes the batch anew with the same
-/// bits.
+/// bits. Where trials vary over the operating box, trial i of all individuals of a generation is at the same
+/// place in it.
 
 /// The trials by which an individual is judged while learning: `trials` of them from `first` on. With common
 /// random numbers all individuals of a generation have the streams of individual 0, so that each meets the
@@ -46,6 +56,9 @@ trial::TrialBatch makeSelectionBatch(const TrialScene& scene, const IndividualId
 /// decisions.md#selection-and-success). Trial i of pose p is trial p x trials + i of the stream.
 trial::TrialBatch makeValidationBatch(const TrialScene& scene, const IndividualId& individual, int pose,
                                       int trials);
+
+/// Where the trials of a batch are in the operating box; empty if they are all alike.
+std::vector<trial::BoxPlace> listPlaces(const trial::TrialBatch& batch);
 
 /// How the trials of one part on one track ended.
 struct TrialCounts {

@@ -29,10 +29,13 @@ std::vector<ValidationGroup> groupRows(const ValidationRecord& record,
     return grouped;
 }
 
-std::vector<stats::Stratum> strataOf(std::span<const ValidationGroup> groups) {
-    std::vector<stats::Stratum> strata;
-    for (const ValidationGroup& group : groups)
-        strata.push_back({group.weight, {group.sum.tally.success, group.sum.tally.trials()}});
+std::vector<stats::ArrivalStratum> strataOf(std::span<const ValidationGroup> groups) {
+    std::vector<stats::ArrivalStratum> strata;
+    strata.reserve(groups.size());
+    for (const ValidationGroup& group : groups) {
+        const trial::Tally& tally = group.sum.tally;
+        strata.push_back({group.weight, tally.trials(), tally.finished(), tally.success});
+    }
     return strata;
 }
 
@@ -69,6 +72,7 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
     record.generation = individual.generation;
     record.individual = individual.individual;
     record.engine = inputs.engine->name();
+    record.box = boxOfJudging(settings);
     record.tolerance = settings.validation.tolerance;
     if (expected) {
         record.expectedOrientation = *expected;
@@ -99,8 +103,8 @@ ValidationRow calcTotal(const ValidationRecord& record) {
     return total;
 }
 
-std::vector<stats::Stratum> listStrata(const ValidationRecord& record,
-                                       std::span<const part::PoseGroup> groups) {
+std::vector<stats::ArrivalStratum> listStrata(const ValidationRecord& record,
+                                              std::span<const part::PoseGroup> groups) {
     return strataOf(groupRows(record, groups));
 }
 
@@ -108,7 +112,9 @@ ValidationTable tabulate(const ValidationRecord& record, std::span<const part::P
     ValidationTable table;
     table.groups = groupRows(record, groups);
     table.total = calcTotal(record);
-    table.weighted = stats::estimateWeighted(strataOf(table.groups));
+    const std::vector<stats::ArrivalStratum> strata = strataOf(table.groups);
+    table.weighted = stats::estimateWeighted(stats::countRight(strata));
+    if (table.total.tally.fellOff > 0) table.correct = stats::estimateCorrect(strata);
     return table;
 }
 

@@ -37,11 +37,12 @@ struct ValidationTable {
     std::vector<ValidationGroup> groups;  // in the order of the part's groups
     ValidationRow total;                  // all trials alike
     stats::WeightedRate weighted;         // success, weighted by how often parts land so
+    stats::WeightedRate correct;          // of those that arrive, weighted alike; where parts fall off alone
 };
 
-/// Successes in each group of poses, as they are weighted. `groups` as of tabulate().
-std::vector<stats::Stratum> listStrata(const ValidationRecord& record,
-                                       std::span<const part::PoseGroup> groups);
+/// What became of each group of poses, as they are weighted. `groups` as of tabulate().
+std::vector<stats::ArrivalStratum> listStrata(const ValidationRecord& record,
+                                              std::span<const part::PoseGroup> groups);
 
 /// `groups` are the part's (weighPoseGroups); a pose that none of them has stands for itself, with no weight.
 ValidationTable tabulate(const ValidationRecord& record, std::span<const part::PoseGroup> groups);

@@ -29,14 +29,6 @@ std::optional<base::Error> findProblem(const TrialBatch& batch, const TrialSpec&
     return std::nullopt;
 }
 
-std::optional<base::Error> findKindsProblem(const TrialBatch& batch, std::string_view engine) {
-    if (batch.parts.size() == 1) return std::nullopt;
-    return base::Error{
-        fmt::format("The engine '{}' simulates one kind of part at a time, and this batch of "
-                    "trials has {}. Give each kind a batch of its own.",
-                    engine, batch.parts.size())};
-}
-
 std::optional<base::Error> findSinglePartProblem(const TrialSpec& trial, std::size_t number,
                                                  std::string_view engine) {
     if (trial.parts.size() != 1)
@@ -74,7 +66,6 @@ std::optional<base::Error> findProblem(const TrialBatch& batch, std::size_t inde
 
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::string_view engine) {
     if (auto problem = findProblem(batch)) return problem;
-    if (auto problem = findKindsProblem(batch, engine)) return problem;
     for (std::size_t i = 0; i < batch.trials.size(); ++i)
         if (auto problem = findSinglePartProblem(batch.trials[i], i, engine)) return problem;
     return std::nullopt;
@@ -83,7 +74,6 @@ std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::s
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::size_t index,
                                                  std::string_view engine) {
     if (auto problem = findProblem(batch, index)) return problem;
-    if (auto problem = findKindsProblem(batch, engine)) return problem;
     return findSinglePartProblem(batch.trials[index], index, engine);
 }
 

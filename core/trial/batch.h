@@ -12,6 +12,7 @@
 #include "core/base/result.h"
 #include "core/part/part.h"
 #include "core/track/track.h"
+#include "core/trial/conditions.h"
 #include "core/trial/contact.h"
 #include "core/trial/vibration.h"
 
@@ -35,13 +36,15 @@ struct PartStart {
     double time = 0.0;                                // when it is put there [s]
 };
 
-/// One simulated run to be made. Scales are relative to the batch's contact parameters.
+/// One simulated run to be made.
 struct TrialSpec {
     base::StreamKey stream;        // names the trial for ever; its starts were drawn from it
     double phase = 0.0;            // of the drive at time 0 [rad]
     std::vector<PartStart> parts;  // in the order in which they come
-    double frictionScale = 1.0;
-    double restitutionScale = 1.0;
+    // What this trial has instead of what its batch has (decisions.md#operating-box).
+    std::optional<ContactParameters> contact{};  // of parts with the track
+    std::optional<Vibration> drive{};
+    std::optional<BoxPlace> place{};  // where in the operating box it got these; no engine looks at it
 };
 
 /// How many steps a period has at least, where nothing else is asked for.
@@ -66,13 +69,25 @@ struct TrialBatch {
         if (step > 0.0) return step;
         return asked > 0.0 ? asked : std::min(own, calcLongestStep(drive, kStepsPerPeriod));
     }
+
+    // What one of its trials has.
+    [[nodiscard]] const ContactParameters& contactOf(const TrialSpec& trial) const {
+        return trial.contact ? *trial.contact : contact;
+    }
+    [[nodiscard]] const Vibration& driveOf(const TrialSpec& trial) const {
+        return trial.drive ? *trial.drive : drive;
+    }
+    /// Of a trial of one part.
+    [[nodiscard]] const part::Part& partOf(const TrialSpec& trial) const {
+        return *parts[trial.parts.front().part];
+    }
 };
 
 /// Why no engine can simulate this batch, or its trial `index` alone; none if it can.
 std::optional<base::Error> findProblem(const TrialBatch& batch);
 std::optional<base::Error> findProblem(const TrialBatch& batch, std::size_t index);
 
-/// Likewise for an engine that simulates one part at a time, from time 0 on, and one kind of part in a batch.
+/// Likewise for an engine that simulates one part at a time, from time 0 on.
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::string_view engine);
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::size_t index,
                                                  std::string_view engine);

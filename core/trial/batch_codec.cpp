@@ -91,8 +91,8 @@ void serialize(Archive& archive, T& start) {
 
 template <class Archive, base::OrConst<TrialSpec> T>
 void serialize(Archive& archive, T& spec) {
-    auto& [stream, phase, parts, frictionScale, restitutionScale] = spec;
-    archive(stream, phase, parts, frictionScale, restitutionScale);
+    auto& [stream, phase, parts, contact, drive, place] = spec;
+    archive(stream, phase, parts, contact, drive, place);
 }
 
 template <class Archive, base::OrConst<TrialBatch> T>
@@ -116,7 +116,7 @@ void serialize(Archive& archive, T& outcome) {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

@@ -38,7 +38,8 @@ base::Result<StoredTrials> findSelectionTrials(const store::StudyFile& file, con
         for (std::size_t rank = 0; rank < selection.entries.size(); ++rank) {
             const study::SelectionEntry& entry = selection.entries[rank];
             if (!isSameIndividual(entry, individual)) continue;
-            trials = {entry.trials, selection.engine, entry.modalOrientation, settings.validation.tolerance};
+            trials = {entry.trials, selection.engine, entry.modalOrientation, settings.validation.tolerance,
+                      selection.box};
             place = {static_cast<int>(number), static_cast<int>(rank)};
         }
     }
@@ -63,7 +64,8 @@ base::Result<StoredTrials> findValidationTrials(const store::StudyFile& file,
         for (const study::ValidationRow& row : validation.rows)
             if (std::find(poses.begin(), poses.end(), row.pose) != poses.end()) count += row.tally.trials();
         if (count == 0) continue;
-        trials = {count, validation.engine, validation.expectedOrientation, validation.tolerance};
+        trials = {count, validation.engine, validation.expectedOrientation, validation.tolerance,
+                  validation.box};
         number = static_cast<int>(place);
     }
     if (trials.count == 0) return trials;
@@ -110,8 +112,14 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
     const study::Individual& individual = request.winner;
     auto track = study::decodeTrack(settings.track, individual.record.design);
     if (!track) return track.error();
+    study::Settings own = settings;
+    if (request.kind != TrialKind::learning && stored.count > 0) {
+        own.validation.conditions =
+            stored.box ? study::TrialConditions::varied : study::TrialConditions::nominal;
+        own.box = stored.box.value_or(own.box);
+    }
     const study::TrialScene scene =
-        study::makeScene(settings, std::move(part), std::make_shared<const track::Track>(std::move(*track)));
+        study::makeScene(own, std::move(part), std::make_shared<const track::Track>(std::move(*track)));
     const int count = request.count > 0 ? request.count : stored.count;
     if (request.kind == TrialKind::selection) return study::makeSelectionBatch(scene, individual, count);
     if (request.kind == TrialKind::validation) {

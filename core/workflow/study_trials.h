@@ -36,7 +36,9 @@ struct StoredTrials {
     std::string engine;
     std::optional<base::Quaternion> expected{};  // the orientation that counted as success; none if learning
     double tolerance = 0.0;                      // of it [rad]
-    std::vector<store::PackedOutcomes> kept{};   // all of them, one piece for each pose; none: not stored
+    // That they varied over, of a selection or validation; none: all alike. In learning as the settings say.
+    std::optional<trial::OperatingBox> box{};
+    std::vector<store::PackedOutcomes> kept{};  // all of them, one piece for each pose; none: not stored
 };
 
 /// Of a selection or validation the last one that the individual was in. `settings` are the study's.

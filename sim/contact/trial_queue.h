@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,17 +13,51 @@
 
 namespace trapwright::contact {
 
-/// The trials of several batches, handed out one by one to the threads of an engine. A `Scene` is what an
-/// engine prepares for all trials of one batch; it is made, from the batch, when its first trial is handed
-/// out.
+/// Trials that an engine can simulate side by side: of like parts, gravity and steps.
+struct LikeTrials {
+    struct Member {
+        std::size_t batch = 0;  // its place
+        std::vector<std::size_t> trials;
+    };
+
+    const trial::TrialBatch* batch = nullptr;  // one of theirs
+    const part::Part* part = nullptr;
+    std::vector<Member> members;
+};
+
+/// All trials of the batches, each of one part.
+inline std::vector<LikeTrials> groupLikeTrials(std::span<const trial::TrialBatch> batches) {
+    std::vector<LikeTrials> groups;
+    const auto findGroup = [&](const trial::TrialBatch& batch, const part::Part& part) -> LikeTrials& {
+        for (LikeTrials& group : groups) {
+            const trial::TrialBatch& like = *group.batch;
+            if (group.part == &part && like.gravity == batch.gravity && like.step == batch.step &&
+                like.drive.frequency == batch.drive.frequency)
+                return group;
+        }
+        return groups.emplace_back(LikeTrials{&batch, &part, {}});
+    };
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+        for (std::size_t i = 0; i < batches[b].trials.size(); ++i) {
+            LikeTrials& group = findGroup(batches[b], batches[b].partOf(batches[b].trials[i]));
+            if (group.members.empty() || group.members.back().batch != b) group.members.push_back({b, {}});
+            group.members.back().trials.push_back(i);
+        }
+    }
+    return groups;
+}
+
+/// Like trials, handed out one by one to the threads of an engine. A `Scene` is what an engine prepares for
+/// all of them in one batch; it is made, by the batch's place, when the first one is handed out.
 template <class Scene>
 class TrialQueue {
  public:
-    /// members: the places of the batches to be simulated.
-    TrialQueue(std::span<const trial::TrialBatch> batches, std::vector<std::size_t> members)
-        : batches_(batches), members_(std::move(members)), scenes_(members_.size()) {
-        for (const std::size_t m : members_)
-            total_ += batches_[m].trials.size();
+    using MakeScene = std::function<std::shared_ptr<const Scene>(std::size_t batch)>;
+
+    TrialQueue(std::span<const LikeTrials::Member> members, MakeScene make)
+        : members_(members), make_(std::move(make)) {
+        for (const LikeTrials::Member& member : members_)
+            total_ += member.trials.size();
     }
 
     struct Job {
@@ -35,44 +70,25 @@ class TrialQueue {
 
     std::optional<Job> next() {
         const std::lock_guard lock(mutex_);
-        while (member_ < members_.size() && trial_ == batches_[members_[member_]].trials.size()) {
-            scenes_[member_].reset();  // trials that still run keep it alive
+        while (member_ < members_.size() && trial_ == members_[member_].trials.size()) {
+            scene_.reset();  // trials that still run keep it alive
             ++member_;
             trial_ = 0;
         }
         if (member_ == members_.size()) return std::nullopt;
-        const std::size_t batch = members_[member_];
-        if (!scenes_[member_]) scenes_[member_] = std::make_shared<const Scene>(batches_[batch]);
-        return Job{scenes_[member_], batch, trial_++};
+        const LikeTrials::Member& member = members_[member_];
+        if (!scene_) scene_ = make_(member.batch);
+        return Job{scene_, member.batch, member.trials[trial_++]};
     }
 
  private:
-    std::span<const trial::TrialBatch> batches_;
-    std::vector<std::size_t> members_;
-    std::vector<std::shared_ptr<const Scene>> scenes_;
+    std::span<const LikeTrials::Member> members_;
+    MakeScene make_;
+    std::shared_ptr<const Scene> scene_;
     std::mutex mutex_;
     std::size_t member_ = 0;
     std::size_t trial_ = 0;
     std::size_t total_ = 0;
 };
-
-/// The places of the batches, those with the same parts, gravity and steps together.
-inline std::vector<std::vector<std::size_t>> groupByPart(std::span<const trial::TrialBatch> batches) {
-    std::vector<std::vector<std::size_t>> groups;
-    for (std::size_t b = 0; b < batches.size(); ++b) {
-        bool placed = false;
-        for (std::vector<std::size_t>& group : groups) {
-            const trial::TrialBatch& like = batches[group.front()];
-            if (like.parts != batches[b].parts || like.gravity != batches[b].gravity ||
-                like.step != batches[b].step || like.drive.frequency != batches[b].drive.frequency)
-                continue;
-            group.push_back(b);
-            placed = true;
-            break;
-        }
-        if (!placed) groups.push_back({b});
-    }
-    return groups;
-}
 
 }  // namespace trapwright::contact

@@ -130,10 +130,8 @@ void runTrials(const LaneModel& model, TrialQueue& queue, int lanes,
     }
 }
 
-bool anyBowl(std::span<const trial::TrialBatch> batches, const std::vector<std::size_t>& members) {
-    return std::any_of(members.begin(), members.end(), [&](std::size_t m) {
-        return batches[m].track->shape.type == track::FeederType::bowl;
-    });
+bool isBowl(const trial::TrialBatch& batch) {
+    return batch.track->shape.type == track::FeederType::bowl;
 }
 
 base::Vec3 three(const TrialLanes& group, int field, int lane) {
@@ -176,12 +174,21 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
         if (const auto problem = findSinglePartProblem(batch, kName)) return *problem;
         outcomes.emplace_back(batch.trials.size());
     }
-    for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
-        const trial::TrialBatch& like = batches[members.front()];
-        const PackedBody body(contact::prepareBody(like.parts.front()->pieces));
-        const LaneModel model(*like.parts.front(), body, like.gravity, like.stepOf(step_, kDefaultStep),
-                              anyBowl(batches, members));
-        TrialQueue queue(batches, std::move(members));
+    // A track is prepared once for all kinds of parts that come onto it.
+    std::vector<std::shared_ptr<const Scene>> scenes(batches.size());
+    const auto sceneOf = [&](std::size_t b) {
+        if (scenes[b]) return scenes[b];
+        auto scene = std::make_shared<const Scene>(batches[b]);
+        if (batches[b].parts.size() > 1) scenes[b] = scene;
+        return scene;
+    };
+    for (const contact::LikeTrials& like : contact::groupLikeTrials(batches)) {
+        const PackedBody body(contact::prepareBody(like.part->pieces));
+        const bool anyBowl = std::ranges::any_of(
+            like.members, [&](const auto& member) { return isBowl(batches[member.batch]); });
+        const LaneModel model(*like.part, body, like.batch->gravity, like.batch->stepOf(step_, kDefaultStep),
+                              anyBowl);
+        TrialQueue queue(like.members, sceneOf);
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
         base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
@@ -195,10 +202,12 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
 base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                      double interval, base::RunControl control) const {
     if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
-    const PackedBody body(contact::prepareBody(batch.parts.front()->pieces));
+    const trial::TrialSpec& spec = batch.trials[index];
+    const part::Part& part = batch.partOf(spec);
+    const PackedBody body(contact::prepareBody(part.pieces));
     const double step = batch.stepOf(step_, kDefaultStep);
-    const LaneModel model(*batch.parts.front(), body, batch.gravity, step, anyBowl({&batch, 1}, {0}));
-    const contact::DriveMotion drive(batch.drive, batch.track->shape, batch.trials[index].phase);
+    const LaneModel model(part, body, batch.gravity, step, isBowl(batch));
+    const contact::DriveMotion drive(batch.driveOf(spec), batch.track->shape, spec.phase);
     RunningTrials trials(model, 1);
     trials.add(std::make_shared<const Scene>(batch), 0, index);
     std::vector<RecordedImpulse> recorded;
@@ -218,7 +227,7 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
         const base::Vec3 centre = trials.group().poseInTrack(0).position;
         const contact::TrackPlacement placement = drive.placement(trials.time(0));
         trials.finish();
-        const double rate = batch.parts.front()->massProperties.mass / step;
+        const double rate = part.massProperties.mass / step;
         forces.clear();
         for (const RecordedImpulse& given : recorded)
             forces.push_back(

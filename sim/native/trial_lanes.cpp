@@ -106,7 +106,8 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
 
     // At rest in the room, where the track is at the drive's phase.
     const trial::PartStart& start = spec.parts.front();
-    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.phase);
+    const trial::Vibration& vibration = batch.driveOf(spec);
+    const contact::DriveMotion drive(vibration, batch.track->shape, spec.phase);
     const base::Pose pose = drive.placement(0.0).toRoom(start.pose);
     for (int k = 0; k < 3; ++k)
         position(k)[lane] = pose.position[k];
@@ -118,7 +119,7 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     // Velocities belong to the middles of steps: go back by half of one.
     const double dt = model_->step;
     const Mat3 rotation = pose.rotation.toRotationMatrix();
-    const Mat3 inertia = rotation * batch.parts.front()->massProperties.inertia * rotation.transpose();
+    const Mat3 inertia = rotation * batch.partOf(spec).massProperties.inertia * rotation.transpose();
     const Vec3& w = start.angularVelocity;
     const Vec3 turn = -inertia.inverse() * w.cross(inertia * w);
     setThree(kTurnX, turn);
@@ -126,7 +127,7 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     setThree(kSpinX, w - 0.5 * dt * turn);
     setThree(kVelocityX, start.velocity + Vec3(0.0, 0.0, 0.5 * dt * batch.gravity));
 
-    const double turns = batch.drive.frequency * dt;
+    const double turns = vibration.frequency * dt;
     const double begin = spec.phase / (2.0 * base::kPi);
     const auto sine = [&](int step) { return std::sin(2.0 * base::kPi * (begin + step * turns)); };
     set(kDriveBefore, sine(-1));
@@ -139,9 +140,10 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     set(kDriveUp, amplitudes.up);
     set(kDriveTurn, amplitudes.turn);
 
-    set(kStaticFriction, batch.contact.staticFriction * spec.frictionScale);
-    set(kKineticFriction, batch.contact.kineticFriction * spec.frictionScale);
-    set(kRestitution, batch.contact.restitution * spec.restitutionScale);
+    const trial::ContactParameters& contact = batch.contactOf(spec);
+    set(kStaticFriction, contact.staticFriction);
+    set(kKineticFriction, contact.kineticFriction);
+    set(kRestitution, contact.restitution);
 
     set(kNextLook, -1.0);
     set(kReach, -1.0);

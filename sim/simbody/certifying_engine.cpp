@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/trial/termination_monitor.h"
+#include "sim/contact/trial_queue.h"
 #include "sim/simbody/certifying_trial.h"
 #include "sim/simbody/trial_lane.h"
 
@@ -19,11 +20,12 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
     const trial::TrialBatch& batch = *scene.batch;
     const trial::TrialSpec& spec = batch.trials[index];
     const trial::PartStart& start = spec.parts.front();
-    const contact::DriveMotion drive(batch.drive, batch.track->shape, spec.phase);
+    const trial::Vibration& vibration = batch.driveOf(spec);
+    const geometry::MassProperties& mass = batch.partOf(spec).massProperties;
+    const contact::DriveMotion drive(vibration, batch.track->shape, spec.phase);
     const contact::TrackPlacement placement = drive.placement(0.0);
-    CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, batch.drive, spec.phase,
-                             batch.parts.front()->massProperties.mass,
-                             batch.parts.front()->massProperties.inertia, batch.gravity, lawOf(batch, spec)},
+    CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, vibration, spec.phase, mass.mass,
+                             mass.inertia, batch.gravity, batch.contactOf(spec)},
                             placement.toRoom(start.pose), {start.velocity, start.angularVelocity});
     trial::TerminationMonitor progress(*batch.track, batch.termination, 1);
     trial::Trajectory trajectory;
@@ -65,14 +67,17 @@ base::Result<std::vector<std::vector<trial::Outcome>>> CertifyingEngine::run(
         outcomes.emplace_back(batch.trials.size());
     }
     try {
-        for (std::size_t b = 0; b < batches.size(); ++b) {
-            const Scene scene(batches[b]);
-            base::parallelFor(batches[b].trials.size(), threads_, [&](std::size_t i, unsigned) {
-                if (auto trajectory = simulate(scene, i, step_, 0.0, control)) {
-                    outcomes[b][i] = trajectory->outcome;
-                    control.advance(1);
-                }
-            });
+        for (const contact::LikeTrials& like : contact::groupLikeTrials(batches)) {
+            for (const contact::LikeTrials::Member& member : like.members) {
+                const Scene scene(batches[member.batch], *like.part);
+                base::parallelFor(member.trials.size(), threads_, [&](std::size_t i, unsigned) {
+                    const std::size_t trial = member.trials[i];
+                    if (auto trajectory = simulate(scene, trial, step_, 0.0, control)) {
+                        outcomes[member.batch][trial] = trajectory->outcome;
+                        control.advance(1);
+                    }
+                });
+            }
         }
     } catch (const std::exception& e) {
         return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
@@ -85,7 +90,8 @@ base::Result<trial::Trajectory> CertifyingEngine::replay(const trial::TrialBatch
                                                          double interval, base::RunControl control) const {
     if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
     try {
-        auto trajectory = simulate(Scene(batch), index, step_, interval, control);
+        auto trajectory =
+            simulate(Scene(batch, batch.partOf(batch.trials[index])), index, step_, interval, control);
         if (!trajectory) return base::Error{"The replay was cancelled."};
         control.advance(1);
         return *std::move(trajectory);

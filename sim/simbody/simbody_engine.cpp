@@ -21,7 +21,7 @@ using TrialQueue = contact::TrialQueue<Scene>;
 /// One thread's work: its own system, its lanes.
 class Worker {
  public:
-    Worker(const trial::TrialBatch& like, TrialQueue& queue, int count, double dt,
+    Worker(const contact::LikeTrials& like, TrialQueue& queue, int count, double dt,
            std::vector<std::vector<trial::Outcome>>& outcomes)
         : like_(&like),
           queue_(&queue),
@@ -61,8 +61,8 @@ class Worker {
     };
 
     [[nodiscard]] FreeBodies makeBodies(int count) const {
-        const geometry::MassProperties& mass = like_->parts.front()->massProperties;
-        return {mass.mass, mass.inertia, like_->gravity, count};
+        const geometry::MassProperties& mass = like_->part->massProperties;
+        return {mass.mass, mass.inertia, like_->batch->gravity, count};
     }
 
     void fill(int slot) {
@@ -92,7 +92,7 @@ class Worker {
         return true;
     }
 
-    const trial::TrialBatch* like_;
+    const contact::LikeTrials* like_;
     TrialQueue* queue_;
     double dt_;
     std::vector<std::vector<trial::Outcome>>* outcomes_;
@@ -117,14 +117,15 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
     }
 
     // One system holds like bodies: take the batches part by part.
-    for (std::vector<std::size_t>& members : contact::groupByPart(batches)) {
-        const trial::TrialBatch& like = batches[members.front()];
-        TrialQueue queue(batches, std::move(members));
+    for (const contact::LikeTrials& like : contact::groupLikeTrials(batches)) {
+        TrialQueue queue(like.members, [&](std::size_t b) {
+            return std::make_shared<const Scene>(batches[b], *like.part);
+        });
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int bodies = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kBodiesPerSystem));
         try {
             base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
-                Worker(like, queue, bodies, like.stepOf(step_, kDefaultStep), outcomes)
+                Worker(like, queue, bodies, like.batch->stepOf(step_, kDefaultStep), outcomes)
                     .run(control, costs_.get());
             });
         } catch (const std::exception& e) {
@@ -139,10 +140,11 @@ base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& b
                                                       double interval, base::RunControl control) const {
     if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
     try {
-        const geometry::MassProperties& mass = batch.parts.front()->massProperties;
+        const part::Part& part = batch.partOf(batch.trials[index]);
+        const geometry::MassProperties& mass = part.massProperties;
         FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);
         const double step = batch.stepOf(step_, kDefaultStep);
-        TrialLane lane(std::make_shared<const Scene>(batch), index, bodies, 0, step);
+        TrialLane lane(std::make_shared<const Scene>(batch, part), index, bodies, 0, step);
         trial::CostLaps laps(nullptr);
         trial::Trajectory trajectory;
         while (true) {

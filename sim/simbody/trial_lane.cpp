@@ -12,24 +12,18 @@ constexpr double kCheckInterval = 2e-3;
 
 }  // namespace
 
-trial::ContactParameters lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-    return {batch.contact.staticFriction * spec.frictionScale,
-            batch.contact.kineticFriction * spec.frictionScale,
-            batch.contact.restitution * spec.restitutionScale};
-}
-
-Scene::Scene(const trial::TrialBatch& b)
-    : batch(&b),
-      track(contact::prepareTrack(b.track->solid)),
-      body(contact::prepareBody(b.parts.front()->pieces)) {}
+Scene::Scene(const trial::TrialBatch& b, const part::Part& part)
+    : batch(&b), track(contact::prepareTrack(b.track->solid)), body(contact::prepareBody(part.pieces)) {}
 
 TrialLane::TrialLane(std::shared_ptr<const Scene> scene, std::size_t trial, FreeBodies& bodies, int slot,
                      double dt)
     : scene_(std::move(scene)),
       dt_(dt),
       stepsPerCheck_(std::max(1L, std::lround(kCheckInterval / dt))),
-      drive_(scene_->batch->drive, scene_->batch->track->shape, scene_->batch->trials[trial].phase),
-      contact_(scene_->track, scene_->body, drive_, lawOf(*scene_->batch, scene_->batch->trials[trial]), dt),
+      drive_(scene_->batch->driveOf(scene_->batch->trials[trial]), scene_->batch->track->shape,
+             scene_->batch->trials[trial].phase),
+      contact_(scene_->track, scene_->body, drive_, scene_->batch->contactOf(scene_->batch->trials[trial]),
+               dt),
       progress_(*scene_->batch->track, scene_->batch->termination, 1) {
     // At rest in the room, where the track is at the drive's phase.
     const trial::PartStart& start = scene_->batch->trials[trial].parts.front();

@@ -10,17 +10,15 @@
 
 namespace trapwright::simbody {
 
-/// What all trials of one batch share: the batch and its track and part prepared for contact detection.
+/// What all trials of one part in one batch share: the batch, its track and the part prepared for contact
+/// detection.
 struct Scene {
-    explicit Scene(const trial::TrialBatch& b);
+    Scene(const trial::TrialBatch& b, const part::Part& part);
 
     const trial::TrialBatch* batch;
     contact::ContactTrack track;
     contact::ContactBody body;
 };
-
-/// The material pair of one trial of a batch.
-trial::ContactParameters lawOf(const trial::TrialBatch& batch, const trial::TrialSpec& spec);
 
 /// One running trial in one body of a FreeBodies.
 class TrialLane {

@@ -146,11 +146,12 @@ class CommandsTest : public QObject {
 
     // What is learned goes by the part, how much of it by the time; what is set one by one comes after it.
     void settingsForATime() {
-        const Ran made = ask({"new", "timed.trap", "--part", "wedge", "--engine", "native", "--time", "2min",
-                              "--generations", "3"});
+        // Enough of it for a busy machine too.
+        const Ran made = ask({"new", "timed.trap", "--part", "wedge", "--engine", "native", "--time",
+                              "1h30min", "--generations", "3"});
         QVERIFY2(made.code == 0, made.all());
         QVERIFY2(made.errors.contains("wedge (symmetry C1) looks another way"), made.all());
-        QVERIFY2(made.errors.contains("here, of 2 min."), made.all());
+        QVERIFY2(made.errors.contains("here, of 1 h 30 min."), made.all());
         const QJsonObject settings = ask({"settings", "timed.trap", "--json"}).json();
         QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
         QCOMPARE(settings["evolution"].toObject()["generations"].toInt(), 3);

@@ -169,8 +169,8 @@ BulletTrial::BulletTrial(const BulletScene& scene, std::size_t index)
         static_cast<btScalar>(kMass * scene.batch.parts.front()->massProperties.mass), nullptr,
         const_cast<btCompoundShape*>(&scene.part), scene.inertia);
     // Of two bodies the product counts.
-    made.m_friction = static_cast<btScalar>(scene.batch.contact.kineticFriction * spec.frictionScale);
-    made.m_restitution = static_cast<btScalar>(scene.batch.contact.restitution * spec.restitutionScale);
+    made.m_friction = static_cast<btScalar>(scene.batch.contactOf(spec).kineticFriction);
+    made.m_restitution = static_cast<btScalar>(scene.batch.contactOf(spec).restitution);
     // The start pose is told relative to the track already.
     made.m_startWorldTransform.setRotation(toBullet(start.pose.rotation * scene.principal));
     made.m_startWorldTransform.setOrigin(toBullet(kLength * start.pose.position));

@@ -90,8 +90,8 @@ MujocoTrial::MujocoTrial(const MujocoScene& scene, std::size_t index)
       data_(mj_makeData(model_)),
       frame_(batch_, index, model_->opt.timestep) {
     const trial::TrialSpec& spec = batch_.trials[index];
-    friction_ = batch_.contact.kineticFriction * spec.frictionScale;
-    damping_ = calcDampingRatio(batch_.contact.restitution * spec.restitutionScale);
+    friction_ = batch_.contactOf(spec).kineticFriction;
+    damping_ = calcDampingRatio(batch_.contactOf(spec).restitution);
     // The start pose is told relative to the track already.
     const base::Pose& pose = spec.parts[0].pose;
     const contact::BodyMotion motion =

@@ -164,11 +164,13 @@ class OdeTrial : public PeerTrial {
 };
 
 OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
-    : scene_(scene), drive_(scene.batch.drive, scene.batch.track->shape, scene.batch.trials[index].phase) {
+    : scene_(scene),
+      drive_(scene.batch.driveOf(scene.batch.trials[index]), scene.batch.track->shape,
+             scene.batch.trials[index].phase) {
     initOde();
     const trial::TrialSpec& spec = scene.batch.trials[index];
-    friction_ = scene.batch.contact.kineticFriction * spec.frictionScale;
-    restitution_ = scene.batch.contact.restitution * spec.restitutionScale;
+    friction_ = scene.batch.contactOf(spec).kineticFriction;
+    restitution_ = scene.batch.contactOf(spec).restitution;
     // By default all worlds share one, and may not step at the same time.
     threading_ = dThreadingAllocateSelfThreadedImplementation();
     world_ = dWorldCreate();

@@ -17,7 +17,7 @@ double angleOf(const contact::TrackPlacement& placement) {
 }  // namespace
 
 VibratingFrame::VibratingFrame(const trial::TrialBatch& batch, std::size_t trial, double dt)
-    : drive_(batch.drive, batch.track->shape, batch.trials[trial].phase),
+    : drive_(batch.driveOf(batch.trials[trial]), batch.track->shape, batch.trials[trial].phase),
       dt_(dt),
       now_(drive_.placement(0.0)) {
     const contact::TrackPlacement before = drive_.placement(-dt);

@@ -35,6 +35,8 @@ QString nameOf(const Row& row) {
     switch (row.kind) {
         case Row::Kind::weighted:
             return ValidationModel::tr("Weighted");
+        case Row::Kind::correct:
+            return ValidationModel::tr("Correct");
         case Row::Kind::total:
             return ValidationModel::tr("All alike");
         case Row::Kind::pose:
@@ -51,6 +53,10 @@ QString helpOf(const Row& row) {
             return ValidationModel::tr(
                 "All poses together, weighted by how often parts land so: the share of parts that come as "
                 "they fall. Bounds: exact profile limits.");
+        case Row::Kind::correct:
+            return ValidationModel::tr(
+                "Of the parts that arrive, weighted likewise, those in the expected orientation: what falls "
+                "off comes again. Bounds: Korn and Graubard.");
         case Row::Kind::total:
             return ValidationModel::tr(
                 "All trials alike, however often parts land so. Bounds: Clopper and Pearson.");
@@ -64,15 +70,19 @@ QString helpOf(const Row& row) {
                      : QString();
 }
 
-/// Of the weighted total no trials are counted.
+/// Of totals that are weighted no trials are counted.
+bool isWeighted(const Row& row) {
+    return row.kind == Row::Kind::weighted || row.kind == Row::Kind::correct;
+}
+
 template <auto count>
 QVariant countOf(const Row& row) {
-    return row.kind == Row::Kind::weighted ? QVariant() : QVariant(std::invoke(count, row.row.tally));
+    return isWeighted(row) ? QVariant() : QVariant(std::invoke(count, row.row.tally));
 }
 
 template <auto count>
 QString countText(const Row& row) {
-    return row.kind == Row::Kind::weighted ? QString() : QString::number(std::invoke(count, row.row.tally));
+    return isWeighted(row) ? QString() : QString::number(std::invoke(count, row.row.tally));
 }
 
 /// Keeps names in line with those that have a sign before them.
@@ -146,12 +156,15 @@ void ValidationModel::refill() {
             rows.push_back(makeRow(Row::Kind::pose, {one.pose}, one));
     }
     totals_ = 1;
-    if (table_.weighted.rate) {
-        Row& weighted = rows.emplace_back(makeRow(Row::Kind::weighted, {}, table_.total));
-        weighted.rate = table_.weighted.rate;
-        weighted.bounds = table_.weighted.interval;
+    const auto addWeighted = [&](Row::Kind kind, const stats::WeightedRate& weighted) {
+        if (!weighted.rate) return;
+        Row& row = rows.emplace_back(makeRow(kind, {}, table_.total));
+        row.rate = weighted.rate;
+        row.bounds = weighted.interval;
         ++totals_;
-    }
+    };
+    addWeighted(Row::Kind::weighted, table_.weighted);
+    addWeighted(Row::Kind::correct, table_.correct);
     rows.push_back(makeRow(Row::Kind::total, {}, table_.total));
     reset(std::move(rows));
 }
@@ -173,7 +186,7 @@ QVariant ValidationModel::more(const ValidationTableRow& row, int column, int ro
     const bool total = row.poses.empty();
     switch (role) {
         case VerdictRole:
-            return row.kind == Row::Kind::weighted ? -1 : verdictOf(column);
+            return isWeighted(row) ? -1 : verdictOf(column);
         case Qt::ToolTipRole:
             return column == Pose ? helpOf(row) : QString();
         case Qt::DecorationRole:

@@ -9,7 +9,7 @@
 namespace trapwright::models {
 
 struct ValidationTableRow {
-    enum class Kind { group, pose, weighted, total };
+    enum class Kind { group, pose, weighted, correct, total };
 
     Kind kind = Kind::group;
     std::vector<int> poses;        // of the row; none: a total
@@ -22,7 +22,8 @@ struct ValidationTableRow {
 };
 
 /// The paper's Tables 2 and 3: a row for each group of alike stable poses, which opens to its poses; last the
-/// totals, weighted by how often parts land so and with all trials alike. In the columns that count failures
+/// totals, weighted by how often parts land so and with all trials alike, and between them, where parts fall
+/// off, the right ones of those that arrive. In the columns that count failures
 /// VerdictRole says of which kind.
 class ValidationModel : public RecordModel<ValidationTableRow> {
     Q_OBJECT

@@ -330,8 +330,7 @@ void ExportPage::exportAs(const QString& format) {
     question->setAttribute(Qt::WA_DeleteOnClose);
     question->setIcon(QMessageBox::Warning);
     question->setWindowTitle(tr("Export the track"));
-    question->setText(
-        tr("The success of this track is %1. Export it all the same?").arg(successText(*success)));
+    question->setText(tr("Success of this track: %1. Export it all the same?").arg(successText(*success)));
     question->setInformativeText(
         tr("You want to be asked below %1 %.").arg(look::numberText(100.0 * findings_->leastSuccess())));
     QPushButton* yes = question->addButton(tr("Export it"), QMessageBox::AcceptRole);

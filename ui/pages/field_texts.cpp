@@ -52,7 +52,7 @@ const RawText kTexts[] = {
     {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
 
     {"evolution.search", TEXT("Search"), TEXT("How tracks are looked for: bred from the best ones, as in the paper, or drawn at random, which shows what breeding is worth."), {TEXT("Genetic"), TEXT("Random")}},
-    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; disorder, in how many ways parts end, in bits; sorting, how far the parts that stay on the track are from all lying right, for tracks that throw back what lies wrong; correct, the share of finished parts in the most frequent orientation; conveying_speed, in m/s.")},
+    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; disorder, in how many ways parts end, in bits; sorting, how far the parts that stay on the track are from all lying right, for tracks that throw back what lies wrong; correct, the share of finished parts in the most frequent orientation; worst_half, the success in the half of the operating box where it is least; conveying_speed, in m/s.")},
     {"evolution.populationSize", TEXT("Population"), TEXT("Individuals in each generation.")},
     {"evolution.trialsPerEvaluation", TEXT("Trials each"), TEXT("Parts that are simulated to judge one individual.")},
     {"evolution.tournamentSize", TEXT("Tournament"), TEXT("Individuals that compete to become a parent; more of them press harder.")},
@@ -62,6 +62,7 @@ const RawText kTexts[] = {
     {"evolution.mutationFloor", TEXT("Least mutation"), TEXT("The least that the chance which adapts itself can be; 0 in the paper.")},
     {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops, cut-outs and gaps are tried by themselves first, and learning begins with the best chains of them."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned")}},
     {"evolution.plannedTraps", TEXT("Planned traps"), TEXT("How many drops, cut-outs and gaps are tried by themselves before a planned first generation. It takes most of the time; more find better chains.")},
+    {"evolution.conditions", TEXT("Learn under"), TEXT("Whether every part meets what is set here, or each another friction, restitution, stroke and size out of the operating box. Tracks learned so hold where the real feeder is not quite what was set."), {TEXT("Set conditions"), TEXT("Varied conditions")}},
     {"evolution.orientationDistance", TEXT("Alike orientations"), TEXT("Whether orientations that look alike count as the same; the paper does not count them so."), {TEXT("Count as one"), TEXT("Stay apart")}},
     {"evolution.simulateOverlapping", TEXT("Overlapping tracks"), TEXT("Whether tracks that cross themselves are simulated, as in the paper, or scored worst at once."), {TEXT("Score worst"), TEXT("Simulate")}},
     {"evolution.racingTrials", TEXT("Racing trials"), TEXT("Trials for every individual before only the best get all; 0 gives all to everybody.")},
@@ -88,10 +89,21 @@ const RawText kTexts[] = {
     {"simulation.gravity_m_s2", TEXT("Gravity"), TEXT("9.81 on Earth.")},
     {"simulation.engine", TEXT("Engine"), TEXT("Hybrid learns with the quick engine and has each winner checked by the reference engine.")},
 
+    {"box.friction", TEXT("Friction ±"), TEXT("How far both coefficients of friction may be off; nobody knows that of a print to better than 0.15.")},
+    {"box.restitution", TEXT("Restitution ±"), TEXT("How far the restitution may be off; never below 0 nor above 1.")},
+    {"box.halfStroke_percent", TEXT("Half-stroke ±"), TEXT("How far the drive's half-stroke may be off.")},
+    {"box.frequency_percent", TEXT("Frequency ±"), TEXT("How far the drive's frequency may be off.")},
+    {"box.angle_deg", TEXT("Angle ±"), TEXT("How far the vibration angle may be off.")},
+    {"box.sizeBelow_mm", TEXT("Part smaller by"), TEXT("How much less each extent of a part may be than drawn.")},
+    {"box.sizeAbove_mm", TEXT("Part larger by"), TEXT("How much more each extent of a part may be than drawn.")},
+    {"box.centre_mm", TEXT("Centre of mass ±"), TEXT("How far a part's centre of mass may be off in each direction.")},
+    {"box.distribution", TEXT("Spread"), TEXT("How conditions are drawn: all of the range alike, or most in its middle, with twice the standard deviation at its ends."), {TEXT("Even"), TEXT("Normal, cut off")}},
+
     {"validation.selectionWinners", TEXT("Winners"), TEXT("How many of the best are simulated again to choose the final one.")},
     {"validation.selectionTrials", TEXT("Trials of each"), TEXT("Parts that are simulated for each of these winners.")},
     {"validation.trialsPerPose", TEXT("Trials per pose"), TEXT("Parts that are simulated from each stable pose in a validation.")},
     {"validation.tolerance_deg", TEXT("Tolerance"), TEXT("How far from the expected orientation still counts as success.")},
+    {"validation.conditions", TEXT("Judge under"), TEXT("Whether parts of selection and validation meet what is set here, or each other conditions out of the operating box."), {TEXT("Set conditions"), TEXT("Varied conditions")}},
 
     {"feeder.highestSetPoint", TEXT("Highest set-point"), TEXT("The highest set-point that the drive of the real feeder is given, as a share of full.")},
     {"feeder.rampPerSecond", TEXT("Ramp"), TEXT("How quickly its set-point rises and falls, as a share of full per second; a stop is at once.")},
@@ -165,6 +177,8 @@ std::vector<Choice> objectiveChoices() {
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper"))},
         {"F_C, F_D, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success"))},
         {"F_C, F_D, F_O, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, success"))},
+        {"F_C, F_D, F_O, worst_half",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, worst half"))},
         {"F_C, F_D, disorder", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Disorder"))},
         {"sorting", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Sorting"))},
         {"F_C, F_D, success, conveying_speed",
@@ -185,7 +199,7 @@ std::vector<Choice> engineChoices(const trial::EngineRegistry& engines) {
 QString unitOf(std::string_view key) {
     static const std::pair<std::string_view, const char*> kUnits[] = {
         {"_kg_m3", "kg/m³"}, {"_m_s2", "m/s²"}, {"_mm", "mm"}, {"_deg", "°"},
-        {"_Hz", "Hz"},       {"_ms", "ms"},     {"_s", "s"}};
+        {"_Hz", "Hz"},       {"_ms", "ms"},     {"_s", "s"},   {"_percent", "%"}};
     for (const auto& [ending, unit] : kUnits)
         if (key.ends_with(ending)) return QString::fromUtf8(unit);
     return {};
@@ -212,6 +226,11 @@ std::vector<FieldGroup> trackGroups() {
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Contact")),
          {"simulation.contact.staticFriction", "simulation.contact.kineticFriction",
           "simulation.contact.restitution"}},
+        {"box",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Operating box")),
+         {"evolution.conditions", "validation.conditions", "box.friction", "box.restitution",
+          "box.halfStroke_percent", "box.frequency_percent", "box.angle_deg", "box.sizeBelow_mm",
+          "box.sizeAbove_mm", "box.centre_mm", "box.distribution"}},
         {"learning",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
          {"evolution.search", "evolution.objectives", "evolution.generations", "evolution.populationSize",

@@ -77,6 +77,13 @@ std::shared_ptr<const geometry::TriangleMesh> takeOut(const geometry::TriangleMe
 QString successText(const study::TrackSuccess& success) {
     const bool weighted = success.source == study::TrackSuccess::Source::validation;
     const stats::Interval bounds = success.calcInterval();
+    if (success.ofArriving) {
+        return (weighted ? PrintFindings::tr("%1 (%2 %) correct, weighted, of %L3 parts that arrived")
+                         : PrintFindings::tr("%1 (%2 %) correct of %L3 parts that arrived"))
+            .arg(models::successWord(std::optional(success.rate)),
+                 models::boundsText(bounds, success.finished))
+            .arg(success.finished);
+    }
     return (weighted ? PrintFindings::tr("%1 (%2 %), weighted, of %L3 parts")
                      : PrintFindings::tr("%1 (%2 %) of %L3 parts"))
         .arg(models::successWord(std::optional(success.rate)),
@@ -114,10 +121,10 @@ PrintFindings::PrintFindings(QWidget* parent)
     checks_ = {addCheck(*grid, "success", tr("Success")), addCheck(*grid, "solid", tr("Solid")),
                addCheck(*grid, "walls", tr("Walls")), addCheck(*grid, "overhangs", tr("Overhangs")),
                addCheck(*grid, "bed", tr("Printer"))};
-    checks_[success].text->setToolTip(
-        tr("Share of the parts that finished in the expected orientation, in the "
-           "last selection, else validation, else while learning, with the 95 % interval of Clopper "
-           "and Pearson"));
+    checks_[success].text->setToolTip(tr(
+        "Share of the parts that finished in the expected orientation (where what falls off comes again: of "
+        "those that arrived), in the last validation, else comparison, else while learning, with its 95 % "
+        "bounds"));
     least_->show(100.0 * leastSuccess_, 100.0 * kLeastSuccess);
     connect(least_, &PrintRow::attended, this, &PrintFindings::attended);
     connect(least_, &PrintRow::edited, this, [this](double percent) {

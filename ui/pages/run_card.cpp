@@ -7,8 +7,10 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <optional>
 
 #include "core/study/selection.h"
+#include "core/study/standstill.h"
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/pages/run_actions.h"
@@ -26,6 +28,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
       success_(new SuccessCard("evolve", this)),
       title_(new QLabel(this)),
       detail_(new QLabel(this)),
+      standstill_(new QLabel(this)),
       speed_(new QLabel(this)),
       bar_(new QProgressBar(this)),
       draft_(new QWidget(this)),
@@ -40,6 +43,12 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     title_->setAccessibleName(tr("What the study is doing"));
     detail_->setObjectName("evolve.detail");
     detail_->setWordWrap(true);
+    standstill_->setObjectName("evolve.standstill");
+    standstill_->setWordWrap(true);
+    standstill_->setToolTip(tr(
+        "The mean of the top 30 %, over eight generations, has not risen by more than noise. Where success "
+        "is high the track is as good as this search makes it: simulate the best winners again. Where it is "
+        "not, look on the Review page at how parts end, or try another kind of trap on the Track page."));
     speed_->setObjectName("evolve.speed");
     speed_->setForegroundRole(QPalette::PlaceholderText);
     connect(detail_, &QLabel::linkActivated, this, &RunCard::settingsWanted);
@@ -73,6 +82,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     layout->addWidget(success_);
     layout->addWidget(title_);
     layout->addWidget(detail_);
+    layout->addWidget(standstill_);
     layout->addWidget(bar_);
     layout->addWidget(speed_);
     layout->addSpacing(4);
@@ -126,6 +136,7 @@ void RunCard::update() {
     bar_->setVisible(!idle);
     speed_->setVisible(!idle);
     showSuccess();
+    showStandstill();
     if (!runs_) return;
     if (idle) {
         showIdle();
@@ -154,6 +165,12 @@ void RunCard::showSuccess() {
                    success
                        ? tr("%1 of %2 parts, %3").arg(success->successes).arg(success->trials).arg(generation)
                        : generation);
+}
+
+void RunCard::showStandstill() {
+    const std::optional<int> since = runs_ ? study::findStandstill(runs_->summaries()) : std::nullopt;
+    standstill_->setVisible(since.has_value());
+    if (since) standstill_->setText(tr("Nothing was gained since generation %1.").arg(*since));
 }
 
 QString RunCard::workText() const {

@@ -34,6 +34,7 @@ class RunCard : public QWidget {
     void update();
     void announce();
     void showSuccess();
+    void showStandstill();
     void showIdle();
     void showDraft();
     void showRun(session::RunState state);
@@ -43,6 +44,7 @@ class RunCard : public QWidget {
     SuccessCard* success_;
     QLabel* title_;
     QLabel* detail_;
+    QLabel* standstill_;
     QLabel* speed_;
     QProgressBar* bar_;
     QWidget* draft_;

@@ -48,6 +48,15 @@ void SuccessCard::showCorrect(const std::optional<stats::Count>& correct, const 
     number_->setAccessibleName(tr("Correct %1").arg(number_->text()));
 }
 
+void SuccessCard::showCorrect(const stats::WeightedRate& correct, const QString& source) {
+    const QString bounds = models::boundsText(correct.interval, 1);
+    number_->setText(tr("%1 %").arg(models::percent(correct.rate)));
+    bounds_->setText(tr("correct, 95 %: %1 %").arg(bounds));
+    tell(tr("Of the parts that arrive, those in the expected orientation: what falls off comes again"),
+         source);
+    number_->setAccessibleName(tr("Correct %1").arg(number_->text()));
+}
+
 void SuccessCard::showWeighted(const stats::WeightedRate& weighted, const QString& source) {
     const QString bounds = models::boundsText(weighted.interval, 1);
     number_->setText(tr("%1 %").arg(models::percent(weighted.rate)));

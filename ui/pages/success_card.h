@@ -21,6 +21,7 @@ class SuccessCard : public QWidget {
     void show(const std::optional<stats::Count>& success, const QString& source);
     /// The same of those parts that arrive alone, where others are thrown back.
     void showCorrect(const std::optional<stats::Count>& correct, const QString& source);
+    void showCorrect(const stats::WeightedRate& correct, const QString& source);
     /// The success of all parts that come, where each pose was tried by itself: `weighted` has a rate.
     void showWeighted(const stats::WeightedRate& weighted, const QString& source);
 

@@ -123,9 +123,10 @@ void TrackChoice::listWinners() {
     if (!runs_) return;
     const auto add = [this](const study::Individual& winner) {
         const Success success = runs_->findSuccess(winner);
+        std::optional<double> rate;
+        if (success) rate = success->rate;
         list_->addItem(
-            tr("%1: %2").arg(nameOf(winner.generation, winner.individual),
-                             models::successWord(success ? std::optional(success->rate) : std::nullopt)),
+            tr("%1: %2").arg(nameOf(winner.generation, winner.individual), models::successWord(rate)),
             winner.generation);
         list_->setItemData(list_->count() - 1, winner.individual, kIndividualRole);
         if (winner_ && isSameIndividual(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
@@ -152,10 +153,14 @@ void TrackChoice::showFacts() {
         facts.emplace_back(tr("Comparison"),
                            models::shareText(stats::Count{compared->oriented, compared->trials}));
     const Success success = runs_->findSuccess(*winner_);
-    if (success && success->source == study::TrackSuccess::Source::validation) {
+    const bool isValidated = success && success->source == study::TrackSuccess::Source::validation;
+    if (success && success->ofArriving) {
+        success_->showCorrect({success->rate, success->calcInterval()},
+                              tr("%1, of the %2 % of parts that arrive")
+                                  .arg(sourceOf(success), models::percent(std::optional(success->arriving))));
+    } else if (isValidated) {
         success_->showWeighted({success->rate, success->calcInterval()},
                                tr("validation, weighted by how often parts land so"));
-        facts.emplace_back(tr("All trials alike"), models::shareText(success->count));
     } else {
         success_->show(success ? std::optional(success->count) : std::nullopt,
                        success ? tr("%1 of %2 parts, %3")
@@ -164,6 +169,7 @@ void TrackChoice::showFacts() {
                                      .arg(sourceOf(success))
                                : sourceOf(success));
     }
+    if (isValidated) facts.emplace_back(tr("All trials alike"), models::shareText(success->count));
     facts_->show(facts);
 }
 

@@ -71,7 +71,8 @@ std::optional<study::TrackSuccess> StudyRuns::findSuccess(const study::Individua
     std::vector<part::PoseGroup> groups;
     const auto& part = state_->part.part;
     if (part && !validations().empty()) groups = study::weighPoseGroups(*part, state_->settings);
-    return study::findSuccess(selections(), validations(), individual, groups);
+    return study::findSuccess(selections(), validations(), individual, groups,
+                              study::forgivesFalls(state_->settings.evolution));
 }
 
 base::Result<study::GenerationRecord> StudyRuns::loadGeneration(int index) const {

@@ -85,6 +85,7 @@ class MainWindow : public QMainWindow {
     void openStudy(const std::filesystem::path& file, bool learn = false);
     void openExample(
         const QString& name, bool learn, const std::function<void()>& afterwards = [] {});
+    void openLearnedExample(const workflow::ExampleStudy& example);
     void offerRecovery();
     void offerTour();
     /// Through the open study, or through an example where none is open.

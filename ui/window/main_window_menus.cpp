@@ -58,13 +58,20 @@ void MainWindow::addFileMenu() {
             &MainWindow::askForStudy);
     recentMenu_ = menu.addMenu(look::icon("recent"), tr("Open &recent"));
     recentMenu_->setObjectName("menu.recent");
-    QMenu& examples = *menu.addMenu(look::icon("example"), tr("Open &example"));
+    QMenu& examples = *menu.addMenu(look::icon("example"), tr("Start with an &example part"));
     examples.setObjectName("menu.examples");
     for (const part::BundledPart& part : part::listBundledParts()) {
         const QString name = QString::fromUtf8(part.name.data(), static_cast<qsizetype>(part.name.size()));
         const QString text =
             QString::fromUtf8(part.description.data(), static_cast<qsizetype>(part.description.size()));
         addItem(examples, "example." + name, {}, text, {}, this, [this, name] { openExample(name, false); });
+    }
+    QMenu& learned = *menu.addMenu(look::icon("review"), tr("Open a &learned example"));
+    learned.setObjectName("menu.learnedExamples");
+    for (const workflow::ExampleStudy& example : workflow::listExampleStudies()) {
+        const QString text = tr("%1: %2").arg(look::toText(example.name), look::toText(example.description));
+        addItem(learned, "learned." + look::toText(example.name), {}, text, {}, this,
+                [this, example] { openLearnedExample(example); });
     }
     menu.addSeparator();
     studyActions_ << addItem(menu, "file.save", {}, tr("&Save"), QKeySequence(Qt::CTRL | Qt::Key_S), this,

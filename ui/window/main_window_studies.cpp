@@ -146,6 +146,15 @@ void MainWindow::openExample(const QString& name, bool learn, const std::functio
     });
 }
 
+void MainWindow::openLearnedExample(const workflow::ExampleStudy& example) {
+    whenClosable([this, example] {
+        desk_.openExample(example, [this](const base::Status& opened) {
+            report(tr("The example cannot be opened"), opened);
+            if (opened) showPage("review");
+        });
+    });
+}
+
 void MainWindow::offerRecovery() {
     // Who starts with a study in hand is asked the next time.
     if (desk_.session() != nullptr || desk_.isOpening()) return;

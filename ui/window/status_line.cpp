@@ -182,15 +182,14 @@ void StatusLine::updateSuccess() {
     if (!success) return;
     const bool other =
         best != nullptr && (shown->generation != best->generation || shown->individual != best->individual);
-    if (study::forgivesFalls(runs_->design().settings().evolution) && success->finished > 0) {
-        const stats::Count correct{success->count.successes, success->finished};
+    if (success->ofArriving) {
         success_->setText((other ? tr("final track: correct %1") : tr("correct %1"))
-                              .arg(models::successWord(std::optional(correct))));
+                              .arg(models::successWord(std::optional(success->rate))));
         success_->setToolTip(
             tr("Generation %1: %L2 of the %L3 parts that arrive are right, of %L4 that were fed.")
                 .arg(shown->generation)
-                .arg(correct.successes)
-                .arg(correct.trials)
+                .arg(success->count.successes)
+                .arg(success->finished)
                 .arg(success->count.trials));
         return;
     }

@@ -119,13 +119,20 @@ void StudyCard::setCover(const StudyCover& cover) {
         picture_->setText(cover.part);
     }
     if (cover.success) {
-        const auto& [rate, bounds, count] = *cover.success;
-        success_->setText(tr("<b>%1 %</b> success (%2 … %3)")
-                              .arg(percent(rate), percent(bounds.low), percent(bounds.high)));
-        setToolTip(study_ + '\n' +
-                   tr("%L1 of %L2 parts ended as wanted; in brackets the 95 % bounds (Clopper and Pearson).")
-                       .arg(count.successes)
-                       .arg(count.trials));
+        const auto& [ofArriving, rate, bounds, count, finished] = *cover.success;
+        success_->setText(
+            (ofArriving ? tr("<b>%1 %</b> correct (%2 … %3)") : tr("<b>%1 %</b> success (%2 … %3)"))
+                .arg(percent(rate), percent(bounds.low), percent(bounds.high)));
+        const QString told =
+            ofArriving ? tr("%L1 of the %L2 parts that arrived are right, of %L3 that were fed; in brackets "
+                            "the 95 % bounds.")
+                             .arg(count.successes)
+                             .arg(finished)
+                             .arg(count.trials)
+                       : tr("%L1 of %L2 parts ended as wanted; in brackets the 95 % bounds.")
+                             .arg(count.successes)
+                             .arg(count.trials);
+        setToolTip(study_ + '\n' + told);
     } else if (cover.generations > 0) {
         success_->setText(tr("%1 of %2 generations").arg(cover.generations).arg(cover.wanted));
     } else {

@@ -29,7 +29,7 @@ struct StudyCovers::Contents {
 
 namespace {
 
-constexpr int kVersion = 2;  // of the cache's files
+constexpr int kVersion = 3;  // of the cache's files
 
 QString cacheFolder() {
     return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/covers";
@@ -60,16 +60,17 @@ std::optional<study::Individual> findTrack(const store::StudyFile& file,
 std::optional<StudyCover::Success> readSuccess(const store::StudyFile& file,
                                                std::span<const study::SelectionRecord> selections,
                                                std::span<const study::ValidationRecord> validations,
-                                               const study::Individual& track) {
+                                               const study::Individual& track, bool fallsAreForgiven) {
     std::vector<part::PoseGroup> groups;
     // The part is made anew for its poses, which only a validation needs.
     if (!validations.empty()) {
         if (const auto design = workflow::loadDesign(file))
             groups = study::weighPoseGroups(*design->part, design->settings);
     }
-    const auto success = study::findSuccess(selections, validations, track, groups);
+    const auto success = study::findSuccess(selections, validations, track, groups, fallsAreForgiven);
     if (!success) return std::nullopt;
-    return StudyCover::Success{success->rate, success->calcInterval(), success->count};
+    return StudyCover::Success{success->ofArriving, success->rate, success->calcInterval(), success->count,
+                               success->finished};
 }
 
 }  // namespace
@@ -138,7 +139,8 @@ void StudyCovers::next() {
             contents.cover.wanted = settings->evolution.generations;
             contents.track = settings->track;
             if (const auto track = findTrack(*file, *selections)) {
-                contents.cover.success = readSuccess(*file, *selections, *validations, *track);
+                contents.cover.success = readSuccess(*file, *selections, *validations, *track,
+                                                     study::forgivesFalls(settings->evolution));
                 contents.design = track->record.design;
             }
             return contents;
@@ -203,9 +205,11 @@ bool StudyCovers::readCache(const QString& study) {
     cover.generations = kept["generations"].toInt();
     cover.wanted = kept["wanted"].toInt();
     if (kept.contains("trials"))
-        cover.success = {kept["rate"].toDouble(),
+        cover.success = {kept["of_arriving"].toBool(),
+                         kept["rate"].toDouble(),
                          {kept["low"].toDouble(), kept["high"].toDouble()},
-                         {kept["successes"].toInt(), kept["trials"].toInt()}};
+                         {kept["successes"].toInt(), kept["trials"].toInt()},
+                         kept["finished"].toInt()};
     cover.picture.load(cacheName(study) + ".png");
     cover.picture.setDevicePixelRatio(pixelRatio_);
     covers_[study] = cover;
@@ -221,11 +225,13 @@ void StudyCovers::writeCache(const QString& study, const QString& state) const {
                      {"generations", cover.generations},
                      {"wanted", cover.wanted}};
     if (cover.success) {
+        kept["of_arriving"] = cover.success->ofArriving;
         kept["rate"] = cover.success->rate;
         kept["low"] = cover.success->interval.low;
         kept["high"] = cover.success->interval.high;
         kept["successes"] = cover.success->count.successes;
         kept["trials"] = cover.success->count.trials;
+        kept["finished"] = cover.success->finished;
     }
     // A cache that cannot be written costs time and nothing else.
     if (!QDir().mkpath(cacheFolder())) return;

@@ -27,11 +27,13 @@ struct StudyCover {
     int generations = 0;  // learned
     int wanted = 0;
     struct Success {
+        bool ofArriving = false;
         double rate = 0.0;
         stats::Interval interval;
         stats::Count count;
+        int finished = 0;
     };
-    std::optional<Success> success;  // as study::findSuccess() knows it
+    std::optional<Success> success;  // as study::TrackSuccess has it
     QImage picture;                  // of its best track, or of the empty layout; null: could not be drawn
 };
 

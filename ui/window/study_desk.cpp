@@ -85,6 +85,17 @@ base::Status StudyDesk::createDraft(const workflow::LoadedPart& part) {
     return base::success();
 }
 
+void StudyDesk::openExample(const workflow::ExampleStudy& example,
+                            const std::function<void(const base::Status&)>& opened) {
+    const auto path = newDraftPath(std::string(example.name));
+    if (!path) return opened(path.error());
+    if (const auto copied = workflow::copyExample(example, *path); !copied) return opened(copied.error());
+    open(*path, [path = *path, opened](const base::Status& status) {
+        if (!status) removeStudy(path);
+        opened(status);
+    });
+}
+
 base::Status StudyDesk::forkToDraft() {
     const auto path = newDraftPath(session_->design().part()->name);
     if (!path) return path.error();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/workflow/example_studies.h"
 #include "ui/session/study_opening.h"
 #include "ui/session/study_session.h"
 #include "ui/window/recent_files.h"
@@ -44,6 +45,9 @@ class StudyDesk : public QObject {
     /// Opens it in the background, then tells whether that went well.
     void open(const std::filesystem::path& file, const std::function<void(const base::Status&)>& opened);
     base::Status createDraft(const workflow::LoadedPart& part);
+    /// A copy of a learned study that comes with the program, as a draft, opened as by open().
+    void openExample(const workflow::ExampleStudy& example,
+                     const std::function<void(const base::Status&)>& opened);
     base::Status forkToDraft();
     /// Deletes a draft's file if `keepDraft` is false.
     void close(bool keepDraft);

@@ -311,6 +311,32 @@ class ObjectivesTest : public QObject {
                         "sorting") < 1.3);
     }
 
+    // 80 trials on a grid of friction and stroke: those of low friction fail, and one of high.
+    void theWorstHalfOfTheBox() {
+        const Judge judge;
+        std::vector<Outcome> outcomes;
+        std::vector<trial::BoxPlace> places;
+        for (int i = 0; i < 80; ++i) {
+            trial::BoxPlace place = trial::kMiddle;
+            place[static_cast<std::size_t>(trial::Condition::friction)] = (i % 8 + 0.5) / 8.0;
+            place[static_cast<std::size_t>(trial::Condition::halfStroke)] = (i / 8 + 0.5) / 10.0;
+            const bool fails = i % 8 < 2 || i == 7;
+            places.push_back(place);
+            outcomes.push_back(finishedAfter(104e-3, 1.0, turn(fails ? 90.0 + i : 0.0, base::Vec3::UnitX())));
+        }
+        Evaluation evaluation = judge.evaluation(outcomes);
+        const auto worst = [&] { return objectives::findObjective("worst_half")->measure(evaluation); };
+        QVERIFY(std::abs(worst().value - 59.0 / 80.0) < 1e-12);  // no box: success of all
+        evaluation.places = places;
+        QVERIFY(std::abs(worst().value - 20.0 / 40.0) < 1e-12);
+        QVERIFY(std::abs(worst().error - std::sqrt(0.25 / 39.0)) < 1e-12);
+        // Where friction does not vary, strokes alone divide the box: ...
+        for (trial::BoxPlace& place : places)
+            place[static_cast<std::size_t>(trial::Condition::friction)] = 0.5;
+        // ... the lower half of the strokes has the failure of trial 7 as well.
+        QVERIFY(std::abs(worst().value - 29.0 / 40.0) < 1e-12);
+    }
+
     void speedIsThatOfThePartsThatFinish() {
         const Judge judge;
         std::vector<Outcome> outcomes{finishedAfter(104e-3, 1.0, base::Quaternion::Identity()),
@@ -402,10 +428,11 @@ class ObjectivesTest : public QObject {
     void unknownObjectivesAreNamed_data() {
         QTest::addColumn<QString>("text");
         QTest::addColumn<QString>("told");
-        QTest::newRow("unknown") << "F_C, F_Q"
-                                 << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-                                    "disorder, sorting, success, correct, conveying_speed. Write several "
-                                    "with commas between them.";
+        QTest::newRow("unknown")
+            << "F_C, F_Q"
+            << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
+               "disorder, sorting, success, correct, worst_half, conveying_speed. Write several "
+               "with commas between them.";
         QTest::newRow("empty") << ""
                                << "There is no objective named \"\".";
         QTest::newRow("end") << "F_C,"

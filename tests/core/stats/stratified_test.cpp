@@ -7,6 +7,7 @@
 #include "core/base/random.h"
 
 using namespace trapwright;
+using stats::ArrivalStratum;
 using stats::Interval;
 using stats::Stratum;
 
@@ -178,6 +179,73 @@ class StratifiedTest : public QObject {
         // 95 % less three standard deviations of 2000 draws.
         QVERIFY2(covered >= 0.935 * kStudies, qPrintable(QString::number(covered)));
         QVERIFY2(width / kStudies < 0.07, qPrintable(QString::number(width / kStudies)));
+    }
+
+    void correctOnesOfOneKindAreClopperAndPearsons() {
+        const stats::WeightedRate rate =
+            stats::estimateCorrect(std::vector<ArrivalStratum>{{0.7, 1000, 400, 380}});
+        QCOMPARE(rate.rate.value(), 0.95);
+        QVERIFY(agree(rate.interval, stats::calcClopperPearson(380, 400), 1e-9));
+        const stats::WeightedRate all =
+            stats::estimateCorrect(std::vector<ArrivalStratum>{{1.0, 1000, 400, 400}});
+        QVERIFY(agree(all.interval, stats::calcClopperPearson(400, 400), 1e-9));
+    }
+
+    void correctOnesOfAMixture() {
+        // Of a hundred parts 80 are of a kind of which half arrive, nine of ten right; of 20 all arrive
+        // wrong.
+        const stats::WeightedRate rate =
+            stats::estimateCorrect(std::vector<ArrivalStratum>{{0.8, 100, 50, 45}, {0.2, 500, 500, 0}});
+        QVERIFY(std::abs(rate.rate.value() - 0.36 / 0.6) < 1e-12);
+        QVERIFY(rate.interval.low > 0.45 && rate.interval.high < 0.75);
+    }
+
+    void correctOnesAreNotKnown() {
+        QVERIFY(!stats::estimateCorrect({}).rate);
+        QVERIFY(!stats::estimateCorrect(std::vector<ArrivalStratum>{{1.0, 100, 0, 0}}).rate);
+        // A kind that is met was never tried; one that is not does not matter.
+        QVERIFY(!stats::estimateCorrect(std::vector<ArrivalStratum>{{0.5, 10, 5, 5}, {0.5, 0, 0, 0}}).rate);
+        QVERIFY(stats::estimateCorrect(std::vector<ArrivalStratum>{{0.5, 10, 5, 5}, {0.0, 0, 0, 0}}).rate);
+    }
+
+    void correctOnesAreWithinTheirBounds_data() {
+        QTest::addColumn<double>("right");
+        QTest::newRow("nearly all") << 0.98;
+        QTest::newRow("three of four") << 0.75;
+    }
+
+    /// By chance, three kinds with 150 trials each, of which some arrive.
+    void correctOnesAreWithinTheirBounds() {
+        QFETCH(double, right);
+        const std::vector<double> weights = {0.6, 0.3, 0.1};
+        const std::vector<double> arrive = {0.4, 0.8, 0.1};
+        const std::vector<double> rates = {right, right - 0.1, 0.5};
+        double arrived = 0.0;
+        double correct = 0.0;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            arrived += weights[i] * arrive[i];
+            correct += weights[i] * arrive[i] * rates[i];
+        }
+        base::Random random({.seed = 6, .purpose = base::Purpose::validation});
+        constexpr int kStudies = 3000;
+        int covered = 0;
+        double width = 0.0;
+        for (int study = 0; study < kStudies; ++study) {
+            std::vector<ArrivalStratum> strata;
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                ArrivalStratum& kind = strata.emplace_back(ArrivalStratum{weights[i], 150, 0, 0});
+                for (int trial = 0; trial < kind.trials; ++trial) {
+                    if (random.uniform() >= arrive[i]) continue;
+                    ++kind.arrived;
+                    kind.right += random.uniform() < rates[i] ? 1 : 0;
+                }
+            }
+            const Interval interval = stats::estimateCorrect(strata).interval;
+            covered += interval.low <= correct / arrived && correct / arrived <= interval.high ? 1 : 0;
+            width += interval.high - interval.low;
+        }
+        QVERIFY2(covered >= 0.94 * kStudies, qPrintable(QString::number(covered)));
+        QVERIFY2(width / kStudies < 0.2, qPrintable(QString::number(width / kStudies)));
     }
 };
 

@@ -106,6 +106,11 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 15)
+        database.exec(
+            "ALTER TABLE selection DROP COLUMN box; ALTER TABLE validation DROP COLUMN box; "
+            "UPDATE study SET settings = json_remove(settings, '$.evolution.conditions', "
+            "'$.validation.conditions', '$.box')");
     if (version < 14)
         database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.strategyScope')");
     if (version < 13)

@@ -49,6 +49,7 @@ Settings unusualSettings() {
                    search::ga::FirstGeneration::random,
                    777,
                    "success, F_C",
+                   study::TrialConditions::varied,
                    trial::OrientationDistance::plain,
                    true,
                    4,
@@ -67,7 +68,16 @@ Settings unusualSettings() {
     s.simulation.start.lateral = 1.7e-3;
     s.simulation.gravity = 9.81;
     s.simulation.engine = "native";
-    s.validation = {30, 2000, 500, 24.9 * base::kDegree};
+    s.box = {trial::BoxDistribution::normal,
+             0.15,
+             0.25,
+             0.1 / 3.0,
+             0.01 / 3.0,
+             1.3 * base::kDegree,
+             0.7e-4,
+             0.13e-3,
+             1e-4 / 3.0};
+    s.validation = {30, 2000, 500, 24.9 * base::kDegree, study::TrialConditions::varied};
     s.feeder = {1.0 / 7.0, 2.5};
     return s;
 }

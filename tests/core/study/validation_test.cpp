@@ -334,6 +334,22 @@ class ValidationTest : public QObject {
         QVERIFY2(all[2].simplified().startsWith("1 1000 0 100.0 %"), qPrintable(all[2]));
     }
 
+    void whereFallsComeAgainTheRightOnesOfThoseThatArriveAreTold() {
+        study::ValidationRecord record;
+        record.rows = {{0, {600, 20, 0, 380}}, {1, {10, 40, 50, 900}}};
+        const std::vector<part::PoseGroup> groups = {{{0}, 0.9}, {{1}, 0.1}};
+        const study::ValidationTable table = study::tabulate(record, groups);
+        QVERIFY(std::abs(table.correct.rate.value() - 0.541 / (0.558 + 0.005)) < 1e-12);
+        QVERIFY(table.correct.interval.low > 0.94 && table.correct.interval.high < 0.98);
+        const QStringList lines = QString::fromStdString(study::formatValidation(table)).split('\n');
+        QVERIFY2(lines[4].simplified().startsWith("Correct 96.1 % "), qPrintable(lines[4]));
+        QCOMPARE(lines[4].size(), lines[0].size());
+        QCOMPARE(lines[7], QString("Correct: of those that arrive, weighted likewise."));
+        // What is only stuck or wrong does not come again.
+        record.rows = {{0, {600, 20, 380, 0}}};
+        QVERIFY(!study::tabulate(record, groups).correct.rate);
+    }
+
     void weightsSumToOne() {
         part::Part part = *fake::block();
         const std::vector<double> weights = study::poseWeights(part, {});

@@ -131,8 +131,9 @@ trial::TrialBatch makeBatch() {
         spec.phase = next();
         for (std::uint32_t k = 0; k < i; ++k)
             spec.parts.push_back({4 + k, next.pose(), next.vector(), next.vector(), next()});
-        spec.frictionScale = next();
-        spec.restitutionScale = next();
+        if (i > 0) spec.contact = {next(), next(), next()};
+        if (i > 1) spec.drive = {next(), next(), next()};
+        if (i > 1) spec.place = {next(), next(), next(), next(), next(), next()};
         batch.trials.push_back(spec);
     }
     return batch;
@@ -231,19 +232,24 @@ bool same(const trial::PartStart& a, const trial::PartStart& b) {
            same(a.angularVelocity, b.angularVelocity) && same(a.time, b.time);
 }
 
+bool same(const trial::ContactParameters& a, const trial::ContactParameters& b) {
+    return same(a.staticFriction, b.staticFriction) && same(a.kineticFriction, b.kineticFriction) &&
+           same(a.restitution, b.restitution);
+}
+
+bool same(const trial::Vibration& a, const trial::Vibration& b) {
+    return same(a.frequency, b.frequency) && same(a.halfStroke, b.halfStroke) && same(a.angle, b.angle);
+}
+
 bool same(const trial::TrialSpec& a, const trial::TrialSpec& b) {
     return a.stream == b.stream && same(a.phase, b.phase) && allSame(a.parts, b.parts, kSame) &&
-           same(a.frictionScale, b.frictionScale) && same(a.restitutionScale, b.restitutionScale);
+           a.contact.has_value() == b.contact.has_value() && (!a.contact || same(*a.contact, *b.contact)) &&
+           a.drive.has_value() == b.drive.has_value() && (!a.drive || same(*a.drive, *b.drive)) &&
+           a.place == b.place;
 }
 
 bool same(const trial::TrialBatch& a, const trial::TrialBatch& b) {
-    return same(a.drive.frequency, b.drive.frequency) && same(a.drive.halfStroke, b.drive.halfStroke) &&
-           same(a.drive.angle, b.drive.angle) && same(a.contact.staticFriction, b.contact.staticFriction) &&
-           same(a.contact.kineticFriction, b.contact.kineticFriction) &&
-           same(a.contact.restitution, b.contact.restitution) &&
-           same(a.partsContact.staticFriction, b.partsContact.staticFriction) &&
-           same(a.partsContact.kineticFriction, b.partsContact.kineticFriction) &&
-           same(a.partsContact.restitution, b.partsContact.restitution) &&
+    return same(a.drive, b.drive) && same(a.contact, b.contact) && same(a.partsContact, b.partsContact) &&
            same(a.termination.timeLimit, b.termination.timeLimit) &&
            same(a.termination.stuckTime, b.termination.stuckTime) &&
            same(a.termination.stuckProgress, b.termination.stuckProgress) && same(a.gravity, b.gravity) &&
@@ -389,8 +395,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 515, and this program "
-                         "knows version 3; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 516, and this program "
+                         "knows version 4; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

@@ -25,9 +25,12 @@ inline trial::TrialBatch makeRoughBatch(std::shared_ptr<const part::Part> part, 
         spec.parts[0].pose = {random.rotation(),
                               {x, y, verify::findSurfaceHeight(*batch.track, x, y) + 9e-3}};
         spec.phase = random.uniform(0.0, 2.0 * base::kPi);
-        // The scales make every trial's material its own.
-        spec.frictionScale = random.uniform(0.8, 1.2);
-        spec.restitutionScale = random.uniform(0.5, 1.5);
+        // Every trial's material is its own.
+        const double frictionScale = random.uniform(0.8, 1.2);
+        const double restitutionScale = random.uniform(0.5, 1.5);
+        spec.contact = {batch.contact.staticFriction * frictionScale,
+                        batch.contact.kineticFriction * frictionScale,
+                        batch.contact.restitution * restitutionScale};
         batch.trials.push_back(spec);
     }
     return batch;

@@ -329,9 +329,50 @@ class EngineTest : public QObject {
         later.trials[3].parts[0].time = 0.5;
         QVERIFY(
             refused(later, "parts that are there from the begin on, and that of trial 3 comes after 0.5"));
-        trial::TrialBatch kinds = batch_;
-        kinds.parts.push_back(kinds.parts[0]);
-        QVERIFY(refused(kinds, "one kind of part at a time, and this batch of trials has 2."));
+    }
+
+    // Kinds of parts, materials and drives trial by trial: each trial ends as it does in a batch where all is
+    // of this kind, bit for bit.
+    void trialsOfTheirOwnKindOfPartMaterialAndDrive() {
+        const auto engine = testing::makeEngine();
+        trial::TrialBatch mixed = batch_;
+        auto smaller = std::make_shared<part::Part>(*mixed.parts[0]);
+        for (geometry::ConvexPolytope& piece : smaller->pieces) {
+            for (base::Vec3& vertex : piece.vertices)
+                vertex *= 0.9;
+            for (geometry::PolytopeFace& face : piece.faces)
+                face.offset *= 0.9;
+        }
+        smaller->massProperties.inertia *= 0.81;
+        mixed.parts.push_back(smaller);
+        trial::TrialBatch uniform = mixed;
+        uniform.parts = {smaller};
+        uniform.contact = {0.3, 0.25, 0.4};
+        uniform.drive = {51.0, 0.7e-3, 13.0 * base::kDegree};
+        for (std::size_t i = 0; i < mixed.trials.size(); ++i) {
+            uniform.trials[i].contact.reset();
+            if (i % 2 == 0) continue;
+            mixed.trials[i].parts[0].part = 1;
+            mixed.trials[i].contact = uniform.contact;
+            mixed.trials[i].drive = uniform.drive;
+        }
+        trial::TrialBatch plain = batch_;
+        plain.step = uniform.step = mixed.step = 0.2e-3;  // whatever the drive is
+        const auto without = engine->run(std::vector{plain}, {});
+        const auto own = engine->run(std::vector{mixed}, {});
+        const auto alike = engine->run(std::vector{uniform}, {});
+        QVERIFY(without.ok() && own.ok() && alike.ok());
+        for (std::size_t i = 0; i < mixed.trials.size(); ++i) {
+            const trial::PartOutcome& expected = (i % 2 == 0 ? *without : *alike)[0][i].parts[0];
+            const trial::PartOutcome& got = (*own)[0][i].parts[0];
+            QCOMPARE(got.time, expected.time);
+            QVERIFY(got.ending == expected.ending);
+            QVERIFY(got.farthest.position == expected.farthest.position);
+            QVERIFY(got.farthest.rotation.coeffs() == expected.farthest.rotation.coeffs());
+        }
+        const auto replay = engine->replay(mixed, 3, 0.01, {});
+        QVERIFY(replay.ok());
+        QVERIFY(replay->outcome.parts[0].farthest.position == (*own)[0][3].parts[0].farthest.position);
     }
 };
 

@@ -68,12 +68,12 @@ class CertifyingTest : public QObject {
         batch.drive.halfStroke = 1.1e-3;
         batch.drive.angle = 20.0 * base::kDegree;
         const double phase = 0.7;
-        const simbody::Scene scene(batch);
+        const simbody::Scene scene(batch, *batch.parts.front());
         const base::Pose start{Quaternion(0.9, 0.1, -0.3, 0.2).normalized(), Vec3(0.1, 0.05, 1.0)};
         simbody::CertifyingTrial running(
             {&scene.track, &scene.body, batch.track->shape, batch.drive, phase,
              batch.parts.front()->massProperties.mass, batch.parts.front()->massProperties.inertia,
-             batch.gravity, simbody::lawOf(batch, batch.trials[0])},
+             batch.gravity, batch.contact},
             start, {Vec3(0.1, 0.2, 0.3), Vec3(3.0, -2.0, 5.0)});
         const contact::DriveMotion drive(batch.drive, batch.track->shape, phase);
         for (int i = 0; i <= 40; ++i) {

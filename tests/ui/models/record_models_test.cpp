@@ -285,6 +285,19 @@ class RecordModelsTest : public QObject {
         QVERIFY(!model.index(0, ValidationModel::Success).data(models::ValueRole).isValid());
     }
 
+    void rightOnesOfThoseThatArriveHaveARow() {
+        study::ValidationRecord record;
+        record.rows = {{0, {600, 20, 0, 380}}};
+        ValidationModel model;
+        model.setValidation(study::tabulate(record, std::vector<part::PoseGroup>{{{0}, 1.0}}));
+        QCOMPARE(model.rowCount(), 4);
+        QCOMPARE(model.totals(), 3);
+        QCOMPARE(textAt(model, 2, ValidationModel::Pose), QString("Correct"));
+        QCOMPARE(textAt(model, 2, ValidationModel::Success), QString("96.8"));
+        QCOMPARE(textAt(model, 2, ValidationModel::Trials), QString());
+        QVERIFY(model.index(2, ValidationModel::Pose).data(Qt::ToolTipRole).toString().contains("arrive"));
+    }
+
     void selectionIsRanked() {
         study::SelectionRecord record{"simbody", {}};
         record.entries.push_back({{439, 17},

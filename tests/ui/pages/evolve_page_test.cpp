@@ -15,6 +15,7 @@
 #include <QtTest>
 
 #include "core/study/selection.h"
+#include "core/study/standstill.h"
 #include "tests/ui/session/event_loop_probe.h"
 #include "tests/ui/session/session_fixture.h"
 #include "tests/ui/window/window_user.h"
@@ -155,6 +156,26 @@ class EvolvePageTest : public QObject {
         QCOMPARE(log->findItems("Generation", Qt::MatchStartsWith, 1).size(), kGenerations);
         QVERIFY(log->topLevelItem(log->topLevelItemCount() - 1)->text(1).startsWith("Ended"));
         QVERIFY(!user.find<QToolButton>("evolve.start")->isEnabled());
+    }
+
+    // A random search of many generations does not get on.
+    void whereNothingIsGainedItIsSaid() {
+        session::SessionFixture studies;
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        study::Settings settings = user.session()->design().settings();
+        settings.evolution.search = search::Method::random;
+        settings.evolution.generations = 30;
+        user.session()->design().changeSettings(settings, "Random");
+        const auto* label = user.find<QLabel>("evolve.standstill");
+        QVERIFY(!label->isVisible());
+        user.click("evolve.start");
+        QVERIFY(waitUntil([&] { return user.text("evolve.state") == "All 30 generations learned"; }));
+        const std::optional<int> since = study::findStandstill(user.session()->runs().summaries());
+        QVERIFY(since.has_value());
+        QVERIFY(label->isVisible());
+        QCOMPARE(label->text(), QString("Nothing was gained since generation %1.").arg(*since));
     }
 
     // Where parts that fall come again, those that arrive are what counts.

@@ -1,5 +1,6 @@
 // What a user meets first: the start page, the tour, the help, and what learning will cost.
 
+#include <QComboBox>
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
@@ -8,11 +9,15 @@
 
 #include "core/store/study_file.h"
 #include "core/study/track_design.h"
+#include "core/workflow/example_studies.h"
 #include "sim/engines/registry.h"
 #include "tests/ui/window/user.h"
 #include "ui/help/help_window.h"
+#include "ui/models/numbers.h"
+#include "ui/pages/page.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
+#include "ui/window/recent_files.h"
 #include "ui/window/study_card.h"
 #include "ui/window/tour.h"
 
@@ -130,6 +135,53 @@ class FirstRunTest : public QObject {
         QTRY_VERIFY(QApplication::activeModalWidget() == nullptr);
     }
 
+    void aLearnedExampleIsOpenedAsACopy() {
+        User user;
+        user.action("learned.cuboid")->trigger();
+        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
+        QVERIFY(user.window.desk().isDraft());
+        QVERIFY(!user.session()->runs().summaries().empty());
+        QVERIFY(!user.session()->runs().validations().empty());
+        const workflow::ExampleStudy example = workflow::findExampleStudy("cuboid").value();
+        QVERIFY(user.session()->path().parent_path() != workflow::findExampleFile(example).parent_path());
+        QTRY_VERIFY(user.find<pages::Page>("page.review")->isVisible());
+    }
+
+    // What falls off comes again: all pages and the start page tell the right ones of those that arrive.
+    void aSortedExampleIsToldByThePartsThatArrive() {
+        User user;
+        user.action("learned.screw")->trigger();
+        QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
+        QTRY_VERIFY(user.find<pages::Page>("page.review")->isVisible());
+        const session::StudyRuns& runs = user.session()->runs();
+        const study::Individual track = *runs.chosen();
+        const auto correct = runs.findSuccess(track);
+        QVERIFY(correct && correct->ofArriving && correct->arriving < 0.95);
+        const QString rate = models::percent(std::optional(correct->rate));
+        QTRY_COMPARE(user.find<QLabel>("review.success")->text(), QString("%1 %").arg(rate));
+        QVERIFY(user.find<QLabel>("review.successBounds")->text().startsWith("correct"));
+        QVERIFY(user.find<QLabel>("review.successSource")->text().startsWith("validation, of the 92"));
+        QVERIFY(user.find<QLabel>("status.success")->text().contains("correct " + rate));
+        QVERIFY(user.find<QComboBox>("review.track")->currentText().contains(rate));
+        user.window.showPage("export");
+        auto* check = user.find<QLabel>("print.check.success");
+        QTRY_VERIFY_WITH_TIMEOUT(check->text().contains(rate), kPatience);
+        QVERIFY2(check->text().contains("correct") && !check->text().contains("below"),
+                 qPrintable(check->text()));
+
+        const QString path = folder_.filePath("sorted.trap");
+        const auto example = workflow::findExampleFile(workflow::findExampleStudy("screw").value());
+        QVERIFY(QFile::copy(QString::fromStdString(example.string()), path));
+        window::RecentFiles().add(path.toStdString());
+        User next;
+        auto* card = next.find<window::StudyCard>("welcome.recent");
+        QVERIFY(card != nullptr);
+        auto* told = card->findChild<QLabel*>("card.success");
+        QTRY_VERIFY2_WITH_TIMEOUT(told->text().startsWith(QString("<b>%1 %</b> correct (").arg(rate)),
+                                  qPrintable(told->text()), kPatience);
+        QVERIFY(card->toolTip().contains("that were fed"));
+    }
+
     void aStudyThatIsGoneIsShownAndTakenOff() {
         const QString path = folder_.filePath("gone.trap");
         saveStudy(path);
@@ -169,7 +221,7 @@ class FirstRunTest : public QObject {
         auto* success = card->findChild<QLabel*>("card.success");
         // Clopper and Pearson's bounds of 980 of 1000: 96.9 to 98.8 %.
         QTRY_COMPARE_WITH_TIMEOUT(success->text(), QString("<b>98.0 %</b> success (96.9 … 98.8)"), kPatience);
-        QVERIFY(card->toolTip().contains("980 of 1,000") && card->toolTip().contains("Clopper and Pearson"));
+        QVERIFY(card->toolTip().contains("980 of 1,000") && card->toolTip().contains("95 % bounds"));
         QVERIFY(hasPicture(*card));
         QCOMPARE(card->size(), window::StudyCard::kSize);
         // From the cache the next time: there at once, before anything can have been read.

@@ -1,0 +1,354 @@
+#include "core/study/robustness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "core/objectives/conveying_speed.h"
+#include "core/stats/binomial.h"
+#include "core/study/trial_batches.h"
+
+namespace trapwright::study {
+
+namespace {
+
+using trial::BoxPlace;
+using trial::Condition;
+
+constexpr std::size_t kWorstCorners = 4;
+
+double& coordinate(BoxPlace& place, Condition condition) {
+    return place[static_cast<std::size_t>(condition)];
+}
+
+std::vector<Condition> listVarying(const Settings& settings) {
+    std::vector<Condition> varying;
+    for (const trial::ConditionText& text : trial::conditionTexts()) {
+        // Of the part its size: a centre of mass that is off has no ends to go from and to.
+        const bool room = text.condition == Condition::part
+                              ? settings.box.sizeBelow + settings.box.sizeAbove > 0.0
+                              : varies(settings.simulation, settings.box, text.condition);
+        if (room) varying.push_back(text.condition);
+    }
+    return varying;
+}
+
+/// Where conditions are as set. Ranges that are cut off have it off their middle.
+BoxPlace placeAsSet(const Settings& settings) {
+    BoxPlace place = trial::kMiddle;
+    const std::array asSet = {settings.simulation.contact.kineticFriction,
+                              settings.simulation.contact.restitution,
+                              settings.simulation.drive.halfStroke,
+                              settings.simulation.drive.frequency,
+                              settings.simulation.drive.angle,
+                              0.0};
+    for (std::size_t c = 0; c < trial::kConditions; ++c) {
+        const auto at = [&](double share) {
+            return conditionAt(settings.simulation, settings.box, static_cast<Condition>(c), share);
+        };
+        const double low = at(0.0);
+        const double high = at(1.0);
+        if (high > low) place[c] = (asSet[c] - low) / (high - low);
+    }
+    return place;
+}
+
+std::vector<BoxPlace> listCorners(const BoxPlace& asSet, std::span<const Condition> varying) {
+    std::vector<BoxPlace> corners;
+    for (std::size_t bits = 0; bits < (std::size_t{1} << varying.size()); ++bits) {
+        BoxPlace& corner = corners.emplace_back(asSet);
+        for (std::size_t v = 0; v < varying.size(); ++v)
+            coordinate(corner, varying[v]) = (bits >> v & 1U) != 0 ? 1.0 : 0.0;
+    }
+    return corners;
+}
+
+int trialsOfCorner(const RobustnessPlan& plan) {
+    return std::max(plan.trials / 3, 10);
+}
+
+/// Runs batches and tells what they came to.
+class Measurement {
+ public:
+    Measurement(const StudyInputs& inputs, std::shared_ptr<const track::Track> track,
+                base::RunControl control)
+        : inputs_(&inputs), track_(std::move(track)), control_(std::move(control)) {}
+
+    std::optional<base::Quaternion> expected;
+
+    base::Result<std::vector<PlaceResult>> measure(std::span<const BoxPlace> places, int first,
+                                                   int count) const {
+        std::vector<trial::TrialBatch> batches;
+        batches.reserve(places.size());
+        for (const BoxPlace& place : places)
+            batches.push_back(makePlaceBatch(*inputs_, track_, place, first, count));
+        auto results = measure(batches);
+        for (std::size_t i = 0; results && i < places.size(); ++i)
+            (*results)[i].place = places[i];
+        return results;
+    }
+
+    base::Result<std::vector<PlaceResult>> measure(std::span<const trial::TrialBatch> batches) const {
+        const auto outcomes = runTrials(*inputs_->engine, batches, control_);
+        if (!outcomes) return outcomes.error();
+        std::vector<PlaceResult> results;
+        for (std::size_t b = 0; b < batches.size(); ++b) {
+            objectives::Evaluation evaluation = makeEvaluation(*inputs_, *track_, 0, (*outcomes)[b]);
+            results.push_back({trial::kMiddle, tally((*outcomes)[b]),
+                               objectives::conveyingSpeed().measure(evaluation).value});
+        }
+        return results;
+    }
+
+    /// As set; finds what counts if it is not told.
+    base::Result<PlaceResult> measureAsSet(const BoxPlace& asSet, int count) {
+        const trial::TrialBatch batch = makePlaceBatch(*inputs_, track_, asSet, 0, count);
+        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_);
+        if (!outcomes) return outcomes.error();
+        const std::vector<trial::Outcome>& own = outcomes->front();
+        if (!expected)
+            expected = trial::findModalOrientation(trial::finalOrientations(own), inputs_->part->symmetry,
+                                                   inputs_->settings.validation.tolerance);
+        const objectives::Evaluation evaluation = makeEvaluation(*inputs_, *track_, 0, own);
+        return PlaceResult{asSet, tally(own), objectives::conveyingSpeed().measure(evaluation).value};
+    }
+
+ private:
+    [[nodiscard]] trial::Tally tally(std::span<const trial::Outcome> outcomes) const {
+        return trial::tally(outcomes, *expected, inputs_->part->symmetry,
+                            inputs_->settings.validation.tolerance);
+    }
+
+    const StudyInputs* inputs_;
+    std::shared_ptr<const track::Track> track_;
+    base::RunControl control_;
+};
+
+/// The two conditions of whose four common quarters of the corners one is worst.
+std::pair<Condition, Condition> findWorstPair(std::span<const PlaceResult> corners,
+                                              std::span<const Condition> varying) {
+    std::pair<Condition, Condition> worst{varying[0], varying[1]};
+    double least = 2.0;
+    for (std::size_t a = 0; a < varying.size(); ++a) {
+        for (std::size_t b = a + 1; b < varying.size(); ++b) {
+            for (const double x : {0.0, 1.0}) {
+                for (const double y : {0.0, 1.0}) {
+                    trial::Tally sum;
+                    for (const PlaceResult& corner : corners) {
+                        BoxPlace at = corner.place;
+                        if (coordinate(at, varying[a]) == x && coordinate(at, varying[b]) == y)
+                            sum += corner.tally;
+                    }
+                    const double share = static_cast<double>(sum.success) / std::max(sum.trials(), 1);
+                    if (share >= least) continue;
+                    least = share;
+                    worst = {varying[a], varying[b]};
+                }
+            }
+        }
+    }
+    return worst;
+}
+
+bool isWorse(const PlaceResult& a, const PlaceResult& b) {
+    return a.tally.success * static_cast<double>(b.tally.trials()) <
+           b.tally.success * static_cast<double>(a.tally.trials());
+}
+
+std::string shown(const Settings& settings, Condition condition, double share) {
+    const trial::ConditionText& text = trial::conditionTexts()[static_cast<std::size_t>(condition)];
+    const double value = conditionAt(settings.simulation, settings.box, condition, share) * text.shownAs;
+    std::string number = fmt::format("{:.{}f}", value + 0.0, text.decimals);
+    if (condition == Condition::part && value >= 0.0) number.insert(0, "+");
+    return text.unit.empty() ? number : fmt::format("{} {}", number, text.unit);
+}
+
+std::string shareText(const PlaceResult& result) {
+    const trial::Tally& tally = result.tally;
+    const stats::Interval bounds = stats::calcClopperPearson(tally.success, tally.trials());
+    return fmt::format("{:5.1f}   {:5.1f} ... {:5.1f}   {:6} {:6} {:6} {:8}   {:6.1f}\n",
+                       100.0 * tally.success / tally.trials(), 100.0 * bounds.low, 100.0 * bounds.high,
+                       tally.trials(), tally.wrongOrientation, tally.stuck, tally.fellOff,
+                       1e3 * result.speed);
+}
+
+}  // namespace
+
+base::Status RobustnessPlan::check() const {
+    constexpr int kMost = 1000000;
+    const auto within = [](int value, int low, int high) { return value >= low && value <= high; };
+    if (!within(trials, 10, kMost))
+        return base::Error{fmt::format("{} trials at each place; it must be from 10 to {}.", trials, kMost)};
+    if (!within(boxTrials, 10, kMost))
+        return base::Error{
+            fmt::format("{} trials over the box; it must be from 10 to {}.", boxTrials, kMost)};
+    if (!within(sweepPoints, 2, 101))
+        return base::Error{
+            fmt::format("{} points of each condition; it must be from 2 to 101.", sweepPoints)};
+    if (!within(mapPoints, 2, 41))
+        return base::Error{
+            fmt::format("A map of {} x {} points; it must be from 2 x 2 to 41 x 41.", mapPoints, mapPoints)};
+    return base::success();
+}
+
+trial::TrialBatch makePlaceBatch(const StudyInputs& inputs, const std::shared_ptr<const track::Track>& track,
+                                 const BoxPlace& place, int first, int count) {
+    const Settings& settings = inputs.settings;
+    trial::TrialBatch batch;
+    batch.track = track;
+    batch.parts = {
+        makeSpecimenAt(settings.box, inputs.part, place[static_cast<std::size_t>(Condition::part)])};
+    batch.drive = settings.simulation.drive;
+    batch.contact = settings.simulation.contact;
+    batch.termination = settings.simulation.termination;
+    batch.gravity = settings.simulation.gravity;
+    base::StreamKey key{settings.evolution.seed, 0, 0, static_cast<std::uint32_t>(first),
+                        base::Purpose::robustness};
+    for (int i = 0; i < count; ++i, ++key.trial) {
+        trial::TrialSpec& spec = batch.trials.emplace_back(
+            trial::drawTrial(*track, *batch.parts.front(), settings.simulation.start, key));
+        putAt(settings.simulation, settings.box, place, spec);
+    }
+    return batch;
+}
+
+std::int64_t countRobustnessTrials(const StudyInputs& inputs, const RobustnessPlan& plan) {
+    const auto varying = static_cast<std::int64_t>(listVarying(inputs.settings).size());
+    const std::int64_t corners = std::int64_t{1} << varying;
+    const std::int64_t map = varying > 1 ? std::int64_t{plan.mapPoints} * plan.mapPoints : 0;
+    return plan.trials + plan.boxTrials + varying * plan.sweepPoints * plan.trials +
+           corners * trialsOfCorner(plan) + std::min<std::int64_t>(corners, kWorstCorners) * plan.trials +
+           map * (plan.trials / 2);
+}
+
+base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
+                                           const std::shared_ptr<const track::Track>& track,
+                                           const std::optional<base::Quaternion>& expected,
+                                           const RobustnessPlan& plan, base::RunControl control) {
+    if (const auto checked = checkInputs(inputs); !checked) return checked.error();
+    if (const auto checked = plan.check(); !checked) return checked.error();
+    const Settings& settings = inputs.settings;
+    const std::vector<Condition> varying = listVarying(settings);
+    if (varying.empty())
+        return base::Error{
+            "The operating box has no room: all of box.friction, box.restitution, box.halfStroke_percent, "
+            "box.frequency_percent, box.angle_deg, box.sizeBelow_mm and box.sizeAbove_mm are 0. Set what is "
+            "not known exactly."};
+    Measurement measurement(inputs, track, std::move(control));
+    measurement.expected = expected;
+    Robustness robustness;
+
+    const BoxPlace asSet = placeAsSet(settings);
+    auto nominal = measurement.measureAsSet(asSet, plan.trials);
+    if (!nominal) return nominal.error();
+    robustness.nominal = *nominal;
+    robustness.expected = *measurement.expected;
+
+    Settings varied = settings;
+    varied.validation.conditions = TrialConditions::varied;
+    const trial::TrialBatch all =
+        makeSelectionBatch(makeScene(varied, inputs.part, track), {0, 0}, plan.boxTrials);
+    const auto overBox = measurement.measure({&all, 1});
+    if (!overBox) return overBox.error();
+    robustness.overBox = overBox->front();
+
+    for (const Condition condition : varying) {
+        std::vector<BoxPlace> places(static_cast<std::size_t>(plan.sweepPoints), asSet);
+        for (int i = 0; i < plan.sweepPoints; ++i)
+            coordinate(places[static_cast<std::size_t>(i)], condition) =
+                static_cast<double>(i) / (plan.sweepPoints - 1);
+        auto points = measurement.measure(places, 0, plan.trials);
+        if (!points) return points.error();
+        robustness.sweeps.push_back({condition, std::move(*points)});
+    }
+
+    auto corners = measurement.measure(listCorners(asSet, varying), 0, trialsOfCorner(plan));
+    if (!corners) return corners.error();
+    std::stable_sort(corners->begin(), corners->end(), isWorse);
+    std::vector<BoxPlace> worst;
+    for (std::size_t i = 0; i < std::min(kWorstCorners, corners->size()); ++i)
+        worst.push_back((*corners)[i].place);
+    auto fresh = measurement.measure(worst, plan.trials, plan.trials);
+    if (!fresh) return fresh.error();
+    robustness.corners = std::move(*fresh);
+    std::stable_sort(robustness.corners.begin(), robustness.corners.end(), isWorse);
+
+    if (varying.size() > 1) {
+        const auto [across, up] = findWorstPair(*corners, varying);
+        PairMap map{across, up, plan.mapPoints, {}};
+        std::vector<BoxPlace> places;
+        for (int row = 0; row < plan.mapPoints; ++row) {
+            for (int column = 0; column < plan.mapPoints; ++column) {
+                BoxPlace& place = places.emplace_back(asSet);
+                coordinate(place, map.across) = static_cast<double>(column) / (plan.mapPoints - 1);
+                coordinate(place, map.up) = static_cast<double>(row) / (plan.mapPoints - 1);
+            }
+        }
+        auto measured = measurement.measure(places, 0, plan.trials / 2);
+        if (!measured) return measured.error();
+        map.places = std::move(*measured);
+        robustness.worstPair = std::move(map);
+    }
+    return robustness;
+}
+
+std::string describePlace(const StudyInputs& inputs, const BoxPlace& place) {
+    std::string text;
+    for (const Condition condition : listVarying(inputs.settings)) {
+        std::string name(trial::conditionTexts()[static_cast<std::size_t>(condition)].name);
+        if (!text.empty()) name.front() = static_cast<char>(std::tolower(name.front()));
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
+                            shown(inputs.settings, condition, place[static_cast<std::size_t>(condition)]));
+    }
+    return text;
+}
+
+std::string formatRobustness(const StudyInputs& inputs, const Robustness& robustness) {
+    const Settings& settings = inputs.settings;
+    std::string text =
+        fmt::format("{:<34} success [%]   95 % bounds      trials  wrong  stuck fell off   mm/s\n", "");
+    const auto row = [&](const std::string& name, const PlaceResult& result) {
+        text += fmt::format("{:<40} {}", name, shareText(result));
+    };
+    row("As set", robustness.nominal);
+    row("All over the operating box", robustness.overBox);
+    for (const ConditionSweep& sweep : robustness.sweeps) {
+        text += fmt::format("{}, all else as set\n",
+                            trial::conditionTexts()[static_cast<std::size_t>(sweep.condition)].name);
+        for (const PlaceResult& point : sweep.points)
+            row("  " +
+                    shown(settings, sweep.condition, point.place[static_cast<std::size_t>(sweep.condition)]),
+                point);
+    }
+    text += "Worst corners, on fresh trials\n";
+    for (const PlaceResult& corner : robustness.corners) {
+        text += "  " + describePlace(inputs, corner.place) + '\n';
+        row("", corner);
+    }
+    if (robustness.worstPair) {
+        const PairMap& map = *robustness.worstPair;
+        const auto name = [](Condition condition) {
+            return trial::conditionTexts()[static_cast<std::size_t>(condition)].name;
+        };
+        text += fmt::format("Success [%] over the worst two: {} downwards, {} across\n{:>12}", name(map.up),
+                            name(map.across), "");
+        const auto share = [&](int i) { return static_cast<double>(i) / (map.points - 1); };
+        for (int column = 0; column < map.points; ++column)
+            text += fmt::format("{:>11}", shown(settings, map.across, share(column)));
+        text += '\n';
+        for (int line = 0; line < map.points; ++line) {
+            text += fmt::format("{:>12}", shown(settings, map.up, share(line)));
+            for (int column = 0; column < map.points; ++column) {
+                const trial::Tally& tally =
+                    map.places[static_cast<std::size_t>(line * map.points + column)].tally;
+                text += fmt::format("{:>11.1f}", 100.0 * tally.success / tally.trials());
+            }
+            text += '\n';
+        }
+    }
+    return text;
+}
+
+}  // namespace trapwright::study

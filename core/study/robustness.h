@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_control.h"
+#include "core/study/evaluator.h"
+#include "core/study/operating_box.h"
+#include "core/track/track.h"
+#include "core/trial/orientations.h"
+
+namespace trapwright::study {
+
+/// How much is simulated to find out how robust a track is.
+struct RobustnessPlan {
+    int trials = 200;      // of each single place
+    int boxTrials = 1000;  // all over the box
+    int sweepPoints = 7;   // of each condition that varies, from end to end of its range
+    int mapPoints = 5;     // in each direction of the worst pair's map; its places have half of the trials
+
+    /// An error that names what is out of range.
+    [[nodiscard]] base::Status check() const;
+};
+
+/// What trials at one place of the box, or over all of it, came to.
+struct PlaceResult {
+    trial::BoxPlace place = trial::kMiddle;
+    trial::Tally tally;
+    double speed = 0.0;  // mean along the track of the parts that finish [m/s]; 0 if none does
+};
+
+/// Success over one condition, all others as they are set.
+struct ConditionSweep {
+    trial::Condition condition = trial::Condition::friction;
+    std::vector<PlaceResult> points;  // by rising condition
+};
+
+/// Success over two conditions, all others as they are set.
+struct PairMap {
+    trial::Condition across = trial::Condition::friction;
+    trial::Condition up = trial::Condition::friction;
+    int points = 0;                   // in each direction
+    std::vector<PlaceResult> places;  // row by row, from low to high
+};
+
+/// How a track does where the physics is not quite what was set.
+struct Robustness {
+    base::Quaternion expected =
+        base::Quaternion::Identity();    // what counts: the mode as set, or what was given
+    PlaceResult nominal;                 // as set
+    PlaceResult overBox;                 // its place has no meaning
+    std::vector<ConditionSweep> sweeps;  // of all conditions that vary
+    std::vector<PlaceResult>
+        corners;  // the worst four of all corners of the box, on fresh trials, worst first
+    std::optional<PairMap> worstPair;  // the two conditions whose common corners are worst; none of fewer
+};
+
+/// The trials of a place: what each of `count` starts becomes there, from `first` on. The same starts at all
+/// places, so that differences are the conditions'.
+trial::TrialBatch makePlaceBatch(const StudyInputs& inputs, const std::shared_ptr<const track::Track>& track,
+                                 const trial::BoxPlace& place, int first, int count);
+
+/// How many trials that takes, for progress.
+std::int64_t countRobustnessTrials(const StudyInputs& inputs, const RobustnessPlan& plan);
+
+/// Simulates the track all over the settings' operating box: as set, over the box at random, over each
+/// condition, in all its corners (a few trials each; the worst again on fresh ones, since the worst of many
+/// counts is an unlucky one), and the map of the worst two conditions. `expected`: the orientation that
+/// counts; none: the mode as set. Errors: settings, a box without room, the engine's, cancelled.
+base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
+                                           const std::shared_ptr<const track::Track>& track,
+                                           const std::optional<base::Quaternion>& expected,
+                                           const RobustnessPlan& plan, base::RunControl control);
+
+/// A table of all of it, for people.
+std::string formatRobustness(const StudyInputs& inputs, const Robustness& robustness);
+
+/// "Friction 0.30, half-stroke 0.704 mm": what varies, as it is at a place.
+std::string describePlace(const StudyInputs& inputs, const trial::BoxPlace& place);
+
+}  // namespace trapwright::study

@@ -1,0 +1,19 @@
+#include "core/trial/conditions.h"
+
+#include "core/base/math.h"
+
+namespace trapwright::trial {
+
+std::span<const ConditionText> conditionTexts() {
+    static constexpr std::array<ConditionText, kConditions> kTexts = {{
+        {Condition::friction, "friction", "Friction", "", 1.0, 2},
+        {Condition::restitution, "restitution", "Restitution", "", 1.0, 2},
+        {Condition::halfStroke, "half_stroke_mm", "Half-stroke", "mm", 1e3, 3},
+        {Condition::frequency, "frequency_Hz", "Frequency", "Hz", 1.0, 1},
+        {Condition::angle, "angle_deg", "Vibration angle", "deg", 1.0 / base::kDegree, 1},
+        {Condition::part, "part_mm", "Part size", "mm", 1e3, 3},
+    }};
+    return kTexts;
+}
+
+}  // namespace trapwright::trial

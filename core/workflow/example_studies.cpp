@@ -1,0 +1,67 @@
+#include "core/workflow/example_studies.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+#include <system_error>
+
+#include "core/base/resources.h"
+
+namespace trapwright::workflow {
+
+namespace {
+
+constexpr std::array kExamples = {
+    ExampleStudy{"cuboid", "the paper's cuboid, turned over by a free-form trap"},
+    ExampleStudy{"cuboid-bowl", "the same in the paper's bowl of 175 mm"},
+    ExampleStudy{"screw", "a pan-head screw: gaps throw out what lies wrong"},
+    ExampleStudy{"bolt", "a hexagon bolt M4 x 12, likewise"},
+    ExampleStudy{"wedge", "a wedge, which has no symmetry: one in four arrives, 98 % of these right"},
+    ExampleStudy{"washer", "a washer, laid flat by a free-form trap"},
+};
+
+}  // namespace
+
+std::span<const ExampleStudy> listExampleStudies() {
+    return kExamples;
+}
+
+std::string nameExampleStudies() {
+    std::string names;
+    for (const ExampleStudy& example : kExamples)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", example.name);
+    return names;
+}
+
+base::Result<ExampleStudy> findExampleStudy(std::string_view name) {
+    for (const ExampleStudy& example : kExamples) {
+        if (example.name == name) return example;
+    }
+    return base::Error{
+        fmt::format("There is no example study \"{}\". The examples are {}.", name, nameExampleStudies())};
+}
+
+std::filesystem::path findExampleFile(const ExampleStudy& example) {
+    return base::findResource(std::filesystem::path("studies") / fmt::format("{}.trap", example.name));
+}
+
+base::Status copyExample(const ExampleStudy& example, const std::filesystem::path& path) {
+    const std::filesystem::path source = findExampleFile(example);
+    std::error_code failure;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, failure)))
+        return base::Error{path.string() + " exists already. Choose another name for the copy."};
+    std::filesystem::copy_file(source, path, failure);
+    // An installed one may be read-only.
+    if (!failure) {
+        using std::filesystem::perms;
+        std::filesystem::permissions(path, perms::owner_read | perms::owner_write,
+                                     std::filesystem::perm_options::add, failure);
+    }
+    if (!failure) return base::success();
+    const std::string reason = failure.message();
+    std::filesystem::remove(path, failure);
+    return base::Error{fmt::format("{} cannot be copied to {}: {}.", source.string(), path.string(), reason)};
+}
+
+}  // namespace trapwright::workflow
