@@ -1,16 +1,20 @@
 #include <fmt/format.h>
 
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/trapwright/command.h"
+#include "app/trapwright/engines.h"
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
+#include "app/trapwright/track_source.h"
 #include "app/trapwright/work_display.h"
 #include "core/study/robustness.h"
 #include "core/study/track_design.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -19,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-    std::string study;
+    TrackRequest track;  // its file may be a study
     IndividualChoice choice;
     study::RobustnessPlan plan;
     std::vector<double> expected;  // w x y z
@@ -32,6 +36,15 @@ struct Options {
     std::optional<double> size;        // [mm]
     std::optional<std::string> engine;
     unsigned threads = 0;
+};
+
+/// A track, and what it is measured with.
+struct Subject {
+    study::StudyInputs inputs;
+    std::shared_ptr<const track::Track> track;
+    std::optional<base::Quaternion> expected;  // of a track that tells it
+    std::string name;                          // for people
+    Json json;
 };
 
 void takeBox(const Options& options, trial::OperatingBox& box) {
@@ -57,7 +70,8 @@ Json placeToJson(const study::Settings& settings, const trial::BoxPlace& place) 
 
 Json resultToJson(const study::PlaceResult& result) {
     const trial::Tally& tally = result.tally;
-    return {{"success", shareToJson(tally.success, tally.trials())},
+    return {{"trials", tally.trials()},
+            {"success", shareToJson(tally.success, tally.trials())},
             {"wrong_orientation", tally.wrongOrientation},
             {"stuck", tally.stuck},
             {"fell_off", tally.fellOff},
@@ -67,7 +81,7 @@ Json resultToJson(const study::PlaceResult& result) {
 Json resultsToJson(const study::Settings& settings, std::span<const study::PlaceResult> results) {
     Json list = Json::array();
     for (const study::PlaceResult& result : results) {
-        Json json = placeToJson(settings, result.place);
+        Json json = placeToJson(settings, *result.trials.place);
         json.update(resultToJson(result));
         list.push_back(std::move(json));
     }
@@ -94,44 +108,75 @@ Json toJson(const study::Settings& settings, const study::Robustness& robustness
     return json;
 }
 
-Attempt<ExitCode> run(const Options& options, const Console& console) {
-    if (const auto checked = options.plan.check(); !checked)
-        return Failure{ExitCode::usage, checked.error().message};
-    std::optional<base::Quaternion> expected;
-    if (!options.expected.empty()) {
-        const std::vector<double>& q = options.expected;
-        expected = base::Quaternion(q[0], q[1], q[2], q[3]);
-        if (!(expected->norm() > 0.0)) return Failure{ExitCode::usage, "--expected must not be all zero."};
-        expected->normalize();
-    }
-    auto study = openStudy(options.study, Access::read);
+/// Studies are databases; a track is JSON.
+bool isTrackFile(const std::string& file) {
+    std::ifstream stream(file);
+    stream >> std::ws;
+    return stream.peek() == '{';
+}
+
+Attempt<Subject> loadTrackSubject(const Options& options, const Console& console) {
+    auto loaded = loadTrack(options.track, console);
+    if (!loaded) return loaded.error();
+    auto engine =
+        makeJudge(options.engine.value_or(engines::registry().reference().name), {options.threads, 0.0});
+    if (!engine) return engine.error();
+    const std::string name =
+        fmt::format("{}, part {}, engine {}", options.track.file, loaded->part->name, (*engine)->name());
+    Json json = {{"track", options.track.file}, {"part", loaded->part->name}};
+    return Subject{{loaded->settings, loaded->part, *engine, options.threads},
+                   loaded->track,
+                   loaded->expected,
+                   name,
+                   std::move(json)};
+}
+
+Attempt<Subject> loadStudySubject(const Options& options) {
+    auto study = openStudy(options.track.file, Access::read);
     if (!study) return study.error();
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.error();
     auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
     if (!inputs) return inputs.error();
-    takeBox(options, inputs->settings.box);
-    if (const auto checked = study::checkInputs(*inputs); !checked)
-        return Failure{ExitCode::usage, checked.error().message};
     auto built = study::decodeTrack(inputs->settings.track, individual->record.design);
     if (!built) return Failure{ExitCode::badInput, built.error().message};
+    const std::string name = fmt::format("Generation {}, individual {}, engine {}", individual->generation,
+                                         individual->individual, inputs->engine->name());
+    Json json = {{"study", options.track.file},
+                 {"generation", individual->generation},
+                 {"individual", individual->individual}};
+    return Subject{std::move(*inputs), std::make_shared<const track::Track>(std::move(*built)), std::nullopt,
+                   name, std::move(json)};
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    if (const auto checked = options.plan.check(); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+    auto subject =
+        isTrackFile(options.track.file) ? loadTrackSubject(options, console) : loadStudySubject(options);
+    if (!subject) return subject.error();
+    if (!options.expected.empty()) {
+        const std::vector<double>& q = options.expected;
+        const base::Quaternion given(q[0], q[1], q[2], q[3]);
+        if (!(given.norm() > 0.0)) return Failure{ExitCode::usage, "--expected must not be all zero."};
+        subject->expected = given.normalized();
+    }
+    study::StudyInputs& inputs = subject->inputs;
+    takeBox(options, inputs.settings.box);
+    if (const auto checked = study::checkInputs(inputs); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
 
     const base::RunControl control;
     const auto robustness = [&] {
-        const WorkDisplay display(
-            console, watchTrials("Robustness", study::countRobustnessTrials(*inputs, options.plan), control));
-        return study::measureRobustness(*inputs, std::make_shared<const track::Track>(std::move(*built)),
-                                        expected, options.plan, control);
+        const std::int64_t trials = study::countRobustnessTrials(inputs.settings, options.plan);
+        const WorkDisplay display(console, watchTrials("Robustness", trials, control));
+        return study::measureRobustness(inputs, subject->track, subject->expected, options.plan, control);
     }();
     if (!robustness) return describeRunFailure(control, robustness.error());
-    console.print(fmt::format("Generation {}, individual {}, engine {}\n{}", individual->generation,
-                              individual->individual, inputs->engine->name(),
-                              study::formatRobustness(*inputs, *robustness)));
-    console.emit({{"study", options.study},
-                  {"generation", individual->generation},
-                  {"individual", individual->individual},
-                  {"engine", inputs->engine->name()},
-                  {"robustness", toJson(inputs->settings, *robustness)}});
+    console.print(fmt::format("{}\n{}", subject->name, study::formatRobustness(inputs, *robustness)));
+    subject->json["engine"] = inputs.engine->name();
+    subject->json["robustness"] = toJson(inputs.settings, *robustness);
+    console.emit(subject->json);
     return ExitCode::ok;
 }
 
@@ -145,19 +190,20 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
         "condition, in its worst corners, and the map of the worst two conditions. Nothing is stored.",
         "trapwright robustness cuboid.trap --engine native",
         [options](const Console& console) { return run(*options, console); });
-    command.addOption("STUDY", options->study, "The study's file").required();
+    command.addOption("FILE", options->track.file, "A study, or a track as JSON in mm").required();
     addIndividualOptions(command, options->choice);
+    addTrackOptions(command, options->track);
     command.addOption("--trials", options->plan.trials, "At each place (200)");
     command.addOption("--box-trials", options->plan.boxTrials, "All over the box (1000)");
     command.addOption("--points", options->plan.sweepPoints, "Of each condition (7)");
     command.addOption("--map", options->plan.mapPoints, "Of the worst two conditions' map, each way (5)");
-    command.addOption("--friction", options->friction,
-                      "Half of its range, instead of the study's, as the five below");
-    command.addOption("--restitution", options->restitution, "Half of its range");
-    command.addOption("--half-stroke", options->halfStroke, "Half of its range in %");
-    command.addOption("--frequency", options->frequency, "Half of its range in %");
-    command.addOption("--angle", options->angle, "Half of its range in degrees");
-    command.addOption("--size", options->size, "How much less or more a part's extents may be, in mm");
+    command.addOption("--friction-range", options->friction,
+                      "Half of it, instead of the study's, as of the five below");
+    command.addOption("--restitution-range", options->restitution, "Half of it");
+    command.addOption("--half-stroke-range", options->halfStroke, "Half of it in %");
+    command.addOption("--frequency-range", options->frequency, "Half of it in %");
+    command.addOption("--angle-range", options->angle, "Half of it in degrees");
+    command.addOption("--size-range", options->size, "How much less or more a part's extents may be, in mm");
     command
         .addOption("--expected", options->expected,
                    "The orientation that counts as success, w x y z (default: the most frequent final one "

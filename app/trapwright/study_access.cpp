@@ -124,9 +124,10 @@ Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::option
 }
 
 void addConditionsOption(Command command, std::optional<std::string>& conditions) {
-    command.addOption(
-        "--conditions", conditions,
-        "nominal: all trials as set; varied: over the operating box (default: as in the study)");
+    command
+        .addOption("--conditions", conditions,
+                   "nominal: all trials as set; varied: over the operating box (default: as in the study)")
+        .type("CONDITIONS");
 }
 
 Attempt<ExitCode> takeConditions(const std::optional<std::string>& conditions, study::Settings& settings) {

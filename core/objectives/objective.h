@@ -28,6 +28,7 @@ struct Evaluation {
     std::optional<int> oriented{};
     /// Where these trials are in the operating box; empty: they are all alike.
     std::span<const trial::BoxPlace> places{};
+    bool isVaried = false;  // trials are, or would be, all over an operating box
 };
 
 struct Measured {
@@ -48,6 +49,8 @@ struct Objective {
     bool isNoisy = true;         // differs from trials to trials
     bool isDetail = false;       // for those who look into the algorithm
     bool usesTolerance = false;  // differs with the tolerance of success
+    /// Whether it says anything of a study's trials; null: of all. What counts in F is measured all the same.
+    bool (*applies)(const Evaluation& evaluation) = nullptr;
     /// Of a track that was not simulated no more than what its trials could give at worst.
     Measured (*measure)(const Evaluation& evaluation) = nullptr;
     /// The value of a perfect feeder from random starts. Null: there is no telling.

@@ -132,6 +132,7 @@ Fitness measureOthers(const Evaluation& evaluation, const Fitness& summed) {
     Fitness fitness{summed.total, {}};
     for (const Objective& objective : allObjectives()) {
         const Score* known = findScore(summed, objective.key);
+        if (known == nullptr && objective.applies != nullptr && !objective.applies(evaluation)) continue;
         fitness.scores.push_back(known != nullptr ? *known : score(objective, evaluation));
     }
     return fitness;

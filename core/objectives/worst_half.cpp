@@ -43,6 +43,8 @@ Objective worstHalf() {
     objective.symbol = "Worst half";
     objective.name = "Worst half";
     objective.help = "Success in the half of the operating box where it is least. Higher is better.";
+    objective.isDetail = true;
+    objective.applies = [](const Evaluation& evaluation) { return evaluation.isVaried; };
     objective.measure = &measureWorstHalf;
     return objective;
 }

@@ -198,6 +198,9 @@ objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Tr
                                       std::span<const trial::BoxPlace> places) {
     objectives::Evaluation evaluation;
     evaluation.places = places;
+    // What was not simulated was not in learning.
+    evaluation.isVaried = !places.empty() || (outcomes.empty() && inputs.settings.evolution.conditions ==
+                                                                      TrialConditions::varied);
     evaluation.track = &track;
     evaluation.symmetry = &inputs.part->symmetry;
     evaluation.overlaps = overlaps;

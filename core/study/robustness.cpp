@@ -78,47 +78,50 @@ class Measurement {
 
     std::optional<base::Quaternion> expected;
 
-    base::Result<std::vector<PlaceResult>> measure(std::span<const BoxPlace> places, int first,
-                                                   int count) const {
+    base::Result<std::vector<PlaceResult>> measure(std::span<const PlaceTrials> wanted) const {
         std::vector<trial::TrialBatch> batches;
-        batches.reserve(places.size());
-        for (const BoxPlace& place : places)
-            batches.push_back(makePlaceBatch(*inputs_, track_, place, first, count));
-        auto results = measure(batches);
-        for (std::size_t i = 0; results && i < places.size(); ++i)
-            (*results)[i].place = places[i];
-        return results;
-    }
-
-    base::Result<std::vector<PlaceResult>> measure(std::span<const trial::TrialBatch> batches) const {
+        batches.reserve(wanted.size());
+        for (const PlaceTrials& trials : wanted)
+            batches.push_back(makePlaceBatch(inputs_->settings, inputs_->part, track_, trials));
         const auto outcomes = runTrials(*inputs_->engine, batches, control_);
         if (!outcomes) return outcomes.error();
         std::vector<PlaceResult> results;
-        for (std::size_t b = 0; b < batches.size(); ++b) {
-            objectives::Evaluation evaluation = makeEvaluation(*inputs_, *track_, 0, (*outcomes)[b]);
-            results.push_back({trial::kMiddle, tally((*outcomes)[b]),
-                               objectives::conveyingSpeed().measure(evaluation).value});
-        }
+        results.reserve(wanted.size());
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            results.push_back(resultOf(wanted[i], (*outcomes)[i]));
         return results;
+    }
+
+    base::Result<std::vector<PlaceResult>> measure(std::span<const BoxPlace> places, int first,
+                                                   int count) const {
+        std::vector<PlaceTrials> wanted;
+        wanted.reserve(places.size());
+        for (const BoxPlace& place : places)
+            wanted.push_back({place, first, count});
+        return measure(wanted);
     }
 
     /// As set; finds what counts if it is not told.
     base::Result<PlaceResult> measureAsSet(const BoxPlace& asSet, int count) {
-        const trial::TrialBatch batch = makePlaceBatch(*inputs_, track_, asSet, 0, count);
+        const PlaceTrials wanted{asSet, 0, count};
+        const trial::TrialBatch batch = makePlaceBatch(inputs_->settings, inputs_->part, track_, wanted);
         const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_);
         if (!outcomes) return outcomes.error();
         const std::vector<trial::Outcome>& own = outcomes->front();
         if (!expected)
             expected = trial::findModalOrientation(trial::finalOrientations(own), inputs_->part->symmetry,
                                                    inputs_->settings.validation.tolerance);
-        const objectives::Evaluation evaluation = makeEvaluation(*inputs_, *track_, 0, own);
-        return PlaceResult{asSet, tally(own), objectives::conveyingSpeed().measure(evaluation).value};
+        return resultOf(wanted, own);
     }
 
  private:
-    [[nodiscard]] trial::Tally tally(std::span<const trial::Outcome> outcomes) const {
-        return trial::tally(outcomes, *expected, inputs_->part->symmetry,
-                            inputs_->settings.validation.tolerance);
+    [[nodiscard]] PlaceResult resultOf(const PlaceTrials& trials,
+                                       std::span<const trial::Outcome> outcomes) const {
+        const objectives::Evaluation evaluation = makeEvaluation(*inputs_, *track_, 0, outcomes);
+        return {trials,
+                trial::tally(outcomes, *expected, inputs_->part->symmetry,
+                             inputs_->settings.validation.tolerance),
+                objectives::conveyingSpeed().measure(evaluation).value};
     }
 
     const StudyInputs* inputs_;
@@ -137,7 +140,7 @@ std::pair<Condition, Condition> findWorstPair(std::span<const PlaceResult> corne
                 for (const double y : {0.0, 1.0}) {
                     trial::Tally sum;
                     for (const PlaceResult& corner : corners) {
-                        BoxPlace at = corner.place;
+                        BoxPlace at = *corner.trials.place;
                         if (coordinate(at, varying[a]) == x && coordinate(at, varying[b]) == y)
                             sum += corner.tally;
                     }
@@ -193,29 +196,38 @@ base::Status RobustnessPlan::check() const {
     return base::success();
 }
 
-trial::TrialBatch makePlaceBatch(const StudyInputs& inputs, const std::shared_ptr<const track::Track>& track,
-                                 const BoxPlace& place, int first, int count) {
-    const Settings& settings = inputs.settings;
+trial::TrialBatch makePlaceBatch(const Settings& settings, const std::shared_ptr<const part::Part>& part,
+                                 const std::shared_ptr<const track::Track>& track,
+                                 const PlaceTrials& trials) {
+    if (!trials.place) {
+        Settings varied = settings;
+        varied.validation.conditions = TrialConditions::varied;
+        trial::TrialBatch batch =
+            makeSelectionBatch(makeScene(varied, part, track), {0, 0}, trials.first + trials.count);
+        batch.trials.erase(batch.trials.begin(), batch.trials.begin() + trials.first);
+        return batch;
+    }
     trial::TrialBatch batch;
     batch.track = track;
     batch.parts = {
-        makeSpecimenAt(settings.box, inputs.part, place[static_cast<std::size_t>(Condition::part)])};
+        makeSpecimenAt(settings.box, part, (*trials.place)[static_cast<std::size_t>(Condition::part)])};
     batch.drive = settings.simulation.drive;
     batch.contact = settings.simulation.contact;
     batch.termination = settings.simulation.termination;
     batch.gravity = settings.simulation.gravity;
-    base::StreamKey key{settings.evolution.seed, 0, 0, static_cast<std::uint32_t>(first),
+    base::StreamKey key{settings.evolution.seed, 0, 0, static_cast<std::uint32_t>(trials.first),
                         base::Purpose::robustness};
-    for (int i = 0; i < count; ++i, ++key.trial) {
+    for (int i = 0; i < trials.count; ++i, ++key.trial) {
         trial::TrialSpec& spec = batch.trials.emplace_back(
             trial::drawTrial(*track, *batch.parts.front(), settings.simulation.start, key));
-        putAt(settings.simulation, settings.box, place, spec);
+        putAt(settings.simulation, settings.box, *trials.place, spec);
     }
     return batch;
 }
 
-std::int64_t countRobustnessTrials(const StudyInputs& inputs, const RobustnessPlan& plan) {
-    const auto varying = static_cast<std::int64_t>(listVarying(inputs.settings).size());
+std::int64_t countRobustnessTrials(const Settings& settings, const RobustnessPlan& plan) {
+    const auto varying = static_cast<std::int64_t>(listVarying(settings).size());
+    if (varying == 0) return 0;
     const std::int64_t corners = std::int64_t{1} << varying;
     const std::int64_t map = varying > 1 ? std::int64_t{plan.mapPoints} * plan.mapPoints : 0;
     return plan.trials + plan.boxTrials + varying * plan.sweepPoints * plan.trials +
@@ -246,11 +258,8 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
     robustness.nominal = *nominal;
     robustness.expected = *measurement.expected;
 
-    Settings varied = settings;
-    varied.validation.conditions = TrialConditions::varied;
-    const trial::TrialBatch all =
-        makeSelectionBatch(makeScene(varied, inputs.part, track), {0, 0}, plan.boxTrials);
-    const auto overBox = measurement.measure({&all, 1});
+    const PlaceTrials anywhere{std::nullopt, 0, plan.boxTrials};
+    const auto overBox = measurement.measure({&anywhere, 1});
     if (!overBox) return overBox.error();
     robustness.overBox = overBox->front();
 
@@ -269,7 +278,7 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
     std::stable_sort(corners->begin(), corners->end(), isWorse);
     std::vector<BoxPlace> worst;
     for (std::size_t i = 0; i < std::min(kWorstCorners, corners->size()); ++i)
-        worst.push_back((*corners)[i].place);
+        worst.push_back(*(*corners)[i].trials.place);
     auto fresh = measurement.measure(worst, plan.trials, plan.trials);
     if (!fresh) return fresh.error();
     robustness.corners = std::move(*fresh);
@@ -294,13 +303,13 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
     return robustness;
 }
 
-std::string describePlace(const StudyInputs& inputs, const BoxPlace& place) {
+std::string describePlace(const Settings& settings, const BoxPlace& place) {
     std::string text;
-    for (const Condition condition : listVarying(inputs.settings)) {
+    for (const Condition condition : listVarying(settings)) {
         std::string name(trial::conditionTexts()[static_cast<std::size_t>(condition)].name);
         if (!text.empty()) name.front() = static_cast<char>(std::tolower(name.front()));
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
-                            shown(inputs.settings, condition, place[static_cast<std::size_t>(condition)]));
+                            shown(settings, condition, place[static_cast<std::size_t>(condition)]));
     }
     return text;
 }
@@ -318,13 +327,13 @@ std::string formatRobustness(const StudyInputs& inputs, const Robustness& robust
         text += fmt::format("{}, all else as set\n",
                             trial::conditionTexts()[static_cast<std::size_t>(sweep.condition)].name);
         for (const PlaceResult& point : sweep.points)
-            row("  " +
-                    shown(settings, sweep.condition, point.place[static_cast<std::size_t>(sweep.condition)]),
+            row("  " + shown(settings, sweep.condition,
+                             (*point.trials.place)[static_cast<std::size_t>(sweep.condition)]),
                 point);
     }
     text += "Worst corners, on fresh trials\n";
     for (const PlaceResult& corner : robustness.corners) {
-        text += "  " + describePlace(inputs, corner.place) + '\n';
+        text += "  " + describePlace(settings, *corner.trials.place) + '\n';
         row("", corner);
     }
     if (robustness.worstPair) {

@@ -27,9 +27,19 @@ struct RobustnessPlan {
     [[nodiscard]] base::Status check() const;
 };
 
-/// What trials at one place of the box, or over all of it, came to.
+/// Trials of a track where the physics is not quite what was set: trial i has the same start at all places,
+/// so that differences are the conditions'.
+struct PlaceTrials {
+    std::optional<trial::BoxPlace> place;  // none: each trial somewhere else in the box
+    int first = 0;
+    int count = 0;
+
+    friend bool operator==(const PlaceTrials&, const PlaceTrials&) = default;
+};
+
+/// What they came to.
 struct PlaceResult {
-    trial::BoxPlace place = trial::kMiddle;
+    PlaceTrials trials;
     trial::Tally tally;
     double speed = 0.0;  // mean along the track of the parts that finish [m/s]; 0 if none does
 };
@@ -51,22 +61,20 @@ struct PairMap {
 /// How a track does where the physics is not quite what was set.
 struct Robustness {
     base::Quaternion expected =
-        base::Quaternion::Identity();    // what counts: the mode as set, or what was given
-    PlaceResult nominal;                 // as set
-    PlaceResult overBox;                 // its place has no meaning
+        base::Quaternion::Identity();  // what counts: the mode as set, or what was given
+    PlaceResult nominal;               // as set
+    PlaceResult overBox;
     std::vector<ConditionSweep> sweeps;  // of all conditions that vary
     std::vector<PlaceResult>
         corners;  // the worst four of all corners of the box, on fresh trials, worst first
     std::optional<PairMap> worstPair;  // the two conditions whose common corners are worst; none of fewer
 };
 
-/// The trials of a place: what each of `count` starts becomes there, from `first` on. The same starts at all
-/// places, so that differences are the conditions'.
-trial::TrialBatch makePlaceBatch(const StudyInputs& inputs, const std::shared_ptr<const track::Track>& track,
-                                 const trial::BoxPlace& place, int first, int count);
+trial::TrialBatch makePlaceBatch(const Settings& settings, const std::shared_ptr<const part::Part>& part,
+                                 const std::shared_ptr<const track::Track>& track, const PlaceTrials& trials);
 
-/// How many trials that takes, for progress.
-std::int64_t countRobustnessTrials(const StudyInputs& inputs, const RobustnessPlan& plan);
+/// How many trials that takes; 0: the box has no room.
+std::int64_t countRobustnessTrials(const Settings& settings, const RobustnessPlan& plan);
 
 /// Simulates the track all over the settings' operating box: as set, over the box at random, over each
 /// condition, in all its corners (a few trials each; the worst again on fresh ones, since the worst of many
@@ -81,6 +89,6 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
 std::string formatRobustness(const StudyInputs& inputs, const Robustness& robustness);
 
 /// "Friction 0.30, half-stroke 0.704 mm": what varies, as it is at a place.
-std::string describePlace(const StudyInputs& inputs, const trial::BoxPlace& place);
+std::string describePlace(const Settings& settings, const trial::BoxPlace& place);
 
 }  // namespace trapwright::study

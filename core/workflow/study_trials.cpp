@@ -97,6 +97,10 @@ std::string describeEnd(const trial::PartOutcome& outcome) {
 base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const study::Settings& settings,
                                             const trial::EngineRegistry& engines,
                                             const TrialsRequest& request) {
+    if (request.robustness)
+        return StoredTrials{request.robustness->trials.count,
+                            engines.nameFor(settings.simulation.engine, trial::EngineUse::judging),
+                            request.robustness->expected, settings.validation.tolerance};
     auto trials = request.kind == TrialKind::selection ? findSelectionTrials(file, settings, request.winner)
                   : request.kind == TrialKind::validation
                       ? findValidationTrials(file, request.winner, request.poses)
@@ -113,6 +117,11 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
     auto track = study::decodeTrack(settings.track, individual.record.design);
     if (!track) return track.error();
     study::Settings own = settings;
+    if (request.robustness) {
+        own.box = request.robustness->box;
+        return study::makePlaceBatch(own, part, std::make_shared<const track::Track>(std::move(*track)),
+                                     request.robustness->trials);
+    }
     if (request.kind != TrialKind::learning && stored.count > 0) {
         own.validation.conditions =
             stored.box ? study::TrialConditions::varied : study::TrialConditions::nominal;

@@ -10,6 +10,7 @@
 #include "core/part/part.h"
 #include "core/store/study_file.h"
 #include "core/study/records.h"
+#include "core/study/robustness.h"
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
 #include "core/trial/engine_registry.h"
@@ -18,7 +19,18 @@
 
 namespace trapwright::workflow {
 
-enum class TrialKind { learning, selection, validation };
+enum class TrialKind { learning, selection, validation, robustness };
+
+/// Trials that a track's robustness was measured by.
+struct RobustnessTrials {
+    study::PlaceTrials trials;
+    trial::OperatingBox box;  // that was measured in
+    base::Quaternion expected = base::Quaternion::Identity();
+
+    friend bool operator==(const RobustnessTrials& a, const RobustnessTrials& b) {
+        return a.trials == b.trials && a.box == b.box && a.expected.coeffs() == b.expected.coeffs();
+    }
+};
 
 /// Which trials of a study are meant.
 struct TrialsRequest {
@@ -26,8 +38,9 @@ struct TrialsRequest {
     study::Individual winner;  // or any other individual
     // Of validation trials: indices into the part's stable poses, whose trials follow each other.
     std::vector<int> poses = {0};
-    int count = 0;         // the first ones; 0: as many as the study holds
-    std::string engine{};  // empty: the one that the study holds them of
+    int count = 0;                                 // the first ones; 0: as many as the study holds
+    std::string engine{};                          // empty: the one that the study holds them of
+    std::optional<RobustnessTrials> robustness{};  // of that kind; no study holds them
 };
 
 /// Trials of an individual whose results a study holds, and the engine that ran them.

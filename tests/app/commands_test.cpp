@@ -22,8 +22,9 @@ class CommandsTest : public QObject {
 
     void help_data() {
         QTest::addColumn<QString>("command");
-        for (const char* name : {"part", "new", "settings", "evolve", "select", "validate", "physical",
-                                 "export", "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
+        for (const char* name :
+             {"part", "new", "settings", "evolve", "select", "validate", "robustness", "physical", "export",
+              "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
             QTest::newRow(name) << name;
         }
     }
@@ -300,6 +301,43 @@ class CommandsTest : public QObject {
         QCOMPARE(finished, answer["finished"].toObject()["count"].toInt());
         // 1.0 at 0.478 mm (50 Hz, 12 degrees), and proportional to the half-stroke.
         QVERIFY(std::abs(answer["throw_number"].toDouble() - 0.8 / 0.478) < 2e-3);
+    }
+
+    void robustness() {
+        const QStringList few = {"--trials", "10", "--box-trials", "16",     "--points", "3",
+                                 "--map",    "2",  "--engine",     "native", "--json"};
+        const Ran ran = ask(QStringList{"robustness", "study.trap"} + few);
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonObject ofStudy = ran.json()["robustness"].toObject();
+        QCOMPARE(ofStudy["as_set"]["trials"].toInt(), 10);
+        QCOMPARE(ofStudy["over_box"]["trials"].toInt(), 16);
+        // Friction, restitution, half-stroke and size vary at first.
+        const QJsonArray sweeps = ofStudy["sweeps"].toArray();
+        QCOMPARE(sweeps.size(), 4);
+        QCOMPARE(sweeps[0]["points"].toArray().size(), 3);
+        QCOMPARE(ofStudy["worst_corners"].toArray().size(), 4);
+        QCOMPARE(ofStudy["worst_pair"]["places"].toArray().size(), 4);
+        // The same study and numbers give the same, whatever there was before.
+        QCOMPARE(ask(QStringList{"robustness", "study.trap"} + few).output, ran.output);
+
+        // A track of no study, with a box of its own about other values.
+        const Ran onTrack =
+            ask(QStringList{"robustness", TRAPWRIGHT_SOURCE_DIR "/resources/tracks/cuboid_track.json",
+                            "--friction", "0.6", "--friction-range", "0.1", "--restitution-range", "0",
+                            "--half-stroke-range", "0", "--size-range", "0"} +
+                few);
+        QVERIFY2(onTrack.code == 0, onTrack.all());
+        const QJsonObject ofTrack = onTrack.json()["robustness"].toObject();
+        QCOMPARE(ofTrack["sweeps"].toArray().size(), 1);
+        QVERIFY(std::abs(ofTrack["sweeps"][0]["points"][0]["friction"].toDouble() - 0.5) < 1e-9);
+        QVERIFY(std::abs(ofTrack["sweeps"][0]["points"][2]["friction"].toDouble() - 0.7) < 1e-9);
+        QVERIFY(!ofTrack.contains("worst_pair"));
+
+        const Ran none = ask({"robustness", "study.trap", "--friction-range", "0", "--restitution-range", "0",
+                              "--half-stroke-range", "0", "--size-range", "0"});
+        QVERIFY2(none.code != 0 && none.all().contains("has no room"), none.all());
+        QCOMPARE(ask({"robustness", "study.trap", "--trials", "3"}).code, 2);
+        QCOMPARE(ask({"robustness", "nowhere.trap"}).code, 3);
     }
 
     // Told by name, and by those that there are where the name is unknown.

@@ -146,7 +146,7 @@ void CurveChart::linkPlot(Plot* plot) {
     });
     connect(plot, &Plot::fitWanted, this, &CurveChart::fit);
     connect(plot, &Plot::cursorMoved, this, &CurveChart::setCursor);
-    connect(plot, &Plot::picked, this, &CurveChart::picked);
+    connect(plot, &Plot::picked, this, [this](double x) { emit picked(static_cast<int>(x)); });
 }
 
 }  // namespace trapwright::charts

@@ -19,7 +19,7 @@ namespace {
 constexpr double kPadding = 0.04;      // of a fitted range, at both ends
 constexpr double kWheelFactor = 1.25;  // of one notch
 constexpr double kNotch = 120.0;       // QWheelEvent's unit
-constexpr double kLeastWidth = 4.0;    // that can be zoomed to
+constexpr double kLeastWidth = 4.0;    // that can be zoomed to, of whole numbers
 constexpr double kLeastShare = 1e-4;   // of the fitted height that can be zoomed to
 constexpr double kTickSpace = 48.0;    // between labels along x, at least
 constexpr int kMostUp = 8;             // labels along y
@@ -112,7 +112,7 @@ void Plot::fit() {
 }
 
 void Plot::zoom(double factor) {
-    x_ = zoomRange(x_, cursor_.value_or((x_.low + x_.high) / 2.0), factor, xLimits_, kLeastWidth);
+    x_ = zoomRange(x_, cursor_.value_or((x_.low + x_.high) / 2.0), factor, xLimits_, leastWidth());
     fitted_ = x_ == xLimits_ && y_ == yLimits_;
     updateView();
     emit xRangeChanged();
@@ -139,6 +139,10 @@ QPointF Plot::toWidget(const QPointF& value) const {
     const QRectF area = plotArea();
     return {area.left() + (value.x() - x_.low) / x_.size() * area.width(),
             area.bottom() - (toAxis(value.y()) - y_.low) / y_.size() * area.height()};
+}
+
+double Plot::leastWidth() const {
+    return sheet_.isWhole ? kLeastWidth : kLeastShare * xLimits_.size();
 }
 
 QRectF Plot::plotArea() const {
@@ -217,7 +221,7 @@ void Plot::updateTicks() {
     const QFontMetricsF metrics(font());
     const auto mostAlong = static_cast<int>(area.width() / kTickSpace);
     const auto mostUp = std::min(kMostUp, static_cast<int>(area.height() / (1.8 * metrics.height())));
-    setTicks(xAxis_, linearTicks(x_, std::max(2, mostAlong), 1.0), x_);
+    setTicks(xAxis_, linearTicks(x_, std::max(2, mostAlong), sheet_.isWhole ? 1.0 : 0.0), x_);
     const int most = std::max(2, mostUp);
     setTicks(yAxis_, sheet_.yScale == Scale::logarithmic ? logarithmicTicks(y_, most) : linearTicks(y_, most),
              y_);
@@ -246,7 +250,7 @@ void Plot::wheelEvent(QWheelEvent* event) {
     const QPointF anchor = fromWidget(position);
     const bool belowAxis = position.y() > area.bottom();
     const bool besideAxis = position.x() < area.left();
-    if (!besideAxis) x_ = zoomRange(x_, anchor.x(), factor, xLimits_, kLeastWidth);
+    if (!besideAxis) x_ = zoomRange(x_, anchor.x(), factor, xLimits_, leastWidth());
     if (!belowAxis) y_ = zoomRange(y_, anchor.y(), factor, yLimits_, kLeastShare * yLimits_.size());
     fitted_ = x_ == xLimits_ && y_ == yLimits_;
     updateView();
@@ -283,7 +287,7 @@ void Plot::mouseMoveEvent(QMouseEvent* event) {
 
 void Plot::mouseReleaseEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton) return;
-    if (pressed_ && !dragging_ && cursor_) emit picked(static_cast<int>(*cursor_));
+    if (pressed_ && !dragging_ && cursor_) emit picked(*cursor_);
     pressed_.reset();
     dragging_ = false;
     viewport()->unsetCursor();
@@ -309,7 +313,17 @@ void Plot::moveCursorTo(const QPointF& position) {
         emit cursorMoved(std::nullopt);
         return;
     }
-    emit cursorMoved(std::clamp(std::round(fromWidget(position).x()), known->low, known->high));
+    const double x = fromWidget(position).x();
+    if (sheet_.isWhole) {
+        emit cursorMoved(std::clamp(std::round(x), known->low, known->high));
+        return;
+    }
+    std::optional<double> nearest;
+    for (const Curve& curve : sheet_.curves) {
+        for (const QPointF& point : curve.points)
+            if (!nearest || std::abs(point.x() - x) < std::abs(*nearest - x)) nearest = point.x();
+    }
+    emit cursorMoved(nearest);
 }
 
 }  // namespace trapwright::charts

@@ -13,7 +13,7 @@ class QCategoryAxis;
 
 namespace trapwright::charts {
 
-/// One plot: curves over whole numbers, with axes whose ticks are always round. Zooms by wheel (over an axis:
+/// One plot: curves with axes whose ticks are always round. Zooms by wheel (over an axis:
 /// along that one), pans by dragging; double click and fit() show everything.
 class Plot : public QChartView {
     Q_OBJECT
@@ -35,7 +35,7 @@ class Plot : public QChartView {
     /// log10 of the value on a logarithmic scale.
     [[nodiscard]] const Range& yRange() const { return y_; }
 
-    /// Whole number at which values are read off; none: nowhere.
+    /// Where values are read off; none: nowhere.
     void setCursor(std::optional<double> x);
     /// The values at the cursor, a line each.
     [[nodiscard]] QStringList readOff() const;
@@ -52,7 +52,7 @@ class Plot : public QChartView {
     void xRangeChanged();
     void fitWanted();
     void cursorMoved(std::optional<double> x);
-    void picked(int x);
+    void picked(double x);
 
  protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -73,6 +73,7 @@ class Plot : public QChartView {
         bool shown = true;
     };
 
+    [[nodiscard]] double leastWidth() const;
     [[nodiscard]] double toAxis(double value) const;
     [[nodiscard]] QPointF fromWidget(const QPointF& position) const;
     /// The points of a curve that belong together: from the first to the last, and no data are missing

@@ -128,6 +128,16 @@ objectives::ObjectiveList plottedObjectives(bool onlyNoisy) {
     return list;
 }
 
+/// Whether any of these studies measures it.
+bool isMeasured(const objectives::Objective& objective, const std::vector<StudyCurves>& studies) {
+    return objective.applies == nullptr ||
+           std::any_of(studies.begin(), studies.end(), [&](const StudyCurves& study) {
+               return std::any_of(study.summaries.begin(), study.summaries.end(), [&](const auto& summary) {
+                   return !std::isnan(shownValue(summary.statistics.best, objective));
+               });
+           });
+}
+
 /// Whether a plot of it would show anything: an objective that is exact is nothing as long as it is 0.
 bool isWorthPlotting(const objectives::Objective& objective, const std::vector<StudyCurves>& studies) {
     if (objective.isNoisy) return true;
@@ -255,6 +265,7 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
 ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
     for (const objectives::Objective* objective : plottedObjectives(false)) {
+        if (!isMeasured(*objective, studies)) continue;
         const QString key = textOf(objective->key);
         // What everybody reads is a choice here, and a column of the tables. Where no surface ever
         // overlapped, a line at 0 would only take room.
@@ -360,6 +371,7 @@ ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
                     });
     sheet.plots.push_back(std::move(success));
     for (const objectives::Objective* objective : plottedObjectives(true)) {
+        if (!isMeasured(*objective, studies)) continue;
         const QString key = textOf(objective->key);
         const AxisNames names = axisNames(*objective);
         sheet.legend.push_back(

@@ -149,6 +149,9 @@ void EventLog::tellState(RunState state) {
         case RunState::validating:
             add(Kind::info, tr("Validation began"));
             break;
+        case RunState::measuring:
+            add(Kind::info, tr("Measurement of robustness began"));
+            break;
         case RunState::simulating:
             break;
         case RunState::idle:

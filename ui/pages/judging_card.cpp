@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "core/part/stable_poses.h"
+#include "core/study/robustness.h"
 #include "ui/look/text.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -35,8 +36,10 @@ JudgingCard::JudgingCard(QWidget* parent)
     : QWidget(parent),
       compare_(new QAction(tr("&Compare the best winners"), this)),
       validate_(new QAction(tr("&Validate this track"), this)),
+      robustness_(new QAction(tr("Measure its &robustness"), this)),
       compareText_(makeSentence(this)),
       validateText_(makeSentence(this)),
+      robustnessText_(makeSentence(this)),
       busy_(makeProgress()) {
     compare_->setObjectName("review.compare");
     compare_->setShortcut(Qt::Key_F8);
@@ -44,6 +47,10 @@ JudgingCard::JudgingCard(QWidget* parent)
     validate_->setObjectName("review.validate");
     validate_->setShortcut(Qt::Key_F9);
     connect(validate_, &QAction::triggered, this, [this] { runs_->startValidation(*winner_); });
+
+    robustness_->setObjectName("review.robustness");
+    robustness_->setShortcut(Qt::CTRL | Qt::Key_F9);
+    connect(robustness_, &QAction::triggered, this, [this] { runs_->startRobustness(*winner_); });
 
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -54,6 +61,9 @@ JudgingCard::JudgingCard(QWidget* parent)
     column->addSpacing(6);
     column->addWidget(makeButton(validate_));
     column->addWidget(validateText_);
+    column->addSpacing(6);
+    column->addWidget(makeButton(robustness_));
+    column->addWidget(robustnessText_);
     update();
 }
 
@@ -117,7 +127,8 @@ void JudgingCard::setWinner(const std::optional<study::Individual>& winner) {
 
 void JudgingCard::update() {
     const RunState state = runs_ ? runs_->state() : RunState::idle;
-    const bool judging = state == RunState::selecting || state == RunState::validating;
+    const bool judging =
+        state == RunState::selecting || state == RunState::validating || state == RunState::measuring;
     QString obstacle;
     if (!runs_ || runs_->winners().empty()) {
         obstacle = tr("Learn a track first");
@@ -133,6 +144,7 @@ void JudgingCard::update() {
                                              : obstacle);
     busy_->setVisible(judging);
     showProgress();
+    showRobustness(obstacle);
     if (!runs_) return;
     const study::ValidationSettings& settings = runs_->design().settings().validation;
     const QLocale locale;
@@ -149,11 +161,32 @@ void JudgingCard::update() {
             : tr("%1 stable poses, %2 that differ, %3 trials each").arg(poses).arg(groups).arg(trials));
 }
 
+void JudgingCard::showRobustness(const QString& obstacle) {
+    QString reason = obstacle;
+    QString text;
+    if (runs_) {
+        const std::int64_t trials =
+            study::countRobustnessTrials(runs_->design().settings(), study::RobustnessPlan());
+        text = tr("%1 trials all over the operating box").arg(QLocale().toString(qlonglong(trials)));
+        if (trials == 0) {
+            text = tr("The operating box has no room: set on the Track page what is not known exactly.");
+            if (reason.isEmpty()) reason = text;
+        }
+    }
+    robustness_->setEnabled(reason.isEmpty() && winner_.has_value());
+    robustness_->setToolTip(reason.isEmpty()
+                                ? tr("Simulate this track with other friction, restitution, stroke and size")
+                                : reason);
+    robustnessText_->setText(text);
+}
+
 void JudgingCard::showProgress() {
     if (!runs_ || busy_->isHidden()) return;
     const session::RunProgress progress = runs_->progress();
     const QLocale locale;
-    QString text = runs_->state() == RunState::selecting ? tr("Comparing") : tr("Validating");
+    QString text = runs_->state() == RunState::selecting    ? tr("Comparing")
+                   : runs_->state() == RunState::validating ? tr("Validating")
+                                                            : tr("Measuring");
     if (progress.trials > 0)
         text = tr("%1: %2 of %3 trials")
                    .arg(text, locale.toString(static_cast<qlonglong>(progress.trialsDone)),

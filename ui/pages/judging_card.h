@@ -17,8 +17,8 @@ class StudyRuns;
 
 namespace trapwright::pages {
 
-/// Starts the comparison of the best winners and the validation of one track, and shows how far they have
-/// come.
+/// Starts the comparison of the best winners, the validation of one track and the measurement of how robust
+/// it is, and shows how far they have come.
 class JudgingCard : public QWidget {
     Q_OBJECT
  public:
@@ -30,19 +30,23 @@ class JudgingCard : public QWidget {
 
     [[nodiscard]] QAction* compareAction() { return compare_; }
     [[nodiscard]] QAction* validateAction() { return validate_; }
+    [[nodiscard]] QAction* robustnessAction() { return robustness_; }
 
  private:
     QWidget* makeProgress();
     QPushButton* makeButton(QAction* action);
     void update();
+    void showRobustness(const QString& obstacle);
     void showProgress();
 
     QPointer<session::StudyRuns> runs_;
     std::optional<study::Individual> winner_;
     QAction* compare_;
     QAction* validate_;
+    QAction* robustness_;
     QLabel* compareText_;
     QLabel* validateText_;
+    QLabel* robustnessText_;
     QWidget* busy_;
     QLabel* busyText_;
     QProgressBar* bar_;

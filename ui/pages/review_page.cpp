@@ -15,6 +15,7 @@
 #include "ui/pages/playback_bar.h"
 #include "ui/pages/replay_files.h"
 #include "ui/pages/result_table.h"
+#include "ui/pages/robustness_panel.h"
 #include "ui/pages/track_choice.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -45,8 +46,10 @@ ReviewPage::ReviewPage(QWidget* parent)
       files_(new ReplayFiles(review_.player(), this)),
       selectionTable_(std::make_unique<ResultTable>("review.comparison", tr("Comparison"), selection_)),
       validationTable_(std::make_unique<ResultTable>("review.validation", tr("Validation"), validation_)),
+      robustness_(std::make_unique<RobustnessPanel>()),
       shownSelection_(selectionTable_.get()),
-      shownValidation_(validationTable_.get()) {
+      shownValidation_(validationTable_.get()),
+      shownRobustness_(robustness_.get()) {
     addInspector();
     addTables();
     addKeys();
@@ -88,11 +91,14 @@ void ReviewPage::addTables() {
     connect(validationTable_.get(), &ResultTable::cellChosen, this, &ReviewPage::goToFailures);
     for (ResultTable* table : {selectionTable_.get(), validationTable_.get()})
         connect(table, &ResultTable::failed, this, &Page::failed);
+    connect(robustness_.get(), &RobustnessPanel::failed, this, &Page::failed);
+    connect(robustness_.get(), &RobustnessPanel::trialsWanted, &review_, &TrialReview::goToRobustness);
 }
 
 void ReviewPage::addKeys() {
     addAction(judging_->compareAction());
     addAction(judging_->validateAction());
+    addAction(judging_->robustnessAction());
     addActions(review_.bar()->actions());
 }
 
@@ -100,6 +106,7 @@ std::vector<Panel> ReviewPage::panels() {
     return {{"trials", tr("Trials"), review_.list(), Qt::LeftDockWidgetArea},
             {"validation", tr("Validation"), validationTable_.release(), Qt::BottomDockWidgetArea},
             {"comparison", tr("Comparison"), selectionTable_.release(), Qt::BottomDockWidgetArea},
+            {"robustness", tr("Robustness"), robustness_.release(), Qt::BottomDockWidgetArea},
             {"orientation", tr("Orientation"), review_.orientation(), Qt::BottomDockWidgetArea}};
 }
 
@@ -136,6 +143,10 @@ void ReviewPage::setSession(StudySession* session) {
         review_.refreshSources();
         emit panelWanted("validation");
     });
+    connect(&session_->runs(), &StudyRuns::robustnessMeasured, this, [this] {
+        showRobustness();
+        emit panelWanted("robustness");
+    });
 }
 
 void ReviewPage::activate(scene::SceneView& scene) {
@@ -168,6 +179,13 @@ void ReviewPage::showWinner() {
         files_->setName(
             QString("%1-%2").arg(choice_->winner()->generation).arg(choice_->winner()->individual));
     showValidation();
+    showRobustness();
+}
+
+void ReviewPage::showRobustness() {
+    if (!shownRobustness_) return;
+    shownRobustness_->setMeasured(
+        session_ && choice_->winner() ? session_->runs().findRobustness(*choice_->winner()) : nullptr);
 }
 
 void ReviewPage::showSelection() {

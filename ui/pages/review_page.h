@@ -12,11 +12,12 @@ namespace trapwright::pages {
 
 class JudgingCard;
 class ReplayFiles;
+class RobustnessPanel;
 class ResultTable;
 class TrackChoice;
 
-/// Step 4: how good a track is. The best winners are compared, the chosen one is validated, and every trial
-/// can be looked at.
+/// Step 4: how good a track is. The best winners are compared, the chosen one is validated, how it does where
+/// the physics is another is measured, and every trial can be looked at.
 class ReviewPage : public Page {
     Q_OBJECT
  public:
@@ -39,6 +40,7 @@ class ReviewPage : public Page {
     void showWinner();
     void showSelection();
     void showValidation();
+    void showRobustness();
     void goToFailures(const QModelIndex& cell);
 
     QPointer<const session::StudySession> session_;
@@ -50,8 +52,10 @@ class ReviewPage : public Page {
     ReplayFiles* files_;
     std::unique_ptr<ResultTable> selectionTable_;  // until the window takes it
     std::unique_ptr<ResultTable> validationTable_;
+    std::unique_ptr<RobustnessPanel> robustness_;
     QPointer<ResultTable> shownSelection_;
     QPointer<ResultTable> shownValidation_;
+    QPointer<RobustnessPanel> shownRobustness_;
 };
 
 }  // namespace trapwright::pages

@@ -253,6 +253,9 @@ void RunCard::showRun(RunState state) {
         case RunState::validating:
             title_->setText(tr("Validating"));
             break;
+        case RunState::measuring:
+            title_->setText(tr("Measuring robustness"));
+            break;
         default:
             title_->setText(checking              ? tr("Checking winners")
                             : progress.isPlanning ? tr("Planning")

@@ -22,7 +22,8 @@ namespace {
 constexpr double kInterval = 1e-3;  // between the samples of a replay [s]
 
 bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
-    return a.kind == b.kind && a.poses == b.poses && isSameIndividual(a.winner, b.winner);
+    return a.kind == b.kind && a.poses == b.poses && a.robustness == b.robustness &&
+           isSameIndividual(a.winner, b.winner);
 }
 
 std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::SymmetryGroup& symmetry) {
@@ -117,6 +118,7 @@ void TrialReview::setWinner(const std::optional<study::Individual>& winner) {
     track_.reset();
     build_.cancel();
     source_ = 0;
+    place_.reset();
     forgetTrials();
     makeSources();
     showTrack();
@@ -165,6 +167,22 @@ void TrialReview::goToTrials(const std::vector<int>& poses, const std::set<trial
     playFirstShown();
 }
 
+void TrialReview::goToRobustness(const workflow::RobustnessTrials& trials, const QString& name,
+                                 const std::set<trial::Verdict>& verdicts) {
+    if (!winner_) return;
+    workflow::TrialsRequest request{workflow::TrialKind::robustness, *winner_};
+    request.robustness = trials;
+    const bool isThere = place_ && isSame(place_->request, request);
+    place_ = TrialSource{name, request, trials.trials.count};
+    makeSources();
+    list_->setVerdicts(verdicts);
+    const auto index = static_cast<int>(sources_.size()) - 1;
+    if (!isThere || index != source_) setSource(index);
+    list_->setPose(std::nullopt);
+    playWanted_ = true;
+    playFirstShown();
+}
+
 void TrialReview::showTrack() {
     scene_.setTrack(track_, study_ && track_ ? study_->design().part() : nullptr);
     player_.setDuration(scene_.duration());
@@ -196,6 +214,7 @@ void TrialReview::makeSources() {
                                     group.sum.tally.trials()});
             }
         }
+        if (place_) sources_.push_back(*place_);
     }
     list_->setSources(sources_, source_);
 }

@@ -51,6 +51,10 @@ class TrialReview : public QObject {
     /// Lists the validation's trials of these poses that ended so, and plays the first of them as soon as it
     /// is known. One pose of several that look the same is listed alone.
     void goToTrials(const std::vector<int>& poses, const std::set<trial::Verdict>& verdicts);
+    /// Likewise trials that robustness was measured by, which become a source of this track. `name`: where
+    /// they are in the operating box.
+    void goToRobustness(const workflow::RobustnessTrials& trials, const QString& name,
+                        const std::set<trial::Verdict>& verdicts);
 
  signals:
     void failed(const QString& what, const QString& message);
@@ -78,6 +82,7 @@ class TrialReview : public QObject {
     QPointer<session::StudyReplays> study_;
     std::optional<study::Individual> winner_;
     std::vector<TrialSource> sources_;
+    std::optional<TrialSource> place_;  // in the operating box; of this winner
     int source_ = 0;
     bool visible_ = false;
     bool listed_ = false;         // the trials of the source are there or on their way

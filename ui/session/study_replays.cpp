@@ -21,7 +21,8 @@ QString trialsFailed() {
 
 bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
     return a.kind == b.kind && a.poses == b.poses && a.count == b.count && a.engine == b.engine &&
-           isSameIndividual(a.winner, b.winner) && a.winner.record == b.winner.record;
+           a.robustness == b.robustness && isSameIndividual(a.winner, b.winner) &&
+           a.winner.record == b.winner.record;
 }
 
 void judge(const workflow::StoredTrials& stored, const part::Part& part, const study::Settings& settings,

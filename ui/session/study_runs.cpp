@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/study/evaluator.h"
 #include "core/study/pose_weights.h"
+#include "core/study/track_design.h"
 #include "core/workflow/estimate.h"
 #include "core/workflow/judging.h"
 #include "core/workflow/learning.h"
@@ -61,6 +62,13 @@ const std::vector<study::SelectionRecord>& StudyRuns::selections() const {
 
 const std::vector<study::ValidationRecord>& StudyRuns::validations() const {
     return state_->validations;
+}
+
+const MeasuredRobustness* StudyRuns::findRobustness(const study::IndividualId& individual) const {
+    const auto found = std::find_if(
+        measured_.begin(), measured_.end(),
+        [&](const MeasuredRobustness& measured) { return isSameIndividual(measured, individual); });
+    return found == measured_.end() ? nullptr : &*found;
 }
 
 const study::Individual* StudyRuns::bestWinner() const {
@@ -288,6 +296,38 @@ void StudyRuns::startValidation(const study::Individual& winner,
         return std::nullopt;
     };
     startRun(RunState::validating, tr("The track could not be validated"), work);
+}
+
+void StudyRuns::startRobustness(const study::Individual& individual, const study::RobustnessPlan& plan,
+                                const std::optional<base::Quaternion>& expected) {
+    const auto work = [this, individual, plan, expected, settings = state_->settings,
+                       part = state_->part.part, threads = state_->threads](Run& run) -> Failed {
+        const auto inputs =
+            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
+        if (!inputs) return settingsFailure(inputs.error());
+        auto track = study::decodeTrack(settings.track, individual.record.design);
+        if (!track) return settingsFailure(track.error());
+        state_->tell(
+            [this, total = study::countRobustnessTrials(settings, plan)] { state_->run->total = total; });
+        auto robustness = study::measureRobustness(
+            *inputs, std::make_shared<const track::Track>(std::move(*track)), expected, plan, run.trials);
+        if (!robustness) {
+            const auto kind =
+                run.trials.cancelled() ? workflow::FailureKind::cancelled : workflow::FailureKind::settings;
+            return workflow::Failure{kind, robustness.error().message};
+        }
+        state_->tell([this, measured = MeasuredRobustness{{individual.generation, individual.individual},
+                                                          inputs->engine->name(),
+                                                          settings,
+                                                          std::move(*robustness)}] {
+            std::erase_if(measured_,
+                          [&](const MeasuredRobustness& one) { return isSameIndividual(one, measured); });
+            measured_.push_back(measured);
+            emit robustnessMeasured();
+        });
+        return std::nullopt;
+    };
+    startRun(RunState::measuring, tr("The track's robustness could not be measured"), work);
 }
 
 void StudyRuns::pause() {

@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "core/study/records.h"
+#include "core/study/robustness.h"
 #include "core/study/selection.h"
 #include "core/study/settings.h"
 #include "core/workflow/failure.h"
@@ -30,16 +31,17 @@ enum class RunState {
     stopping,                 // at once; what is not complete is dropped
     selecting,
     validating,
+    measuring,  // how robust a track is
     simulating  // trials or a replay, while nothing else goes on
 };
 
-/// How far learning, selection or validation has come.
+/// How far learning, selection, validation or a measurement has come.
 struct RunProgress {
     int generation = 0;       // the present one, from 0
     int generations = 0;      // of the whole run; 0 unless it learns
     int individualsDone = 0;  // of the present generation
     int individuals = 0;
-    std::int64_t trialsDone = 0;  // of the present generation; of all when it selects or validates
+    std::int64_t trialsDone = 0;  // of the present generation; of all when it does something else
     std::int64_t trials = 0;
     double trialsPerSecond = 0.0;  // since the run began, pauses left out
     bool isPlanning = false;       // what learning begins with
@@ -52,8 +54,15 @@ struct LearningDraft {
     double seconds = 0.0;  // of learning, estimated
 };
 
-/// Learning, selection and validation of the open study, one at a time, and the records that they make. What
-/// cannot be done is told by StudySession::failed().
+/// How robust a track is. Known as long as the study is open.
+struct MeasuredRobustness : study::IndividualId {
+    std::string engine;
+    study::Settings settings;  // that it was measured with
+    study::Robustness robustness;
+};
+
+/// Learning, selection and validation of the open study and measurements of robustness, one at a time, and
+/// what they find out. What cannot be done is told by StudySession::failed().
 class StudyRuns : public QObject {
     Q_OBJECT
 
@@ -71,6 +80,8 @@ class StudyRuns : public QObject {
     /// Oldest first.
     [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
     [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
+    /// The last one of this individual; null: it was not measured since the study was opened.
+    [[nodiscard]] const MeasuredRobustness* findRobustness(const study::IndividualId& individual) const;
     /// Of the winners (study::findBestWinner); null if there are none.
     [[nodiscard]] const study::Individual* bestWinner() const;
     /// What is known of the success of an individual (study::findSuccess).
@@ -93,11 +104,11 @@ class StudyRuns : public QObject {
     /// Learns on from the last generation, and after the last one checks the winners that are left. failed()
     /// if the study has problems or something else goes on.
     void startLearning();
-    /// Learning, selection and validation stand still; nothing is lost.
+    /// What goes on stands still; nothing is lost.
     void pause();
     void resume();
     void stopAfterGeneration();
-    /// Ends learning, selection or validation at once.
+    /// Ends what goes on at once.
     void stopNow();
 
     /// The highest winners with many trials each, into selections().
@@ -105,6 +116,11 @@ class StudyRuns : public QObject {
     /// The table of one individual, into validations(). `expected`: the orientation that counts as success,
     /// if not the most frequent one.
     void startValidation(const study::Individual& winner,
+                         const std::optional<base::Quaternion>& expected = std::nullopt);
+
+    /// How it does all over the operating box (study::measureRobustness), told by robustnessMeasured().
+    /// `expected` as above.
+    void startRobustness(const study::Individual& individual, const study::RobustnessPlan& plan = {},
                          const std::optional<base::Quaternion>& expected = std::nullopt);
 
     /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
@@ -128,6 +144,7 @@ class StudyRuns : public QObject {
     void checkSaved(int generation);
     void selectionSaved();
     void validationSaved();
+    void robustnessMeasured();
     void chosenChanged();
     /// 0: the estimate before does not hold any more.
     void estimated(double seconds);
@@ -145,6 +162,7 @@ class StudyRuns : public QObject {
 
     StudyState* const state_;
     const StudyDesign& design_;
+    std::vector<MeasuredRobustness> measured_;
     RunState activity_ = RunState::idle;                     // of the thread that writes
     RunState told_ = RunState::idle;                         // by stateChanged()
     std::shared_ptr<const study::GenerationRecord> newest_;  // that was saved since the study was opened

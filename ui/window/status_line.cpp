@@ -47,6 +47,8 @@ StateFace faceOf(RunState state, bool problems) {
             return {StatusLine::tr("Simulating the best winners"), "start", true};
         case RunState::validating:
             return {StatusLine::tr("Validating"), "start", true};
+        case RunState::measuring:
+            return {StatusLine::tr("Measuring robustness"), "start", true};
         case RunState::simulating:
             return {StatusLine::tr("Simulating"), "start", false};
     }

@@ -40,7 +40,9 @@ struct Judge {
     OrientationDistance distance = OrientationDistance::symmetric;
 
     [[nodiscard]] Evaluation evaluation(std::span<const Outcome> outcomes, int overlaps = 0) const {
-        return {&track, &symmetry, overlaps, outcomes, distance, 25.0 * base::kDegree};
+        Evaluation evaluation{&track, &symmetry, overlaps, outcomes, distance, 25.0 * base::kDegree};
+        evaluation.isVaried = true;
+        return evaluation;
     }
     [[nodiscard]] Fitness judge(std::span<const Outcome> outcomes, int overlaps = 0) const {
         return objectives::measureAll(evaluation(outcomes, overlaps), paperObjectives());
@@ -327,6 +329,16 @@ class ObjectivesTest : public QObject {
         Evaluation evaluation = judge.evaluation(outcomes);
         const auto worst = [&] { return objectives::findObjective("worst_half")->measure(evaluation); };
         QVERIFY(std::abs(worst().value - 59.0 / 80.0) < 1e-12);  // no box: success of all
+        // Where nothing varies it is no score of its own, unless it counts.
+        evaluation.isVaried = false;
+        const auto scoreIn = [&](const char* sum) {
+            const Fitness fitness =
+                objectives::measureAll(evaluation, objectives::readObjectives(sum).value());
+            return objectives::findScore(fitness, "worst_half") != nullptr;
+        };
+        QVERIFY(!scoreIn("F_D") && scoreIn("F_D, worst_half"));
+        evaluation.isVaried = true;
+        QVERIFY(scoreIn("F_D"));
         evaluation.places = places;
         QVERIFY(std::abs(worst().value - 20.0 / 40.0) < 1e-12);
         QVERIFY(std::abs(worst().error - std::sqrt(0.25 / 39.0)) < 1e-12);

@@ -58,7 +58,7 @@ class RobustnessTest : public QObject {
         const auto robustness =
             study::measureRobustness(inputs, makeTrack(inputs), std::nullopt, plan, control);
         VERIFY_OK(robustness);
-        QCOMPARE(control.done(), study::countRobustnessTrials(inputs, plan));
+        QCOMPARE(control.done(), study::countRobustnessTrials(inputs.settings, plan));
         QCOMPARE(shareOf(robustness->nominal), 1.0);
         QCOMPARE(robustness->sweeps.size(), std::size_t{3});
         for (const study::ConditionSweep& sweep : robustness->sweeps) {
@@ -67,7 +67,7 @@ class RobustnessTest : public QObject {
                 QCOMPARE(shareOf(point), 1.0);
         }
         const auto at = [](const study::PlaceResult& result, Condition condition) {
-            return result.place[static_cast<std::size_t>(condition)];
+            return (*result.trials.place)[static_cast<std::size_t>(condition)];
         };
         const study::PlaceResult& worst = robustness->corners.front();
         QCOMPARE(shareOf(worst), 0.0);

@@ -11,6 +11,7 @@
 #include "core/study/validation.h"
 #include "tests/core/store/stored_outcomes.h"
 #include "tests/ui/pages/review_user.h"
+#include "ui/charts/robustness_chart.h"
 #include "ui/look/message_bar.h"
 #include "ui/models/selection_model.h"
 #include "ui/models/trial_model.h"
@@ -392,6 +393,57 @@ class ReviewPageTest : public QObject {
         QVERIFY(user.scene().track && !user.scene().parts.empty());
         user.window.desk().close(true);
         QTRY_COMPARE(user.trials().model()->rowCount(), 0);
+    }
+
+    // From the measurement to the failing trial of a corner, and its replay.
+    void aCornerOfTheBoxIsOneClickFromItsTrials() {
+        ReviewUser user(study_);
+        QVERIFY(user.waitForReplay());
+        auto* chart = user.find<charts::RobustnessChart>("robustness");
+        QVERIFY(!chart->saveCsvAction()->isEnabled());
+        auto* text = user.find<QLabel>("review.robustness.head");
+        QVERIFY(text->isHidden());
+        user.trigger("review.robustness");
+        QTRY_VERIFY_WITH_TIMEOUT(!text->isHidden(), 3 * kPatience);
+        QVERIFY2(text->text().contains("Worst corners") && text->text().contains("riction 0."),
+                 qPrintable(text->text()));
+        QVERIFY(chart->isVisible());
+        // The worst corner is the third number, after "as set" and "over the box".
+        emit text->linkActivated("2");
+        auto* source = user.find<QComboBox>("trials.source");
+        QVERIFY2(source->currentText().startsWith("Friction"), qPrintable(source->currentText()));
+        const auto countOf = [&](trial::Verdict verdict) {
+            auto* chip = user.find<QToolButton>(QString("trials.chip%1").arg(static_cast<int>(verdict)));
+            return chip->text().section(' ', 0, 0).toInt();
+        };
+        QTRY_COMPARE_WITH_TIMEOUT(countOf(trial::Verdict::success) +
+                                      countOf(trial::Verdict::wrongOrientation) +
+                                      countOf(trial::Verdict::stuck) + countOf(trial::Verdict::fellOff),
+                                  200, kPatience);
+        const int right = countOf(trial::Verdict::success);
+        // As many as the panel says.
+        QVERIFY2(text->text().contains(QString("href=\"2\"><b>%1 %").arg(right / 2.0, 0, 'f', 1)),
+                 qPrintable(text->text()));
+        QVERIFY(user.waitForReplay());
+        // Who looks at another track sees nothing of this one's.
+        auto* track = user.find<QComboBox>("review.track");
+        track->setCurrentIndex(track->currentIndex() == 0 ? 1 : 0);
+        emit track->activated(track->currentIndex());
+        QTRY_VERIFY(text->isHidden());
+    }
+
+    void withoutRoomInTheBoxRobustnessCannotBeMeasured() {
+        const QString exact = learned_.file("exact.trap");
+        study::Settings settings = lowHills();
+        settings.box = {trial::BoxDistribution::uniform, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        auto made = session::StudySession::create(exact.toStdString(), settings, session::cuboid(),
+                                                  nativeEnvironment());
+        VERIFY_OK(made);
+        QVERIFY(session::learnToTheEnd(**made));
+        made->reset();
+        ReviewUser user(exact);
+        QVERIFY(!user.find<QAction>("review.robustness")->isEnabled());
+        QVERIFY(user.find<QAction>("review.robustness")->toolTip().contains("Track page"));
     }
 
     void withoutGenerationsThePageSaysWhatToDo() {

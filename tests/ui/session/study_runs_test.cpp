@@ -301,6 +301,39 @@ class StudyRunsTest : public QObject {
         QVERIFY(session->runs().validations().empty());
     }
 
+    void robustnessIsMeasuredAndKnownWhileTheStudyIsOpen() {
+        auto session = fixture_->create("a.trap", smallSettings(1));
+        QVERIFY(session && learnToTheEnd(*session));
+        const study::Individual winner = session->runs().winners().front();
+        QVERIFY(session->runs().findRobustness(winner) == nullptr);
+        QSignalSpy measured(&session->runs(), &StudyRuns::robustnessMeasured);
+        const study::RobustnessPlan plan{10, 20, 3, 2};
+        session->runs().startRobustness(winner, plan);
+        QCOMPARE(session->runs().state(), RunState::measuring);
+        QVERIFY(waitUntil([&] { return measured.count() == 1; }));
+        QVERIFY(waitForState(*session, RunState::idle));
+        const session::MeasuredRobustness* known = session->runs().findRobustness(winner);
+        QVERIFY(known != nullptr);
+        QCOMPARE(known->robustness.nominal.tally.trials(), 10);
+        QCOMPARE(known->robustness.overBox.tally.trials(), 20);
+        QVERIFY(!known->robustness.corners.empty());
+        // Once more takes its place; what is stopped does not.
+        session->runs().startRobustness(winner, {12, 20, 3, 2});
+        QVERIFY(waitUntil([&] { return measured.count() == 2; }));
+        QVERIFY(waitForState(*session, RunState::idle));
+        QCOMPARE(session->runs().findRobustness(winner)->robustness.nominal.tally.trials(), 12);
+        fixture_->trialTime = std::chrono::milliseconds(10);
+        session.reset();
+        session = fixture_->open("a.trap");
+        QVERIFY(session->runs().findRobustness(winner) == nullptr);
+        QSignalSpy failed(session.get(), &StudySession::failed);
+        session->runs().startRobustness(winner);
+        session->runs().stopNow();
+        QVERIFY(waitForState(*session, RunState::idle));
+        QVERIFY(session->runs().findRobustness(winner) == nullptr);
+        QCOMPARE(failed.count(), 0);
+    }
+
     void oneRunAtATime() {
         fixture_->trialTime = std::chrono::milliseconds(2);
         const auto session = fixture_->create("a.trap", smallSettings());

@@ -1,0 +1,105 @@
+#include "ui/pages/robustness_panel.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include "core/stats/binomial.h"
+#include "ui/charts/robustness_chart.h"
+
+namespace trapwright::pages {
+
+namespace {
+
+/// "<a>95.2 %</a> (94.5 … 95.8)".
+QString linkOf(std::size_t link, const study::PlaceResult& result) {
+    const trial::Tally& tally = result.tally;
+    const stats::Interval bounds = stats::calcClopperPearson(tally.success, tally.trials());
+    return QString("<a href=\"%1\"><b>%2 %</b></a> (%3 … %4)")
+        .arg(link)
+        .arg(100.0 * tally.success / tally.trials(), 0, 'f', 1)
+        .arg(100.0 * bounds.low, 0, 'f', 1)
+        .arg(100.0 * bounds.high, 0, 'f', 1);
+}
+
+}  // namespace
+
+RobustnessPanel::RobustnessPanel() : head_(new QLabel(this)), chart_(new charts::RobustnessChart(this)) {
+    setObjectName("review.robustnessPanel");
+    setAccessibleName(tr("Robustness"));
+    setAutoFillBackground(true);
+    setBackgroundRole(QPalette::Base);
+    head_->setObjectName("review.robustness.head");
+    head_->setTextFormat(Qt::RichText);
+    head_->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
+    head_->setWordWrap(true);
+    // It must not widen the window's middle.
+    head_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    head_->setContentsMargins(8, 6, 8, 0);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(head_);
+    column->addWidget(chart_, 1);
+    chart_->setEmptyText(
+        tr("How this track does with other friction, restitution, stroke and size of the parts is not known "
+           "yet. Measure its robustness to see it."));
+    connect(head_, &QLabel::linkActivated, this,
+            [this](const QString& link) { goTo(links_[link.toUInt()].trials); });
+    connect(chart_, &charts::RobustnessChart::picked, this, &RobustnessPanel::goTo);
+    connect(chart_, &charts::ChartPanel::failed, this, &RobustnessPanel::failed);
+    setMeasured(nullptr);
+}
+
+void RobustnessPanel::setMeasured(const session::MeasuredRobustness* measured) {
+    measured_.reset();
+    if (measured != nullptr) measured_ = *measured;
+    head_->setVisible(measured_.has_value());
+    if (measured_) {
+        chart_->setRobustness(measured_->settings, measured_->robustness);
+        showHead();
+    } else {
+        chart_->clear();
+    }
+}
+
+void RobustnessPanel::showHead() {
+    const study::Robustness& robustness = measured_->robustness;
+    links_ = {robustness.nominal, robustness.overBox};
+    QString text = tr("Success as set %1, all over the operating box %2. Worst corners: ")
+                       .arg(linkOf(0, links_[0]), linkOf(1, links_[1]));
+    QStringList corners;
+    for (const study::PlaceResult& corner : robustness.corners) {
+        corners << linkOf(links_.size(), corner) + u' ' + nameOf(corner.trials).toHtmlEscaped();
+        links_.push_back(corner);
+    }
+    text += corners.join("; ") + tr(". Simulated by %1; choose a number, a point or a cell to see its trials.")
+                                     .arg(QString::fromStdString(measured_->engine));
+    head_->setText(text);
+}
+
+QString RobustnessPanel::nameOf(const study::PlaceTrials& trials) const {
+    return trials.place ? QString::fromStdString(study::describePlace(measured_->settings, *trials.place))
+                        : tr("All over the operating box");
+}
+
+void RobustnessPanel::goTo(const study::PlaceTrials& trials) {
+    const auto hasFailures = [&](const study::PlaceResult& result) {
+        return result.trials == trials && result.tally.success < result.tally.trials();
+    };
+    const study::Robustness& robustness = measured_->robustness;
+    bool fails = hasFailures(robustness.nominal) || hasFailures(robustness.overBox);
+    for (const study::ConditionSweep& sweep : robustness.sweeps)
+        for (const study::PlaceResult& point : sweep.points)
+            fails = fails || hasFailures(point);
+    for (const study::PlaceResult& corner : robustness.corners)
+        fails = fails || hasFailures(corner);
+    if (robustness.worstPair)
+        for (const study::PlaceResult& place : robustness.worstPair->places)
+            fails = fails || hasFailures(place);
+    std::set<trial::Verdict> verdicts = {trial::Verdict::wrongOrientation, trial::Verdict::stuck,
+                                         trial::Verdict::fellOff};
+    if (!fails) verdicts.insert(trial::Verdict::success);
+    emit trialsWanted({trials, measured_->settings.box, robustness.expected}, nameOf(trials), verdicts);
+}
+
+}  // namespace trapwright::pages
