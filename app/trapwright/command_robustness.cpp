@@ -127,11 +127,14 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     console.print(fmt::format("Generation {}, individual {}, engine {}\n{}", individual->generation,
                               individual->individual, inputs->engine->name(),
                               study::formatRobustness(*inputs, *robustness)));
-    console.emit({{"study", options.study},
-                  {"generation", individual->generation},
-                  {"individual", individual->individual},
-                  {"engine", inputs->engine->name()},
-                  {"robustness", toJson(inputs->settings, *robustness)}});
+    noteRemadeTrials(*inputs, console);
+    Json document = {{"study", options.study},
+                     {"generation", individual->generation},
+                     {"individual", individual->individual},
+                     {"engine", inputs->engine->name()},
+                     {"robustness", toJson(inputs->settings, *robustness)}};
+    addRemadeTrials(*inputs, document);
+    console.emit(document);
     return ExitCode::ok;
 }
 
