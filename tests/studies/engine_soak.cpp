@@ -31,7 +31,7 @@ using namespace trapwright;
 
 namespace {
 
-constexpr int kTrials = 128;           // of a round
+constexpr int kTrials = 96;            // of a round
 constexpr int kWatched = 16;           // every so manieth is looked at all the way
 constexpr double kInterval = 8e-3;     // between two looks [s]
 constexpr double kDeep = 0.5e-3;       // inside the track, more than recovery leaves for a moment [m]
