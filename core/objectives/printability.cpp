@@ -6,11 +6,11 @@ namespace trapwright::objectives {
 
 namespace {
 
-constexpr double kSquareCentimetre = 1e-4;  // [m^2]
+constexpr double kSquareMillimetre = 1e-6;  // [m^2]
 
 Measured measurePrintability(const Evaluation& evaluation) {
     const track::PrintFlaws flaws = track::findPrintFlaws(*evaluation.track);
-    return {-(flaws.thin + flaws.overhang) / kSquareCentimetre};
+    return {-(flaws.thin + flaws.overhang) / kSquareMillimetre};
 }
 
 }  // namespace
@@ -19,12 +19,12 @@ Objective printability() {
     Objective objective;
     objective.key = objective.symbol = "F_P";
     objective.name = "Printability";
-    objective.unit = "cm²";
+    objective.unit = "mm²";
     objective.help =
         "Minus the area that a printer cannot make: walls thinner than 1.2 mm, overhangs of more than 45 "
         "degrees. "
         "0 is perfect.";
-    objective.decimals = 2;
+    objective.decimals = 1;
     objective.isNoisy = false;
     objective.measure = &measurePrintability;
     objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 0.0; };

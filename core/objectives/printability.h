@@ -5,7 +5,7 @@
 namespace trapwright::objectives {
 
 /// Minus how much of a track cannot be printed (track::findPrintFlaws) with the limits that a printer has
-/// unless it is told otherwise: in cm^2, so that what is wrong weighs about as much as segments do in F_D
+/// unless it is told otherwise: in mm^2, so that what is wrong weighs about as much as segments do in F_D
 /// (decisions.md#printability).
 Objective printability();
 

@@ -85,7 +85,7 @@ class RunnerTest : public QObject {
         for (const study::IndividualRecord& individual : saved.front().individuals) {
             const auto track = study::decodeTrack(inputs.settings.track, individual.design);
             const track::PrintFlaws flaws = track::findPrintFlaws(track.value());
-            QCOMPARE(individual.fitness.total, -(flaws.thin + flaws.overhang) / 1e-4);
+            QCOMPARE(individual.fitness.total, -(flaws.thin + flaws.overhang) / 1e-6);
             QCOMPARE(testing::scoreOf(individual.fitness, "F_P"), individual.fitness.total);
         }
         const double first = saved.front().statistics.topMean.total;
