@@ -9,6 +9,7 @@
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/learning_run.h"
 #include "app/trapwright/study_access.h"
+#include "app/trapwright/study_jobs.h"
 #include "app/trapwright/study_options.h"
 #include "core/study/standstill.h"
 #include "sim/engines/registry.h"
@@ -145,20 +146,22 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     nlohmann::ordered_json generations = nlohmann::ordered_json::array();
     for (const study::GenerationSummary& summary : *summaries)
         generations.push_back(toJson(summary));
-    console.emit({{"study", options.study},
-                  {"engine", inputs->engine->name()},
-                  {"nothing_gained_since",
-                   standstill ? nlohmann::ordered_json(*standstill) : nlohmann::ordered_json()},
-                  {"reference_engine",
-                   reference != nullptr ? nlohmann::ordered_json(reference->name) : nlohmann::ordered_json()},
-                  {"learning_step_ms", study::chooseLearningStep(study->settings) * 1e3},
-                  {"threads", inputs->threads},
-                  {"end", endName(report.end)},
-                  {"trials", report.trials},
-                  {"seconds", report.seconds},
-                  {"trials_per_second", rate},
-                  {"generations", generations},
-                  {"checks", toJson(*checks)}});
+    nlohmann::ordered_json document = {
+        {"study", options.study},
+        {"engine", inputs->engine->name()},
+        {"nothing_gained_since", standstill ? nlohmann::ordered_json(*standstill) : nlohmann::ordered_json()},
+        {"reference_engine",
+         reference != nullptr ? nlohmann::ordered_json(reference->name) : nlohmann::ordered_json()},
+        {"learning_step_ms", study::chooseLearningStep(study->settings) * 1e3},
+        {"threads", inputs->threads},
+        {"end", endName(report.end)},
+        {"trials", report.trials},
+        {"seconds", report.seconds},
+        {"trials_per_second", rate},
+        {"generations", generations},
+        {"checks", toJson(*checks)}};
+    addRemadeTrials(*inputs, document);
+    console.emit(document);
     return ran->interrupted ? ExitCode::interrupted : ExitCode::ok;
 }
 

@@ -174,8 +174,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     }();
     if (!robustness) return describeRunFailure(control, robustness.error());
     console.print(fmt::format("{}\n{}", subject->name, study::formatRobustness(inputs, *robustness)));
+    noteRemadeTrials(inputs, console);
     subject->json["engine"] = inputs.engine->name();
     subject->json["robustness"] = toJson(inputs.settings, *robustness);
+    addRemadeTrials(inputs, subject->json);
     console.emit(subject->json);
     return ExitCode::ok;
 }

@@ -38,7 +38,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!record) return record.error();
     if (record->box) console.print("Conditions vary over the operating box.\n");
     console.print(study::formatSelection(*record));
-    console.emit({{"study", options.study}, {"selection", toJson(*record)}});
+    nlohmann::ordered_json document = {{"study", options.study}, {"selection", toJson(*record)}};
+    addRemadeTrials(*inputs, document);
+    console.emit(document);
     return ExitCode::ok;
 }
 

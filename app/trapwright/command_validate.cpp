@@ -59,7 +59,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         record->generation, record->individual, record->engine, record->tolerance / base::kDegree, goal.w(),
         goal.x(), goal.y(), goal.z(), record->box ? "; conditions vary over the operating box" : "",
         study::formatValidation(study::tabulate(*record, groups), options.everyPose)));
-    console.emit({{"study", options.study}, {"validation", toJson(*record, *study->part, groups)}});
+    nlohmann::ordered_json document = {{"study", options.study},
+                                       {"validation", toJson(*record, *study->part, groups)}};
+    addRemadeTrials(*inputs, document);
+    console.emit(document);
     return ExitCode::ok;
 }
 

@@ -14,9 +14,9 @@ Attempt<trial::EngineKind> findEngine(const std::string& name) {
 
 Attempt<std::shared_ptr<const trial::Engine>> makeEngine(const std::string& name,
                                                          const trial::EngineOptions& options) {
-    auto kind = findEngine(name);
-    if (!kind) return kind.error();
-    return std::shared_ptr<const trial::Engine>(kind->make(options));
+    auto engine = engines::registry().make(name, options);
+    if (!engine) return Failure{ExitCode::usage, engine.error().message};
+    return *engine;
 }
 
 Attempt<std::shared_ptr<const trial::Engine>> makeJudge(const std::string& setting,

@@ -167,4 +167,15 @@ Json shareToJson(int count, int trials) {
             {"bounds", "95 % Clopper-Pearson"}};
 }
 
+Json toJson(const trial::RemadeTrial& trial) {
+    return {{"seed", trial.stream.seed},
+            {"generation", trial.stream.generation},
+            {"individual", trial.stream.individual},
+            {"trial", trial.stream.trial},
+            {"purpose", static_cast<int>(trial.stream.purpose)},
+            {"engine", trial.engine},
+            {"reason", trial.reason},
+            {"stuck", trial.isStuck}};
+}
+
 }  // namespace trapwright::app

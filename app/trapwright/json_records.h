@@ -7,6 +7,7 @@
 #include "core/part/stable_poses.h"
 #include "core/stats/stratified.h"
 #include "core/study/records.h"
+#include "core/trial/remade_trials.h"
 
 namespace trapwright::app {
 
@@ -22,6 +23,8 @@ nlohmann::ordered_json toJson(const std::vector<study::CheckRecord>& records);
 nlohmann::ordered_json toJson(const study::SelectionRecord& record);
 nlohmann::ordered_json toJson(const study::ValidationRecord& record, const part::Part& part,
                               std::span<const part::PoseGroup> groups);
+/// Its stream, and why it was made again.
+nlohmann::ordered_json toJson(const trial::RemadeTrial& trial);
 /// {"share", "low", "high", "bounds"}; no share where it is not known.
 nlohmann::ordered_json toJson(const stats::WeightedRate& weighted,
                               const char* bounds = "95 % profile limits");

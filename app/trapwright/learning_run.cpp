@@ -253,6 +253,7 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
         if (!finished) return finished.error();
         ran.interrupted = !*finished;
     }
+    noteRemadeTrials(inputs, console);
     if (const auto there = file.checkInPlace(); !there)
         return toFailure({workflow::FailureKind::saving, there.error().message}, file);
     return ran;

@@ -116,11 +116,13 @@ Attempt<study::Individual> findIndividual(const store::StudyFile& file, const In
 
 Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::optional<std::string>& engine,
                                        trial::EngineUse use, unsigned threads) {
-    auto made = makeEngine(
-        engines::registry().nameFor(engine.value_or(study.settings.simulation.engine), use), {threads, 0.0});
+    const auto remade = std::make_shared<trial::RemadeTrials>();
+    auto made =
+        makeEngine(engines::registry().nameFor(engine.value_or(study.settings.simulation.engine), use),
+                   {threads, 0.0, nullptr, remade});
     if (!made) return made.error();
     return study::StudyInputs{study.settings, study.part, *made,
-                              threads == 0 ? base::availableThreads() : threads};
+                              threads == 0 ? base::availableThreads() : threads, remade};
 }
 
 void addConditionsOption(Command command, std::optional<std::string>& conditions) {

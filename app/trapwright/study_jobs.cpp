@@ -1,5 +1,8 @@
 #include "app/trapwright/study_jobs.h"
 
+#include <nlohmann/json.hpp>
+
+#include "app/trapwright/json_records.h"
 #include "app/trapwright/work_display.h"
 #include "core/workflow/judging.h"
 
@@ -37,6 +40,18 @@ Failure describeRunFailure(const base::RunControl& control, const base::Error& e
     return {ExitCode::fault, error.message};
 }
 
+void noteRemadeTrials(const study::StudyInputs& inputs, const Console& console) {
+    if (inputs.remade && inputs.remade->count() > 0) console.note(trial::describe(inputs.remade->list()));
+}
+
+void addRemadeTrials(const study::StudyInputs& inputs, nlohmann::ordered_json& document) {
+    if (!inputs.remade || inputs.remade->count() == 0) return;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const trial::RemadeTrial& one : inputs.remade->list())
+        list.push_back(toJson(one));
+    document["remade_trials"] = std::move(list);
+}
+
 Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                               const Console& console) {
     auto candidates = workflow::findCandidates(file, inputs);
@@ -49,6 +64,7 @@ Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const stud
         return workflow::selectAndSave(file, inputs, std::move(*candidates), control);
     }();
     if (!record) return toFailure(record.error(), file);
+    noteRemadeTrials(inputs, console);
     return std::move(*record);
 }
 
@@ -63,6 +79,7 @@ Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const s
         return workflow::validateAndSave(file, inputs, individual, expected, control);
     }();
     if (!record) return toFailure(record.error(), file);
+    noteRemadeTrials(inputs, console);
     return std::move(*record);
 }
 

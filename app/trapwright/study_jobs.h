@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "app/trapwright/console.h"
@@ -27,6 +28,11 @@ Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const s
                                                  const study::Individual& individual,
                                                  const std::optional<base::Quaternion>& expected,
                                                  const Console& console);
+
+/// A line on stderr about the trials that were made again, if there are any.
+void noteRemadeTrials(const study::StudyInputs& inputs, const Console& console);
+/// Adds them to a command's document as "remade_trials", if there are any.
+void addRemadeTrials(const study::StudyInputs& inputs, nlohmann::ordered_json& document);
 
 /// The failure that a cancelled or broken run of trials means.
 Failure describeRunFailure(const base::RunControl& control, const base::Error& error);

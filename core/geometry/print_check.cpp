@@ -85,6 +85,7 @@ ThinWall makeThinWall(const std::vector<WallCell>& cells, const std::vector<std:
 std::vector<ThinWall> findThinWalls(const TriangleMesh& mesh, double thinnest,
                                     const std::vector<SharpEdge>& edges) {
     std::vector<WallCell> cells = findThinCells(mesh, thinnest);
+    if (cells.empty()) return {};
     std::erase_if(cells, [&](const WallCell& cell) { return isOfRidge(mesh, cell, edges); });
     if (cells.empty()) return {};
 
@@ -176,6 +177,12 @@ Overhang makeOverhang(const TriangleMesh& mesh, const std::vector<double>& angle
     return overhang;
 }
 
+}  // namespace
+
+std::vector<ThinWall> findThinWalls(const TriangleMesh& mesh, const PrintLimits& limits) {
+    return findThinWalls(mesh, limits.thinnestWall, findSharpEdges(mesh, kSharpestEdge));
+}
+
 std::vector<Overhang> findOverhangs(const TriangleMesh& mesh, const PrintLimits& limits) {
     double bed = mesh.vertices.front().dot(limits.direction);
     for (const Triangle& t : mesh.triangles) {
@@ -208,8 +215,6 @@ std::vector<Overhang> findOverhangs(const TriangleMesh& mesh, const PrintLimits&
                      [](const Overhang& a, const Overhang& b) { return a.area > b.area; });
     return overhangs;
 }
-
-}  // namespace
 
 PrintReport checkForPrinting(const TriangleMesh& mesh, const PrintLimits& limits) {
     PrintReport report;

@@ -22,31 +22,13 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 constexpr double kOpposite = -0.70710678;  // cosine between the normals of two faces of one wall
 constexpr double kCellSize = 1e-3;         // the longest edge of a cell [m]
 constexpr double kMostCells = 1e5;         // of a solid, or else they are larger
+constexpr double kMargin = 1e-9;           // of rounding [m]
 constexpr double kLeastHeight = 1e-5;  // of a triangle over a sharp edge; slivers of rounding are lower [m]
+
+using Corners = std::array<base::Vec3, 3>;
 
 Kernel::Point_3 toPoint(const base::Vec3& v) {
     return {v.x(), v.y(), v.z()};
-}
-
-/// Halves the longest edge until none is longer than `size`.
-void cutIntoCells(const std::array<base::Vec3, 3>& corners, double size,
-                  std::vector<std::array<base::Vec3, 3>>& cells) {
-    std::size_t longest = 0;
-    std::array<double, 3> lengths{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        lengths[k] = (corners[(k + 1) % 3] - corners[k]).norm();
-        if (lengths[k] > lengths[longest]) longest = k;
-    }
-    if (lengths[longest] <= size) {
-        cells.push_back(corners);
-        return;
-    }
-    const base::Vec3& a = corners[longest];
-    const base::Vec3& b = corners[(longest + 1) % 3];
-    const base::Vec3& c = corners[(longest + 2) % 3];
-    const base::Vec3 middle = 0.5 * (a + b);
-    cutIntoCells({a, middle, c}, size, cells);
-    cutIntoCells({middle, b, c}, size, cells);
 }
 
 double areaOf(const base::Vec3& a, const base::Vec3& b, const base::Vec3& c) {
@@ -70,6 +52,52 @@ class Solid {
     }
 
     [[nodiscard]] const std::vector<std::size_t>& numbers() const { return numbers_; }
+
+    /// The faces that the other side of a wall under triangle numbers()[k] can be.
+    [[nodiscard]] std::vector<std::size_t> findOpposite(std::size_t k, double farthest) {
+        const base::Vec3 way = -farthest * normals_[k];
+        CGAL::Bbox_3 box = triangles_[k].bbox();
+        box += CGAL::Bbox_3(box.xmin() + way.x() - kMargin, box.ymin() + way.y() - kMargin,
+                            box.zmin() + way.z() - kMargin, box.xmax() + way.x() + kMargin,
+                            box.ymax() + way.y() + kMargin, box.zmax() + way.z() + kMargin);
+        hits_.clear();
+        tree_.all_intersected_primitives(box, std::back_inserter(hits_));
+        std::vector<std::size_t> faces;
+        for (const auto hit : hits_) {
+            const auto other = static_cast<std::size_t>(hit - triangles_.cbegin());
+            if (normals_[other].dot(normals_[k]) <= kOpposite) faces.push_back(other);
+        }
+        return faces;
+    }
+    /// Of these, those that are less than `farthest` below some point of a piece of triangle numbers()[k].
+    [[nodiscard]] std::vector<std::size_t> findNear(const std::vector<std::size_t>& faces, std::size_t k,
+                                                    const Corners& piece, double farthest) const {
+        const base::Vec3 way = -farthest * normals_[k];
+        Box box;
+        for (const base::Vec3& corner : piece) {
+            box.include(corner);
+            box.include(corner + way);
+        }
+        std::vector<std::size_t> near;
+        for (const std::size_t face : faces) {
+            const CGAL::Bbox_3 other = triangles_[face].bbox();
+            if (other.xmax() < box.low.x() - kMargin || other.xmin() > box.high.x() + kMargin ||
+                other.ymax() < box.low.y() - kMargin || other.ymin() > box.high.y() + kMargin ||
+                other.zmax() < box.low.z() - kMargin || other.zmin() > box.high.z() + kMargin)
+                continue;
+            // How far above the face's plane: at most as far as along the ray.
+            const base::Vec3& there = mesh_.vertices[mesh_.triangles[numbers_[face]][0]];
+            double least = std::numeric_limits<double>::infinity();
+            double greatest = -least;
+            for (const base::Vec3& corner : piece) {
+                const double above = normals_[face].dot(there - corner);
+                least = std::min(least, above);
+                greatest = std::max(greatest, above);
+            }
+            if (greatest >= -kMargin && least <= farthest + kMargin) near.push_back(face);
+        }
+        return near;
+    }
 
     /// The way from a point of triangle numbers()[k] to the wall's other side; infinite if there is none
     /// before `farthest`.
@@ -102,6 +130,46 @@ class Solid {
     std::vector<Tree::Primitive_id> hits_;
 };
 
+/// Cuts a triangle into cells, and keeps those that are thin.
+class CellCut {
+ public:
+    CellCut(Solid& solid, std::size_t triangle, double size, double thinnest, std::vector<WallCell>& thin)
+        : solid_(&solid), triangle_(triangle), size_(size), thinnest_(thinnest), thin_(&thin) {}
+
+    /// Halves the longest edge until none is longer than the size, where there is any face to be near to.
+    void cut(const Corners& corners, const std::vector<std::size_t>& faces) {
+        const std::vector<std::size_t> near = solid_->findNear(faces, triangle_, corners, thinnest_);
+        if (near.empty()) return;
+        std::size_t longest = 0;
+        std::array<double, 3> lengths{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            lengths[k] = (corners[(k + 1) % 3] - corners[k]).norm();
+            if (lengths[k] > lengths[longest]) longest = k;
+        }
+        if (lengths[longest] <= size_) return measure(corners);
+        const base::Vec3& a = corners[longest];
+        const base::Vec3& b = corners[(longest + 1) % 3];
+        const base::Vec3& c = corners[(longest + 2) % 3];
+        const base::Vec3 middle = 0.5 * (a + b);
+        cut({a, middle, c}, near);
+        cut({middle, b, c}, near);
+    }
+
+ private:
+    void measure(const Corners& corners) {
+        WallCell cell{static_cast<int>(solid_->numbers()[triangle_]), corners,
+                      areaOf(corners[0], corners[1], corners[2]), 0.0};
+        cell.thickness = solid_->measure(triangle_, cell.middle(), thinnest_);
+        if (cell.thickness < thinnest_) thin_->push_back(cell);
+    }
+
+    Solid* solid_;
+    std::size_t triangle_;
+    double size_;
+    double thinnest_;
+    std::vector<WallCell>* thin_;
+};
+
 }  // namespace
 
 std::vector<WallCell> findThinCells(const TriangleMesh& mesh, double thinnest) {
@@ -113,17 +181,11 @@ std::vector<WallCell> findThinCells(const TriangleMesh& mesh, double thinnest) {
     const double size = std::max(kCellSize, std::sqrt(4.0 * area / kMostCells));
 
     std::vector<WallCell> thin;
-    std::vector<std::array<base::Vec3, 3>> cells;
     for (std::size_t k = 0; k < solid.numbers().size(); ++k) {
-        const std::size_t number = solid.numbers()[k];
-        const Triangle& t = mesh.triangles[number];
-        cells.clear();
-        cutIntoCells({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, size, cells);
-        for (const auto& corners : cells) {
-            WallCell cell{static_cast<int>(number), corners, areaOf(corners[0], corners[1], corners[2]), 0.0};
-            cell.thickness = solid.measure(k, cell.middle(), thinnest);
-            if (cell.thickness < thinnest) thin.push_back(cell);
-        }
+        const Triangle& t = mesh.triangles[solid.numbers()[k]];
+        CellCut(solid, k, size, thinnest, thin)
+            .cut({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
+                 solid.findOpposite(k, thinnest));
     }
     return thin;
 }

@@ -11,6 +11,7 @@
 #include "core/objectives/conveying_speed.h"
 #include "core/objectives/disorder.h"
 #include "core/objectives/paper_scores.h"
+#include "core/objectives/printability.h"
 #include "core/objectives/success_share.h"
 #include "core/objectives/worst_half.h"
 
@@ -36,9 +37,9 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {collisions(),   distance(),  orientation(),
-                                           disorder(),     sorting(),   successShare(),
-                                           correctShare(), worstHalf(), conveyingSpeed()};
+    static const std::array kObjectives = {collisions(),     distance(),     orientation(),  disorder(),
+                                           sorting(),        successShare(), correctShare(), worstHalf(),
+                                           conveyingSpeed(), printability()};
     return kObjectives;
 }
 

@@ -62,10 +62,6 @@ void countEndings(std::span<const trial::Outcome> outcomes, IndividualRecord& re
     }
 }
 
-bool isFinite(const base::Pose& pose) {
-    return pose.position.allFinite() && pose.rotation.coeffs().allFinite();
-}
-
 base::Error brokenEngine(const trial::Engine& engine, const std::string& what) {
     return {"The engine " + engine.name() + " " + what +
             ". This is a fault of the engine; choose another one."};
@@ -232,10 +228,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> runTrials(const trial::En
             const std::vector<trial::PartOutcome>& parts = (*outcomes)[b][i].parts;
             if (parts.size() != batches[b].trials[i].parts.size())
                 return brokenEngine(engine, "left out parts");
-            const bool finite = std::ranges::all_of(parts, [](const trial::PartOutcome& part) {
-                return isFinite(part.initial) && isFinite(part.farthest);
-            });
-            if (finite) continue;
+            if (trial::isFinite((*outcomes)[b][i])) continue;
             const base::StreamKey& stream = batches[b].trials[i].stream;
             return brokenEngine(engine, "lost the part in trial " + std::to_string(stream.trial) +
                                             " of individual " + std::to_string(stream.individual) +

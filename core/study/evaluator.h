@@ -73,6 +73,8 @@ struct StudyInputs {
     std::shared_ptr<const part::Part> part;
     std::shared_ptr<const trial::Engine> engine;
     unsigned threads = 1;  // for building tracks; the engine has its own
+    /// Trials that the engines of this run could not finish; null: nobody asks.
+    std::shared_ptr<trial::RemadeTrials> remade = nullptr;
 };
 
 /// What counts in F. The settings must be without problems (findProblems).

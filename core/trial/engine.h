@@ -11,6 +11,7 @@
 #include "core/trial/batch.h"
 #include "core/trial/costs.h"
 #include "core/trial/outcome.h"
+#include "core/trial/remade_trials.h"
 
 namespace trapwright::trial {
 
@@ -20,6 +21,9 @@ struct EngineOptions {
     double step = 0.0;     // of simulated time [s], where a batch asks for none; 0: the engine's own
     /// Told what run() spent on what, by engines that can tell. Null: nothing is measured.
     std::shared_ptr<CostMeter> costs = nullptr;
+    /// Told of trials that the engine could not finish, by engines that an EngineRegistry made. Null: nobody
+    /// is.
+    std::shared_ptr<RemadeTrials> remade = nullptr;
 };
 
 /// A rigid-body simulator that judges tracks. Takes whole batches, so that it may use threads, wide

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <utility>
 
+#include "core/trial/backed_engine.h"
+
 namespace trapwright::trial {
 
 EngineRegistry::EngineRegistry(std::vector<EngineKind> kinds) : kinds_(std::move(kinds)) {
@@ -39,7 +41,8 @@ base::Result<std::shared_ptr<const Engine>> EngineRegistry::make(std::string_vie
                                                                  const EngineOptions& options) const {
     const EngineKind* kind = find(name);
     if (kind == nullptr) return describeUnknown(name);
-    return std::shared_ptr<const Engine>(kind->make(options));
+    return std::shared_ptr<const Engine>(
+        std::make_shared<const BackedEngine>(kind->make(options), reference(), options));
 }
 
 base::Error EngineRegistry::describeUnknown(std::string_view name) const {

@@ -58,7 +58,8 @@ class EngineRegistry {
 
     /// Null if there is none of that name.
     [[nodiscard]] const EngineKind* find(std::string_view name) const;
-    /// The engine of that name; an error that lists those that there are otherwise.
+    /// The engine of that name, backed by the reference (BackedEngine); an error that lists those that there
+    /// are otherwise. Who wants to see an engine fail takes its kind's `make`.
     [[nodiscard]] base::Result<std::shared_ptr<const Engine>> make(std::string_view name,
                                                                    const EngineOptions& options) const;
     /// "There is no engine named ...", with those that there are.

@@ -1,5 +1,6 @@
 #include "core/trial/outcome.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace trapwright::trial {
@@ -17,6 +18,16 @@ std::string_view endingName(Ending ending) {
     }
     assert(false && "not an ending");
     return "";
+}
+
+bool isFinite(const base::Pose& pose) {
+    return pose.position.allFinite() && pose.rotation.coeffs().allFinite();
+}
+
+bool isFinite(const Outcome& outcome) {
+    return std::ranges::all_of(outcome.parts, [](const PartOutcome& part) {
+        return isFinite(part.initial) && isFinite(part.farthest);
+    });
 }
 
 std::size_t countParts(std::span<const Outcome> outcomes) {

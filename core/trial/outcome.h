@@ -34,6 +34,11 @@ struct Outcome {
     friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
+/// Whether all its numbers are numbers.
+bool isFinite(const base::Pose& pose);
+/// The same of the poses of all its parts.
+bool isFinite(const Outcome& outcome);
+
 /// Of all trials together.
 std::size_t countParts(std::span<const Outcome> outcomes);
 

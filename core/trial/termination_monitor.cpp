@@ -16,10 +16,17 @@ std::optional<Ending> TerminationMonitor::update(std::size_t part, double time, 
     Progress& progress = parts_[part];
     PartOutcome& outcome = outcome_.parts[part];
     if (!progress.started) progress.lastX = track_->start;
+    outcome.time = time;
+    if (!isFinite(pose)) {
+        // It shows in the outcome, so that the trial is made again (BackedEngine).
+        outcome.farthest = pose;
+        outcome.ending = Ending::stuck;
+        --running_;
+        return Ending::stuck;
+    }
     const base::Pose here = toTrackCoordinates(part, pose);
     const double x = here.position.x();
     progress.lastX = x;
-    outcome.time = time;
     if (!progress.started) {
         progress = {true, time, x, x, time};
         outcome.initial = here;

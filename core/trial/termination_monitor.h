@@ -20,7 +20,8 @@ class TerminationMonitor {
 
     /// `part`: its place in TrialSpec::parts. `pose`: part frame to the track's mesh frame (the room with the
     /// drive's displacement taken out). Returns the ending when the part's run is over, which is then not
-    /// told of any more.
+    /// told of any more. A pose that is not a number ends it as stuck, and stays in the outcome as the
+    /// farthest.
     std::optional<Ending> update(std::size_t part, double time, const base::Pose& pose);
 
     /// The trial is over when all runs are; outcome() is then complete.

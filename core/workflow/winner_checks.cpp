@@ -16,10 +16,11 @@ Result<std::unique_ptr<WinnerChecks>> WinnerChecks::start(store::StudyFile& file
     auto unchecked = file.loadUncheckedWinners();
     if (!unchecked) return Failure{FailureKind::reading, unchecked.error().message};
     study::StudyInputs aside = inputs;
-    aside.engine = engines.quick().make({1, 0.0});
+    const trial::EngineOptions options{1, 0.0, nullptr, inputs.remade};
+    aside.engine = engines.make(engines.quick().name, options).value();
 
-    auto background =
-        std::make_unique<study::BackgroundChecks>(std::move(aside), reference->make({1, 0.0}), control);
+    auto background = std::make_unique<study::BackgroundChecks>(
+        std::move(aside), engines.make(reference->name, options).value(), control);
     for (study::Individual& winner : *unchecked)
         background->add(std::move(winner));
     return std::unique_ptr<WinnerChecks>(new WinnerChecks(file, std::move(background)));
@@ -57,7 +58,7 @@ Result<std::monostate> checkWinners(store::StudyFile& file, const study::StudyIn
                                     const base::RunControl& control) {
     const trial::EngineKind* reference = engines.referenceFor(inputs.settings.simulation.engine);
     if (reference == nullptr || winners.empty()) return std::monostate{};
-    const auto engine = reference->make({inputs.threads, 0.0});
+    const auto engine = engines.make(reference->name, {inputs.threads, 0.0, nullptr, inputs.remade}).value();
     for (const study::Individual& winner : winners) {
         const auto record = study::checkWinner(inputs, *engine, winner, control);
         if (control.cancelled())

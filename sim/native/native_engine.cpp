@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <string>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -191,9 +193,13 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
         TrialQueue queue(like.members, sceneOf);
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
-        base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
-            runTrials(model, queue, lanes, outcomes, costs_.get(), control);
-        });
+        try {
+            base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
+                runTrials(model, queue, lanes, outcomes, costs_.get(), control);
+            });
+        } catch (const std::exception& e) {
+            return base::Error{std::string("The native engine could not simulate the trials: ") + e.what()};
+        }
         if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     }
     return outcomes;

@@ -162,6 +162,7 @@ inline void beginSolving(TrialLanes& group, int lane) {
         contact.values[kState] = static_cast<float>(state);
     }
     group.plastic[place] = 0;
+    group.smooth[place] = 0;
     await(group, group.carrying, lane);
 }
 
@@ -172,11 +173,12 @@ inline void awaitNextMoment(TrialLanes& group, int lane) {
     for (std::size_t i = 0; i < found.size(); ++i)
         std::fill_n(found[i].values.begin() + kNormalImpulse, 3, 0.0F);
     group.plastic[place] = 0;
+    group.smooth[place] = 0;
     await(group, group.carrying, lane);
 }
 
-/// Takes up from the round before; impacts of `plastic` lanes are plastic.
-inline void goOn(ContactConstraint* rows, SolveBatch& batch, Mask plastic) {
+/// Takes up from the round before; impacts of `plastic` lanes are plastic, `smooth` ones have no friction.
+inline void goOn(ContactConstraint* rows, SolveBatch& batch, Mask plastic, Mask smooth) {
     for (int r = 0; r < batch.rows; ++r) {
         ContactConstraint& row = rows[r];
         row.normal = loadTouch(batch, r, kNormalImpulse);
@@ -184,6 +186,7 @@ inline void goOn(ContactConstraint* rows, SolveBatch& batch, Mask plastic) {
         row.shape = {loadTouch(batch, r, kOnTheWay) > Real(0.0),
                      {loadTouch(batch, r, kDirectionAlong), loadTouch(batch, r, kDirectionAcross)}};
         row.target = select(plastic, min(row.target, Real(0.0)), row.target);
+        row.friction = select(smooth, Real(0.0), row.friction);
     }
 }
 
@@ -247,10 +250,10 @@ inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, co
     }
 }
 
-/// Has the lanes of these slots solved further, from what their contacts have now; those of `plastic` from
-/// nothing.
+/// Has the lanes of these slots solved further, from what their contacts have now; those of `energetic`
+/// from nothing with plastic impacts, those of `burst` also without friction.
 inline void awaitAgain(TrialLanes& group, const SolveBatch& batch, const ContactConstraint* rows,
-                       std::uint32_t bits, std::uint32_t plastic) {
+                       std::uint32_t bits, std::uint32_t energetic, std::uint32_t burst) {
     alignas(64) float states[kMostContacts][6][kWidestVector];
     for (int r = 0; r < batch.rows; ++r) {
         store(rows[r].normal, states[r][0]);
@@ -263,14 +266,16 @@ inline void awaitAgain(TrialLanes& group, const SolveBatch& batch, const Contact
     forEachBit(bits, [&](int slot) {
         const std::int32_t lane = batch.lanes[static_cast<std::size_t>(slot)];
         const auto place = static_cast<std::size_t>(lane);
-        const bool isPlastic = ((plastic >> static_cast<unsigned>(slot)) & 1U) != 0;
-        if (isPlastic) group.plastic[place] = 1;
+        const bool isBurst = ((burst >> static_cast<unsigned>(slot)) & 1U) != 0;
+        const bool fromNothing = isBurst || ((energetic >> static_cast<unsigned>(slot)) & 1U) != 0;
+        if (fromNothing) group.plastic[place] = 1;
+        if (isBurst) group.smooth[place] = 1;
         ContactList& found = group.found[place];
         for (std::size_t i = 0; i < found.size(); ++i) {
             auto& values = found[i].values;
             for (std::size_t k = 0; k < 3; ++k) {
-                values[kNormalImpulse + k] = isPlastic ? 0.0F : states[i][k][slot];
-                values[kOnTheWay + k] = states[i][3 + k][slot];
+                values[kNormalImpulse + k] = fromNothing ? 0.0F : states[i][k][slot];
+                values[kOnTheWay + k] = isBurst ? 0.0F : states[i][3 + k][slot];
             }
         }
         await(group, group.unfinished, lane);
@@ -305,12 +310,14 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
         prepareConstraint(rows[row], loadContact(group, batch, row, track), turns, motion, law, dt);
     takeFirstImpacts(rows, batch.rows, dt);
     std::uint32_t plastic = 0;
+    std::uint32_t smooth = 0;
     if (batch.shaped) {
         for (int slot = 0; slot < batch.filled; ++slot) {
             const auto lane = static_cast<std::size_t>(batch.lanes[static_cast<std::size_t>(slot)]);
             plastic |= std::uint32_t{group.plastic[lane]} << static_cast<unsigned>(slot);
+            smooth |= std::uint32_t{group.smooth[lane]} << static_cast<unsigned>(slot);
         }
-        goOn(rows, batch, maskOf(plastic));
+        goOn(rows, batch, maskOf(plastic), maskOf(smooth));
     }
 
     const std::uint32_t there = (1U << static_cast<unsigned>(batch.filled)) - 1U;
@@ -318,9 +325,12 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
     const auto solved =
         iterate(rows, batch.rows, free, !maskOf(there), iterations, batch.shaped ? kFirstRound : 0);
     const Motion& after = solved.motion;
-    const std::uint32_t converged = batch.shaped ? there : bitsOf(solved.converged) & there;
-    const std::uint32_t energetic = bitsOf(createsEnergy(rows, batch.rows, after)) & converged & ~plastic;
-    const std::uint32_t settled = converged & ~energetic;
+    const std::uint32_t iterated = batch.shaped ? there : bitsOf(solved.converged) & there;
+    const Real work = calcWork(rows, batch.rows, after);
+    const Mask energy = anyImpact(rows, batch.rows) && work > Real(0.0);
+    const std::uint32_t energetic = bitsOf(energy) & iterated & ~plastic;
+    const std::uint32_t burst = bitsOf(hasBurst(solved.converged, work)) & iterated & ~energetic & ~smooth;
+    const std::uint32_t settled = iterated & ~energetic & ~burst;
     const bool last = group.moment + 1 == kMostMoments;
     const Motion own = advancePose(rows, batch.rows, free, after, dt, last);
     const Motion advance = motion.offset + own;
@@ -340,7 +350,7 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
                    [&](int slot) { awaitNextMoment(group, batch.lanes[static_cast<std::size_t>(slot)]); });
     }
     if (group.recorded != nullptr && settled != 0) record(*group.recorded, batch, rows);
-    if (settled != there) awaitAgain(group, batch, rows, there & ~settled, energetic);
+    if (settled != there) awaitAgain(group, batch, rows, there & ~settled, energetic, burst);
     batch.filled = 0;
 }
 

@@ -80,6 +80,7 @@ TrialLanes::TrialLanes(const LaneModel& model, int capacity)
       warmStarts(capacity),
       found(capacity),
       plastic(capacity),
+      smooth(capacity),
       model_(&model),
       // Not a power of two: fields of one lane would fall into the same few lines of the cache.
       stride_(padToVectors(capacity) + kWidestVector),

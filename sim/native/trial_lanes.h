@@ -249,6 +249,7 @@ class TrialLanes {
     LanesByContacts unfinished;         // that wait for the second round
     std::vector<std::int32_t> waiting;  // the same, one after the other
     std::vector<std::uint8_t> plastic;  // whether the impacts of the lane create energy
+    std::vector<std::uint8_t> smooth;   // whether its friction bursts
     SolveBatch solveBatch;
     int moment = 0;                                    // of impacts in the present step
     trial::CostLaps* laps = nullptr;                   // if the costs are to be told apart

@@ -81,7 +81,9 @@ void EventLog::setRuns(const StudyRuns* runs) {
     stack_->setCurrentIndex(0);
     if (!runs_) return;
     last_ = runs_->state();
+    remade_ = runs_->remadeTrials().size();
     connect(runs_, &StudyRuns::stateChanged, this, &EventLog::tellState);
+    connect(runs_, &StudyRuns::progressed, this, &EventLog::tellRemade);
     connect(runs_, &StudyRuns::generationSaved, this, &EventLog::tellGeneration);
     connect(runs_, &StudyRuns::checkSaved, this, &EventLog::tellCheck);
     connect(runs_, &StudyRuns::selectionSaved, this, [this] { add(Kind::good, tr("Selection saved")); });
@@ -126,7 +128,16 @@ void EventLog::colour() {
     }
 }
 
+void EventLog::tellRemade() {
+    const std::vector<trial::RemadeTrial> trials = runs_->remadeTrials();
+    if (trials.size() < remade_) remade_ = 0;  // a new run
+    for (; remade_ < trials.size(); ++remade_)
+        add(Kind::warning, tr("Made again with the reference engine: %1")
+                               .arg(QString::fromStdString(trial::describe(trials[remade_]))));
+}
+
 void EventLog::tellState(RunState state) {
+    tellRemade();
     const RunState before = std::exchange(last_, state);
     const QString next = QString::number(runs_->summaries().size());
     switch (state) {

@@ -38,9 +38,11 @@ class EventLog : public QWidget {
     void tellState(session::RunState state);
     void tellGeneration(int generation);
     void tellCheck(int generation);
+    void tellRemade();
 
     QPointer<const session::StudyRuns> runs_;
     session::RunState last_ = session::RunState::idle;
+    std::size_t remade_ = 0;      // trials of the present run that were told of
     std::array<QIcon, 4> signs_;  // by kind
     QTreeWidget* list_;
     QStackedLayout* stack_;

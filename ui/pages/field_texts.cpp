@@ -52,7 +52,7 @@ const RawText kTexts[] = {
     {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
 
     {"evolution.search", TEXT("Search"), TEXT("How tracks are looked for: bred from the best ones, as in the paper, or drawn at random, which shows what breeding is worth."), {TEXT("Genetic"), TEXT("Random")}},
-    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; disorder, in how many ways parts end, in bits; sorting, how far the parts that stay on the track are from all lying right, for tracks that throw back what lies wrong; correct, the share of finished parts in the most frequent orientation; worst_half, the success in the half of the operating box where it is least; conveying_speed, in m/s.")},
+    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; disorder, in how many ways parts end, in bits; sorting, how far the parts that stay on the track are from all lying right, for tracks that throw back what lies wrong; correct, the share of finished parts in the most frequent orientation; worst_half, the success in the half of the operating box where it is least; conveying_speed, in m/s; F_P, minus the area in mm² that a printer cannot make because walls are thinner than 1.2 mm or overhangs steeper than 45 degrees.")},
     {"evolution.populationSize", TEXT("Population"), TEXT("Individuals in each generation.")},
     {"evolution.trialsPerEvaluation", TEXT("Trials each"), TEXT("Parts that are simulated to judge one individual.")},
     {"evolution.tournamentSize", TEXT("Tournament"), TEXT("Individuals that compete to become a parent; more of them press harder.")},
@@ -179,6 +179,7 @@ std::vector<Choice> objectiveChoices() {
         {"F_C, F_D, F_O, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, success"))},
         {"F_C, F_D, F_O, worst_half",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, worst half"))},
+        {"F_C, F_D, F_O, F_P", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, printability"))},
         {"F_C, F_D, disorder", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Disorder"))},
         {"sorting", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Sorting"))},
         {"F_C, F_D, success, conveying_speed",

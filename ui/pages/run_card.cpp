@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "core/study/selection.h"
 #include "core/study/standstill.h"
@@ -29,6 +30,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
       title_(new QLabel(this)),
       detail_(new QLabel(this)),
       standstill_(new QLabel(this)),
+      remade_(new QLabel(this)),
       speed_(new QLabel(this)),
       bar_(new QProgressBar(this)),
       draft_(new QWidget(this)),
@@ -49,6 +51,12 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
         "The mean of the top 30 %, over eight generations, has not risen by more than noise. Where success "
         "is high the track is as good as this search makes it: simulate the best winners again. Where it is "
         "not, look on the Review page at how parts end, or try another kind of trap on the Track page."));
+    remade_->setObjectName("evolve.remade");
+    remade_->setWordWrap(true);
+    remade_->setForegroundRole(QPalette::PlaceholderText);
+    remade_->setToolTip(tr(
+        "The engine failed in these trials or lost the part, so the reference engine made them again; what "
+        "that could not finish either counts as stuck. The log names them."));
     speed_->setObjectName("evolve.speed");
     speed_->setForegroundRole(QPalette::PlaceholderText);
     connect(detail_, &QLabel::linkActivated, this, &RunCard::settingsWanted);
@@ -83,6 +91,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     layout->addWidget(title_);
     layout->addWidget(detail_);
     layout->addWidget(standstill_);
+    layout->addWidget(remade_);
     layout->addWidget(bar_);
     layout->addWidget(speed_);
     layout->addSpacing(4);
@@ -137,6 +146,7 @@ void RunCard::update() {
     speed_->setVisible(!idle);
     showSuccess();
     showStandstill();
+    showRemade();
     if (!runs_) return;
     if (idle) {
         showIdle();
@@ -171,6 +181,16 @@ void RunCard::showStandstill() {
     const std::optional<int> since = runs_ ? study::findStandstill(runs_->summaries()) : std::nullopt;
     standstill_->setVisible(since.has_value());
     if (since) standstill_->setText(tr("Nothing was gained since generation %1.").arg(*since));
+}
+
+void RunCard::showRemade() {
+    const std::vector<trial::RemadeTrial> trials =
+        runs_ ? runs_->remadeTrials() : std::vector<trial::RemadeTrial>();
+    remade_->setVisible(!trials.empty());
+    const auto stuck = std::ranges::count(trials, true, &trial::RemadeTrial::isStuck);
+    QString text = tr("Trials made again with the reference engine: %L1").arg(trials.size());
+    if (stuck > 0) text += tr(", %L1 of them count as stuck").arg(stuck);
+    remade_->setText(text + '.');
 }
 
 QString RunCard::workText() const {

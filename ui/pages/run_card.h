@@ -35,6 +35,7 @@ class RunCard : public QWidget {
     void announce();
     void showSuccess();
     void showStandstill();
+    void showRemade();
     void showIdle();
     void showDraft();
     void showRun(session::RunState state);
@@ -45,6 +46,7 @@ class RunCard : public QWidget {
     QLabel* title_;
     QLabel* detail_;
     QLabel* standstill_;
+    QLabel* remade_;
     QLabel* speed_;
     QProgressBar* bar_;
     QWidget* draft_;

@@ -28,12 +28,13 @@ Failed settingsFailure(const base::Error& error) {
 
 base::Result<study::StudyInputs> makeInputs(const Environment& environment, const study::Settings& settings,
                                             std::shared_ptr<const part::Part> part, trial::EngineUse use,
-                                            unsigned threads) {
+                                            unsigned threads,
+                                            std::shared_ptr<trial::RemadeTrials> remade = nullptr) {
     const unsigned count = threads == 0 ? base::availableThreads() : threads;
-    auto engine =
-        environment.engines.make(environment.engines.nameFor(settings.simulation.engine, use), {count, 0.0});
+    auto engine = environment.engines.make(environment.engines.nameFor(settings.simulation.engine, use),
+                                           {count, 0.0, nullptr, remade});
     if (!engine) return engine.error();
-    return study::StudyInputs{settings, std::move(part), std::move(*engine), count};
+    return study::StudyInputs{settings, std::move(part), std::move(*engine), count, std::move(remade)};
 }
 
 }  // namespace
@@ -156,6 +157,10 @@ RunProgress StudyRuns::progress() const {
     return progress;
 }
 
+std::vector<trial::RemadeTrial> StudyRuns::remadeTrials() const {
+    return remade_ ? remade_->list() : std::vector<trial::RemadeTrial>();
+}
+
 void StudyRuns::startRun(RunState kind, const QString& what, std::function<Failed(Run&)> work) {
     if (state_->run) {
         state_->fail(what, tr("The study is at work already. Wait for its end, or stop it first."));
@@ -173,8 +178,10 @@ void StudyRuns::startRun(RunState kind, const QString& what, std::function<Faile
     auto run = std::make_shared<Run>();
     run->kind = kind;
     run->what = what;
+    run->remade = std::make_shared<trial::RemadeTrials>();
     run->clock.start();
     state_->run = run;
+    remade_ = run->remade;
     setActivity(kind);
     tick_.start();
     state_->work->post([this, run, work = std::move(work)] {
@@ -215,7 +222,8 @@ std::optional<workflow::Failure> StudyRuns::learn(Run& run, const study::Setting
                                                   unsigned threads) {
     const RecoveryNote note(state_->environment.stateFolder, state_->writer.file().path());
     const trial::EngineRegistry& engines = state_->environment.engines;
-    const auto inputs = makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads);
+    const auto inputs =
+        makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads, run.remade);
     if (!inputs) return settingsFailure(inputs.error());
 
     workflow::LearnEvents events;
@@ -258,7 +266,7 @@ void StudyRuns::startSelection() {
     const auto work = [this, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
+            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads, run.remade);
         if (!inputs) return settingsFailure(inputs.error());
         auto candidates = workflow::findCandidates(state_->writer.file(), *inputs);
         if (!candidates) return candidates.error();
@@ -282,7 +290,7 @@ void StudyRuns::startValidation(const study::Individual& winner,
     const auto work = [this, winner, expected, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
+            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads, run.remade);
         if (!inputs) return settingsFailure(inputs.error());
         state_->tell(
             [this, total = workflow::countValidationTrials(*inputs)] { state_->run->total = total; });
@@ -303,7 +311,7 @@ void StudyRuns::startRobustness(const study::Individual& individual, const study
     const auto work = [this, individual, plan, expected, settings = state_->settings,
                        part = state_->part.part, threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads);
+            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads, run.remade);
         if (!inputs) return settingsFailure(inputs.error());
         auto track = study::decodeTrack(settings.track, individual.record.design);
         if (!track) return settingsFailure(track.error());

@@ -13,6 +13,7 @@
 #include "core/study/robustness.h"
 #include "core/study/selection.h"
 #include "core/study/settings.h"
+#include "core/trial/remade_trials.h"
 #include "core/workflow/failure.h"
 #include "core/workflow/proposal.h"
 
@@ -97,6 +98,8 @@ class StudyRuns : public QObject {
 
     [[nodiscard]] RunState state() const;
     [[nodiscard]] RunProgress progress() const;
+    /// Trials of this run, or of the last one, that an engine could not finish.
+    [[nodiscard]] std::vector<trial::RemadeTrial> remadeTrials() const;
     /// Threads that the next run uses; 0: all processors.
     [[nodiscard]] unsigned threads() const;
     void setThreads(unsigned threads);
@@ -166,6 +169,7 @@ class StudyRuns : public QObject {
     RunState activity_ = RunState::idle;                     // of the thread that writes
     RunState told_ = RunState::idle;                         // by stateChanged()
     std::shared_ptr<const study::GenerationRecord> newest_;  // that was saved since the study was opened
+    std::shared_ptr<trial::RemadeTrials> remade_;            // null before the first run
     QTimer tick_;
 };
 

@@ -37,7 +37,8 @@ struct Run {
     study::LearningControl learning;  // any thread
     base::RunControl trials;          // any thread; of all but the generations
     std::optional<study::GenerationPlan> plan;
-    std::int64_t total = 0;  // of `trials`, once it is known
+    std::int64_t total = 0;                       // of `trials`, once it is known
+    std::shared_ptr<trial::RemadeTrials> remade;  // any thread
     QElapsedTimer clock;
     qint64 before = 0;  // the last pause [ms]
     bool paused = false;

@@ -12,6 +12,9 @@ using Mask = bool;
 inline Real select(Mask mask, Real yes, Real no) {
     return mask ? yes : no;
 }
+inline Mask select(Mask mask, Mask yes, Mask no) {
+    return mask ? yes : no;
+}
 inline bool any(Mask mask) {
     return mask;
 }

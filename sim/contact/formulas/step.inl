@@ -237,6 +237,15 @@ Mask reachesLater(const Row* rows, int count, const State& advance, Real dt) {
     return reaches;
 }
 
+/// Whether anything collides in this step.
+template <class Row>
+Mask anyImpact(const Row* rows, int count) {
+    Mask impact = Real(0.0) > Real(1.0);
+    for (int i = 0; i < count; ++i)
+        impact = impact || rows[i].impactTime <= Real(1.0);
+    return impact;
+}
+
 /// Impulses are noted after iterations 3 and 5 and carried on after 7, then the same six later, and so on.
 constexpr int kTrendPeriod = 6;
 /// Contacts of which impulses are carried on; no more than that of one part.
@@ -309,10 +318,8 @@ Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask froz
                         int first = 0) {
     const bool shaped = first > 0;
     ImpulseTrend trend;
-    Mask impact = Real(0.0) > Real(1.0);
-    for (int i = 0; i < count; ++i)
-        impact = impact || rows[i].impactTime <= Real(1.0);
-    const bool anyImpact = count <= kMostInTrend && any(impact);
+    const Mask impact = anyImpact(rows, count);
+    const bool followsTrend = count <= kMostInTrend && any(impact);
     State motion = freeMotion;
     for (int i = 0; i < count; ++i) {
         applyImpulse(rows[i], motion, 0, rows[i].normal);
@@ -356,7 +363,7 @@ Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask froz
             change = max(change, dot(slipChange, slipChange));
         }
         done = done || change < tolerance;
-        if (!anyImpact) continue;
+        if (!followsTrend) continue;
         const int turn = (first + iteration) % kTrendPeriod;
         if (turn == 1 && trend.noted == 2)
             trend.follow(rows, count, motion, impact && !done);
@@ -366,20 +373,26 @@ Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask froz
     return {motion, done};
 }
 
-/// Newton's restitution at several places at once may create energy: whether it did.
+/// The work that the impulses of all rows do, from the motion before them to this one, relative to the track.
+/// [m^2/s^2]
 template <class Row, class State>
-Mask createsEnergy(const Row* rows, int count, const State& motion) {
-    Mask impact = Real(0.0) > Real(1.0);
+Real calcWork(const Row* rows, int count, const State& motion) {
     Real work = Real(0.0);
     for (int i = 0; i < count; ++i) {
         const Row& row = rows[i];
-        impact = impact || row.impactTime <= Real(1.0);
         const Real impulse[3] = {row.normal, row.tangential.x, row.tangential.y};
         for (int k = 0; k < 3; ++k)
             work =
                 work + workOf(row, Real(0.5) * impulse[k] * (row.speed[k] + velocityAlong(row, motion, k)));
     }
-    return impact && work > Real(0.0);
+    return work;
+}
+
+/// Where a part is wedged between contacts, normal impulses and friction may call forth each other without
+/// end: every iteration makes them larger, and the step would throw the part. What has not converged and has
+/// gained the energy of an impact at kFullSpeed is such a burst; so is what is no number any more.
+inline Mask hasBurst(Mask converged, Real work) {
+    return !converged && !(work <= Real(0.5 * kFullSpeed * kFullSpeed));
 }
 
 /// Makes the impacts of these lanes plastic and begins anew.
@@ -393,17 +406,38 @@ void makePlastic(Row* rows, int count, Mask lanes) {
     }
 }
 
-/// Solves for the impulses of all rows; an impact that would create energy is taken as plastic.
+/// Takes the friction of these lanes away and begins anew: without it each sweep lessens a convex function,
+/// which is 0 to begin with and more than the energy gained, so there is no burst.
+template <class Row>
+void makeSmooth(Row* rows, int count, Mask lanes) {
+    makePlastic(rows, count, lanes);
+    for (int i = 0; i < count; ++i)
+        rows[i].friction = select(lanes, Real(0.0), rows[i].friction);
+}
+
+/// Solves for the impulses of all rows; an impact that would create energy is taken as plastic, and friction
+/// that bursts as none.
 template <class Row, class State>
 State solve(Row* rows, int count, const State& free) {
     const Mask none = Real(0.0) > Real(1.0);
-    State motion = iterate(rows, count, free, none, kMaxIterations).motion;
-    const Mask again = createsEnergy(rows, count, motion);
+    Iterated<State> solved = iterate(rows, count, free, none, kMaxIterations);
+    Real work = calcWork(rows, count, solved.motion);
+    // Newton's restitution at several places at once may create energy.
+    const Mask again = anyImpact(rows, count) && work > Real(0.0);
     if (any(again)) {
         makePlastic(rows, count, again);
-        motion = select(again, iterate(rows, count, free, !again, kMaxIterations).motion, motion);
+        const Iterated<State> plastic = iterate(rows, count, free, !again, kMaxIterations);
+        solved.motion = select(again, plastic.motion, solved.motion);
+        solved.converged = select(again, plastic.converged, solved.converged);
+        work = calcWork(rows, count, solved.motion);
     }
-    return motion;
+    const Mask burst = hasBurst(solved.converged, work);
+    if (any(burst)) {
+        makeSmooth(rows, count, burst);
+        solved.motion =
+            select(burst, iterate(rows, count, free, !burst, kMaxIterations).motion, solved.motion);
+    }
+    return solved.motion;
 }
 
 /// What moves the pose over the step: the free motion up to the earliest impact, the solved one from there

@@ -10,6 +10,7 @@
 #include "core/objectives/paper_scores.h"
 #include "core/objectives/success_share.h"
 #include "core/track/track_builder.h"
+#include "core/track/track_solid.h"
 #include "tests/core/objectives/paper_fitness.h"
 #include "tests/core/trial/symmetry_groups.h"
 
@@ -360,6 +361,26 @@ class ObjectivesTest : public QObject {
         QCOMPARE(scoreOf(judge.judge(std::span(outcomes).last(1)), "conveying_speed"), 0.0);
     }
 
+    // Of the track alone: a flat one is perfect, 20 mm of a rib that is too thin, 10 mm high, are 200 mm^2.
+    void printabilityIsOfTheTrackAlone() {
+        Judge judge;
+        QCOMPARE(scoreOf(judge.judge({}), "F_P"), 0.0);
+        constexpr double kMm = base::kMillimetre;
+        track::CrossSection rib{20 * kMm, {}};
+        for (const auto& [y, z] :
+             {std::pair{-30.0, 5.0}, {-0.31, 5.0}, {-0.3, 15.0}, {0.3, 15.0}, {0.31, 5.0}, {30.0, 5.0}})
+            rib.points.emplace_back(y * kMm, z * kMm);
+        track::CrossSection begin = rib;
+        begin.x = 0.0;
+        const track::TrackSolid solid = track::buildTrackSolid({}, std::vector{begin, rib}, 3 * kMm);
+        judge.track.solid = solid.mesh;
+        const double flaws = scoreOf(judge.judge({}), "F_P");
+        QVERIFY2(std::abs(flaws + 200.0) < 0.1, qPrintable(QString::number(flaws)));
+        QCOMPARE(scoreOf(judge.judge({}, 3), "F_P"), flaws);
+        const auto sum = *objectives::readObjectives("F_P");
+        QCOMPARE(objectives::measureSum(judge.evaluation({}), sum).total, flaws);
+    }
+
     // The standard errors that one set of trials tells are the scatter of the scores over many sets.
     void errorsAreTheScatterOverManySets() {
         const Judge judge;
@@ -443,7 +464,7 @@ class ObjectivesTest : public QObject {
         QTest::newRow("unknown")
             << "F_C, F_Q"
             << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-               "disorder, sorting, success, correct, worst_half, conveying_speed. Write several "
+               "disorder, sorting, success, correct, worst_half, conveying_speed, F_P. Write several "
                "with commas between them.";
         QTest::newRow("empty") << ""
                                << "There is no objective named \"\".";

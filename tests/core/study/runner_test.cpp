@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/study/track_design.h"
+#include "core/track/print_flaws.h"
 #include "fake_engine.h"
 #include "tests/core/objectives/paper_fitness.h"
 
@@ -71,6 +72,25 @@ class RunnerTest : public QObject {
                 study::decodeTrack(fake::waveInputs().settings.track, winner.design).value());
         };
         QVERIFY(nearest(saved.back()) < 0.75 * nearest(saved.front()));
+    }
+
+    // What cannot be printed is learned away where it counts; what it is worth is the track's alone.
+    void learnsWhatCanBePrinted() {
+        study::StudyInputs inputs = fake::waveInputs(2);
+        inputs.settings.evolution.generations = 12;
+        inputs.settings.evolution.firstGeneration = search::ga::FirstGeneration::random;
+        inputs.settings.evolution.objectives = "F_P";
+        std::vector<GenerationRecord> saved;
+        VERIFY_OK(learn(inputs, saved));
+        for (const study::IndividualRecord& individual : saved.front().individuals) {
+            const auto track = study::decodeTrack(inputs.settings.track, individual.design);
+            const track::PrintFlaws flaws = track::findPrintFlaws(track.value());
+            QCOMPARE(individual.fitness.total, -(flaws.thin + flaws.overhang) / 1e-6);
+            QCOMPARE(testing::scoreOf(individual.fitness, "F_P"), individual.fitness.total);
+        }
+        const double first = saved.front().statistics.topMean.total;
+        const double last = saved.back().statistics.topMean.total;
+        QVERIFY2(first < 0.0 && last > 0.5 * first, qPrintable(QString("%1 -> %2").arg(first).arg(last)));
     }
 
     void countsAddUp() {

@@ -1,6 +1,7 @@
 #include "core/trial/termination_monitor.h"
 
 #include <QtTest>
+#include <cmath>
 #include <vector>
 
 using namespace trapwright;
@@ -59,6 +60,16 @@ class TerminationMonitorTest : public QObject {
         QVERIFY(parts[0].farthest.position.x() >= track.finish);
         QCOMPARE(parts[2].farthest.position.x(), 0.1);
         QVERIFY(std::abs(parts[3].initial.position.x() - 0.065) < 1e-12);
+    }
+
+    // Whoever looks at the outcome must see it.
+    void aPoseThatIsNotANumberEndsIt() {
+        const track::Track track = makeTrack();
+        trial::TerminationMonitor monitor(track, {}, 1);
+        QVERIFY(!monitor.update(0, 0.0, at(0.1)));
+        QVERIFY(monitor.update(0, 0.1, at(std::nan(""))) == Ending::stuck);
+        QVERIFY(monitor.isOver());
+        QVERIFY(!trial::isFinite(monitor.outcome()));
     }
 
     void itIsNotOverBeforeTheLastOne() {

@@ -13,6 +13,7 @@
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QtTest>
+#include <cmath>
 
 #include "core/study/selection.h"
 #include "core/study/standstill.h"
@@ -41,6 +42,7 @@ constexpr int kIndividuals = 8;
 /// The window with a study of its own in it, and what a user does there.
 struct User : tests::WindowUser {
     explicit User(const session::SessionFixture& studies) : WindowUser(studies.environment()) {}
+    explicit User(const session::Environment& environment) : WindowUser(environment) {}
 
     RunState state() { return session()->runs().state(); }
     int saved() { return static_cast<int>(session()->runs().summaries().size()); }
@@ -176,6 +178,43 @@ class EvolvePageTest : public QObject {
         QVERIFY(since.has_value());
         QVERIFY(label->isVisible());
         QCOMPARE(label->text(), QString("Nothing was gained since generation %1.").arg(*since));
+    }
+
+    // One trial in each generation is lost by the quick engine; learning goes on and tells it.
+    void trialsThatWereMadeAgainAreTold() {
+        session::SessionFixture studies;
+        QVERIFY(makeStudy(studies));
+        session::Environment environment = studies.environment();
+        environment.engines = fake::enginesMadeBy([](const std::string& name, const trial::EngineOptions&) {
+            auto engine = std::make_unique<fake::FakeEngine>(
+                [name](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                    trial::PartOutcome outcome = fake::waveLaw(batch, spec);
+                    const bool isLost = name == "native" && spec.stream.individual == 0 &&
+                                        spec.stream.trial == 1 && spec.stream.generation == 2;
+                    if (isLost) outcome.farthest.position.x() = std::nan("");
+                    return outcome;
+                });
+            engine->title = name;
+            return engine;
+        });
+        User user(environment);
+        QVERIFY(user.open(studies.path("a.trap")));
+        study::Settings settings = user.session()->design().settings();
+        settings.evolution.commonRandomNumbers = false;
+        settings.simulation.engine = "native";
+        user.session()->design().changeSettings(settings, "Native");
+        const auto* label = user.find<QLabel>("evolve.remade");
+        QVERIFY(!label->isVisible());
+        user.click("evolve.start");
+        QVERIFY(waitUntil([&] { return user.text("evolve.state") == "All 6 generations learned"; }));
+        QVERIFY(label->isVisible());
+        QCOMPARE(label->text(), QString("Trials made again with the reference engine: 1."));
+        const auto* log = user.find<QTreeWidget>("log.list");
+        const auto lines = log->findItems(
+            "Made again with the reference engine: trial 1 of individual 0 of "
+            "generation 2 (native: its pose is not a number)",
+            Qt::MatchExactly, 1);
+        QCOMPARE(lines.size(), 1);
     }
 
     // Where parts that fall come again, those that arrive are what counts.

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/geometry/print_check.h"
+#include "core/track/track.h"
+
+namespace trapwright::track {
+
+/// How much of a track cannot be printed.
+struct PrintFlaws {
+    double thin = 0.0;      // of walls thinner than the thinnest, one side [m^2]
+    double overhang = 0.0;  // of what is steeper than the steepest overhang [m^2]
+};
+
+/// What geometry::checkForPrinting says of the track's solid, bare as it is learned: without the walls and
+/// the flange that it may be printed with.
+PrintFlaws findPrintFlaws(const Track& track, const geometry::PrintLimits& limits = {});
+
+}  // namespace trapwright::track
