@@ -82,11 +82,11 @@ Json toJson(const study::Settings& settings, const study::Robustness& robustness
     for (const study::ConditionSweep& sweep : robustness.sweeps)
         sweeps.push_back(
             {{"condition", keyOf(sweep.condition)}, {"points", resultsToJson(settings, sweep.points)}});
-    Json json = {{"expected_orientation", app::toJson(robustness.expected)},
-                 {"as_set", resultToJson(robustness.nominal)},
+    Json json = app::goalToJson("expected_orientation", robustness.goal);
+    json.update({{"as_set", resultToJson(robustness.nominal)},
                  {"over_box", resultToJson(robustness.overBox)},
                  {"sweeps", sweeps},
-                 {"worst_corners", resultsToJson(settings, robustness.corners)}};
+                 {"worst_corners", resultsToJson(settings, robustness.corners)}});
     if (robustness.worstPair)
         json["worst_pair"] = {{"across", keyOf(robustness.worstPair->across)},
                               {"up", keyOf(robustness.worstPair->up)},
@@ -97,13 +97,8 @@ Json toJson(const study::Settings& settings, const study::Robustness& robustness
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (const auto checked = options.plan.check(); !checked)
         return Failure{ExitCode::usage, checked.error().message};
-    std::optional<base::Quaternion> expected;
-    if (!options.expected.empty()) {
-        const std::vector<double>& q = options.expected;
-        expected = base::Quaternion(q[0], q[1], q[2], q[3]);
-        if (!(expected->norm() > 0.0)) return Failure{ExitCode::usage, "--expected must not be all zero."};
-        expected->normalize();
-    }
+    const auto expected = readExpected(options.expected);
+    if (!expected) return expected.error();
     auto study = openStudy(options.study, Access::read);
     if (!study) return study.error();
     auto individual = findIndividual(study->file, options.choice);
@@ -121,7 +116,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         const WorkDisplay display(
             console, watchTrials("Robustness", study::countRobustnessTrials(*inputs, options.plan), control));
         return study::measureRobustness(*inputs, std::make_shared<const track::Track>(std::move(*built)),
-                                        expected, options.plan, control);
+                                        *expected, options.plan, control);
     }();
     if (!robustness) return describeRunFailure(control, robustness.error());
     console.print(fmt::format("Generation {}, individual {}, engine {}\n{}", individual->generation,

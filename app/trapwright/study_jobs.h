@@ -21,11 +21,10 @@ Failure toFailure(const workflow::Failure& failure, const store::StudyFile& file
 Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                               const Console& console);
 
-/// Validation of one individual likewise. `expected`: the orientation that counts as success, if not the
-/// mode.
+/// Validation of one individual likewise. `expected`: what counts as success, if not what the settings say.
 Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                                  const study::Individual& individual,
-                                                 const std::optional<base::Quaternion>& expected,
+                                                 const std::optional<trial::Goal>& expected,
                                                  const Console& console);
 
 /// The failure that a cancelled or broken run of trials means.

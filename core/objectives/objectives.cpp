@@ -12,6 +12,7 @@
 #include "core/objectives/disorder.h"
 #include "core/objectives/paper_scores.h"
 #include "core/objectives/success_share.h"
+#include "core/objectives/wanted.h"
 #include "core/objectives/worst_half.h"
 
 namespace trapwright::objectives {
@@ -36,9 +37,9 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {collisions(),   distance(),  orientation(),
-                                           disorder(),     sorting(),   successShare(),
-                                           correctShare(), worstHalf(), conveyingSpeed()};
+    static const std::array kObjectives = {collisions(), distance(),      orientation(),  wanted(),
+                                           disorder(),   sorting(),       successShare(), correctShare(),
+                                           worstHalf(),  conveyingSpeed()};
     return kObjectives;
 }
 
@@ -86,11 +87,11 @@ const Score* findScore(const Fitness& fitness, std::string_view key) {
     return findIn(fitness.scores, key);
 }
 
-std::vector<Score> listAttainable(const part::SymmetryGroup& symmetry, trial::OrientationDistance distance) {
+std::vector<Score> listAttainable(const Task& task) {
     std::vector<Score> scores;
     for (const Objective& objective : allObjectives())
-        if (objective.attainable != nullptr)
-            scores.push_back({std::string(objective.key), objective.attainable(symmetry, distance)});
+        if (objective.attainable != nullptr && (task.isWanted || !objective.needsWanted))
+            scores.push_back({std::string(objective.key), objective.attainable(task)});
     return scores;
 }
 
@@ -131,6 +132,7 @@ Fitness measureAll(const Evaluation& evaluation, const ObjectiveList& summed) {
 Fitness measureOthers(const Evaluation& evaluation, const Fitness& summed) {
     Fitness fitness{summed.total, {}};
     for (const Objective& objective : allObjectives()) {
+        if (objective.needsWanted && !evaluation.wanted) continue;
         const Score* known = findScore(summed, objective.key);
         fitness.scores.push_back(known != nullptr ? *known : score(objective, evaluation));
     }

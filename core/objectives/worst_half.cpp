@@ -43,6 +43,7 @@ Objective worstHalf() {
     objective.symbol = "Worst half";
     objective.name = "Worst half";
     objective.help = "Success in the half of the operating box where it is least. Higher is better.";
+    objective.isSuccess = false;
     objective.measure = &measureWorstHalf;
     return objective;
 }

@@ -8,6 +8,7 @@
 
 #include "core/objectives/conveying_speed.h"
 #include "core/stats/binomial.h"
+#include "core/study/target.h"
 #include "core/study/trial_batches.h"
 
 namespace trapwright::study {
@@ -76,7 +77,7 @@ class Measurement {
                 base::RunControl control)
         : inputs_(&inputs), track_(std::move(track)), control_(std::move(control)) {}
 
-    std::optional<base::Quaternion> expected;
+    std::optional<trial::Goal> goal;
 
     base::Result<std::vector<PlaceResult>> measure(std::span<const BoxPlace> places, int first,
                                                    int count) const {
@@ -108,17 +109,14 @@ class Measurement {
         const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_);
         if (!outcomes) return outcomes.error();
         const std::vector<trial::Outcome>& own = outcomes->front();
-        if (!expected)
-            expected = trial::findModalOrientation(trial::finalOrientations(own), inputs_->part->symmetry,
-                                                   inputs_->settings.validation.tolerance);
+        goal = trial::findGoal(goal, own, inputs_->part->symmetry, inputs_->settings.validation.tolerance);
         const objectives::Evaluation evaluation = makeEvaluation(*inputs_, *track_, 0, own);
         return PlaceResult{asSet, tally(own), objectives::conveyingSpeed().measure(evaluation).value};
     }
 
  private:
     [[nodiscard]] trial::Tally tally(std::span<const trial::Outcome> outcomes) const {
-        return trial::tally(outcomes, *expected, inputs_->part->symmetry,
-                            inputs_->settings.validation.tolerance);
+        return trial::tally(outcomes, *goal, inputs_->part->symmetry, inputs_->settings.validation.tolerance);
     }
 
     const StudyInputs* inputs_;
@@ -225,7 +223,7 @@ std::int64_t countRobustnessTrials(const StudyInputs& inputs, const RobustnessPl
 
 base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
                                            const std::shared_ptr<const track::Track>& track,
-                                           const std::optional<base::Quaternion>& expected,
+                                           const std::optional<trial::Goal>& given,
                                            const RobustnessPlan& plan, base::RunControl control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     if (const auto checked = plan.check(); !checked) return checked.error();
@@ -237,14 +235,14 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
             "box.frequency_percent, box.angle_deg, box.sizeBelow_mm and box.sizeAbove_mm are 0. Set what is "
             "not known exactly."};
     Measurement measurement(inputs, track, std::move(control));
-    measurement.expected = expected;
+    measurement.goal = given ? given : findWanted(settings.target, *inputs.part);
     Robustness robustness;
 
     const BoxPlace asSet = placeAsSet(settings);
     auto nominal = measurement.measureAsSet(asSet, plan.trials);
     if (!nominal) return nominal.error();
     robustness.nominal = *nominal;
-    robustness.expected = *measurement.expected;
+    robustness.goal = *measurement.goal;
 
     Settings varied = settings;
     varied.validation.conditions = TrialConditions::varied;

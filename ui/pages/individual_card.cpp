@@ -88,11 +88,10 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
     success_->setToolTip(models::successHelp(record.success()));
     Facts scores{{tr("Fitness F"), fixed(record.fitness.total, 3)}};
     for (const objectives::Objective& objective : objectives::allObjectives()) {
-        if (!objective.isDetail) continue;
-        scores.emplace_back(
-            textOf(objective.name) + ' ' + textOf(objective.symbol),
-            models::scoreText(objective, objectives::findScore(record.fitness, objective.key)) + ' ' +
-                textOf(objective.unit));
+        const objectives::Score* score = objectives::findScore(record.fitness, objective.key);
+        if (!objective.isDetail || (objective.needsWanted && score == nullptr)) continue;
+        scores.emplace_back(textOf(objective.name) + ' ' + textOf(objective.symbol),
+                            models::scoreText(objective, score) + ' ' + textOf(objective.unit));
     }
     scores_->show(scores);
     Facts traits;

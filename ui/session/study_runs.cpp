@@ -269,8 +269,7 @@ void StudyRuns::startSelection() {
     startRun(RunState::selecting, tr("The winners could not be compared"), work);
 }
 
-void StudyRuns::startValidation(const study::Individual& winner,
-                                const std::optional<base::Quaternion>& expected) {
+void StudyRuns::startValidation(const study::Individual& winner, const std::optional<trial::Goal>& expected) {
     const auto work = [this, winner, expected, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
