@@ -36,6 +36,7 @@ struct Task {
     const part::SymmetryGroup* symmetry = nullptr;                                // of the part
     trial::OrientationDistance distance = trial::OrientationDistance::symmetric;  // that F_O measures with
     bool isWanted = false;                                                        // a way of ending
+    bool isResting = true;  // parts can lie so on a level surface; of others there is no telling
 };
 
 struct Measured {

@@ -90,7 +90,7 @@ const Score* findScore(const Fitness& fitness, std::string_view key) {
 std::vector<Score> listAttainable(const Task& task) {
     std::vector<Score> scores;
     for (const Objective& objective : allObjectives())
-        if (objective.attainable != nullptr && (task.isWanted || !objective.needsWanted))
+        if (objective.attainable != nullptr && (!objective.needsWanted || (task.isWanted && task.isResting)))
             scores.push_back({std::string(objective.key), objective.attainable(task)});
     return scores;
 }

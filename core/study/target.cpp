@@ -151,7 +151,11 @@ std::optional<trial::Goal> findWanted(const TargetSettings& target, const part::
 }
 
 objectives::Task makeTask(const Settings& settings, const part::Part& part) {
-    return {&part.symmetry, settings.evolution.orientationDistance, settings.target.isSet()};
+    objectives::Task task{&part.symmetry, settings.evolution.orientationDistance, settings.target.isSet()};
+    const std::optional<base::Quaternion>& orientation = settings.target.orientation;
+    if (orientation && !part.stablePoses.empty())
+        task.isResting = part::findStablePose(part, *orientation).angle <= settings.validation.tolerance;
+    return task;
 }
 
 std::string describeTarget(const TargetSettings& target, const part::Part& part) {

@@ -32,7 +32,8 @@ std::optional<trial::Goal> findWanted(const TargetSettings& target, const part::
 /// The groups of alike stable poses of which one is named; indices into `groups`, rising.
 std::vector<int> findWantedGroups(const TargetSettings& target, std::span<const part::PoseGroup> groups);
 
-/// What objectives can attain with these settings and this part.
+/// What there is to attain with these settings and this part. An orientation further than the tolerance from
+/// every stable pose is not resting.
 objectives::Task makeTask(const Settings& settings, const part::Part& part);
 
 /// How parts shall end, for people: "stable pose 3-4 in any heading", "the orientation (w, x, y, z) = ...";

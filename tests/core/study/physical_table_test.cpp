@@ -230,6 +230,10 @@ class PhysicalTableTest : public QObject {
         selections[0].entries[0].finished = 5;
         QVERIFY(!study::findExpected({}, selections, {3, 8}, {}));
         QVERIFY(study::findExpected({}, selections, {3, 7}, {}) == trial::makeGoal(one));
+        // What is wanted tells it before anything was simulated.
+        const trial::Goal wanted{{{two, true}}};
+        QVERIFY(study::findExpected({}, {}, {3, 7}, wanted) == wanted);
+        QVERIFY(study::findExpected({}, selections, {3, 7}, wanted) == trial::makeGoal(one));
         std::vector<ValidationRecord> validations(2);
         validations[0].generation = 3;
         validations[0].individual = 7;

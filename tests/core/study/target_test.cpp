@@ -125,6 +125,27 @@ class TargetTest : public QObject {
         QVERIFY(*study::findWanted(target, cuboid()) == trial::makeGoal(*target.orientation));
     }
 
+    void whatCanBeAttainedIsKnownOfPartsAtRest() {
+        const part::Part part = cuboid();
+        study::Settings settings;
+        const auto isKnown = [&](const study::TargetSettings& target) {
+            settings.target = target;
+            const objectives::Fitness best{0.0, objectives::listAttainable(study::makeTask(settings, part))};
+            return objectives::findScore(best, "F_W") != nullptr;
+        };
+        QVERIFY(!isKnown({}));
+        QVERIFY(isKnown(poses("5")));
+        const auto tilted = [&](double degrees) {
+            study::TargetSettings target;
+            target.orientation =
+                base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitX())) *
+                part.stablePoses[0].rotation;
+            return target;
+        };
+        QVERIFY(isKnown(tilted(20.0)));
+        QVERIFY(!isKnown(tilted(45.0)));
+    }
+
     void problemsAreTold_data() {
         QTest::addColumn<QString>("poses");
         QTest::addColumn<QString>("heading");
