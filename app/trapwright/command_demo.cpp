@@ -106,7 +106,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto track = study::decodeTrack(study->settings.track, picked->record.design);
     if (!track) return Failure{ExitCode::fault, track.error().message};
     const track::TrackFile design{fmt::format("cuboid, generation {}", picked->generation),
-                                  std::move(track).value(), validation->expectedOrientation};
+                                  std::move(track).value(), validation->goal.shown()};
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (const char* name : {"cuboid.stl", "cuboid.3mf"}) {
         const auto exported = workflow::exportTrack(design, {&design.track.solid, 1}, folder / name);

@@ -12,6 +12,7 @@
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/study_options.h"
 #include "core/study/standstill.h"
+#include "core/study/target.h"
 #include "sim/engines/registry.h"
 
 namespace trapwright::app {
@@ -64,17 +65,19 @@ std::string describeEngines(const OpenStudy& study, const study::StudyInputs& in
 }
 
 /// "F_D 0.000 and F_O 1.467": of what counts and depends on trials.
-std::string describeAttainable(const part::Part& part, const study::EvolutionSettings& settings) {
+std::string describeAttainable(const part::Part& part, const study::Settings& settings) {
     const std::vector<objectives::Score> attainable =
-        objectives::listAttainable(part.symmetry, settings.orientationDistance);
+        objectives::listAttainable(study::makeTask(settings, part));
     std::vector<std::string> texts;
-    for (const objectives::Objective* objective : study::summedObjectives(settings)) {
+    for (const objectives::Objective* objective : study::summedObjectives(settings.evolution)) {
         if (!objective->isNoisy) continue;
+        // Readers of the paper know the units of its scores.
+        const bool hasUnit = !objective->isDetail || objective->isSuccess;
         for (const objectives::Score& score : attainable)
             if (score.key == objective->key)
                 texts.push_back(fmt::format("{} {}{}", objective->symbol,
                                             objectives::shown(*objective, score.value),
-                                            objective->isDetail ? "" : fmt::format(" {}", objective->unit)));
+                                            hasUnit ? fmt::format(" {}", objective->unit) : ""));
     }
     return fmt::format("{}", fmt::join(texts, " and "));
 }
@@ -85,16 +88,22 @@ std::string describeStep(const study::Settings& settings) {
                        settings.evolution.learningStep > 0.0 ? "" : " (automatic)");
 }
 
+/// A line; empty where nothing is wanted.
+std::string describeWanted(const OpenStudy& study) {
+    if (!study.settings.target.isSet()) return "";
+    return fmt::format("Parts shall end {}.\n", study::describeTarget(study.settings.target, *study.part));
+}
+
 std::string describeStart(const OpenStudy& study, const study::StudyInputs& inputs) {
     const study::EvolutionSettings& evolution = study.settings.evolution;
     return fmt::format(
         "Study {}: part {} (symmetry {}), {} individuals x {} trials, seed {}, engine {}, step {}, threads "
         "{}\n"
-        "A perfect feeder scores {}.\n{}",
+        "{}A perfect feeder scores {}.\n{}",
         study.file.path().string(), study.part->name, study.part->symmetry.name, evolution.populationSize,
         evolution.trialsPerEvaluation, evolution.seed, describeEngines(study, inputs),
-        describeStep(study.settings), inputs.threads, describeAttainable(*study.part, evolution),
-        learningHeading(inputs.settings.evolution));
+        describeStep(study.settings), inputs.threads, describeWanted(study),
+        describeAttainable(*study.part, study.settings), learningHeading(inputs.settings.evolution));
 }
 
 std::string_view endName(study::LearningEnd end) {

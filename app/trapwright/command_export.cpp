@@ -31,13 +31,14 @@ std::vector<std::string> defaultFiles(const std::string& study) {
             std::filesystem::path(study).replace_extension(".3mf").string()};
 }
 
-/// How the last selection found this individual's parts to end; none if it is not in there.
+/// How the last selection found this individual's parts to end; none if it is not in there, or if more than
+/// one orientation is right, which a track's file cannot say.
 std::optional<base::Quaternion> findExpectedOrientation(const store::StudyFile& file,
                                                         const study::Individual& individual) {
     const auto selections = file.loadSelections();
     if (!selections || selections->empty()) return std::nullopt;
     for (const study::SelectionEntry& entry : selections->back().entries) {
-        if (isSameIndividual(entry, individual)) return entry.modalOrientation;
+        if (isSameIndividual(entry, individual) && entry.goal.isOneOrientation()) return entry.goal.shown();
     }
     return std::nullopt;
 }

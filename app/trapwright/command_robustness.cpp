@@ -42,8 +42,8 @@ struct Options {
 struct Subject {
     study::StudyInputs inputs;
     std::shared_ptr<const track::Track> track;
-    std::optional<base::Quaternion> expected;  // of a track that tells it
-    std::string name;                          // for people
+    std::optional<trial::Goal> goal;  // of a track that tells it
+    std::string name;                 // for people
     Json json;
 };
 
@@ -96,11 +96,11 @@ Json toJson(const study::Settings& settings, const study::Robustness& robustness
     for (const study::ConditionSweep& sweep : robustness.sweeps)
         sweeps.push_back(
             {{"condition", keyOf(sweep.condition)}, {"points", resultsToJson(settings, sweep.points)}});
-    Json json = {{"expected_orientation", app::toJson(robustness.expected)},
-                 {"as_set", resultToJson(robustness.nominal)},
+    Json json = app::goalToJson("expected_orientation", robustness.goal);
+    json.update({{"as_set", resultToJson(robustness.nominal)},
                  {"over_box", resultToJson(robustness.overBox)},
                  {"sweeps", sweeps},
-                 {"worst_corners", resultsToJson(settings, robustness.corners)}};
+                 {"worst_corners", resultsToJson(settings, robustness.corners)}});
     if (robustness.worstPair)
         json["worst_pair"] = {{"across", keyOf(robustness.worstPair->across)},
                               {"up", keyOf(robustness.worstPair->up)},
@@ -126,7 +126,7 @@ Attempt<Subject> loadTrackSubject(const Options& options, const Console& console
     Json json = {{"track", options.track.file}, {"part", loaded->part->name}};
     return Subject{{loaded->settings, loaded->part, *engine, options.threads},
                    loaded->track,
-                   loaded->expected,
+                   loaded->expected ? std::optional(trial::makeGoal(*loaded->expected)) : std::nullopt,
                    name,
                    std::move(json)};
 }
@@ -155,12 +155,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto subject =
         isTrackFile(options.track.file) ? loadTrackSubject(options, console) : loadStudySubject(options);
     if (!subject) return subject.error();
-    if (!options.expected.empty()) {
-        const std::vector<double>& q = options.expected;
-        const base::Quaternion given(q[0], q[1], q[2], q[3]);
-        if (!(given.norm() > 0.0)) return Failure{ExitCode::usage, "--expected must not be all zero."};
-        subject->expected = given.normalized();
-    }
+    const auto expected = readExpected(options.expected);
+    if (!expected) return expected.error();
+    if (*expected) subject->goal = **expected;
     study::StudyInputs& inputs = subject->inputs;
     takeBox(options, inputs.settings.box);
     if (const auto checked = study::checkInputs(inputs); !checked)
@@ -170,7 +167,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const auto robustness = [&] {
         const std::int64_t trials = study::countRobustnessTrials(inputs.settings, options.plan);
         const WorkDisplay display(console, watchTrials("Robustness", trials, control));
-        return study::measureRobustness(inputs, subject->track, subject->expected, options.plan, control);
+        return study::measureRobustness(inputs, subject->track, subject->goal, options.plan, control);
     }();
     if (!robustness) return describeRunFailure(control, robustness.error());
     console.print(fmt::format("{}\n{}", subject->name, study::formatRobustness(inputs, *robustness)));

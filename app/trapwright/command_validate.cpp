@@ -11,6 +11,7 @@
 #include "app/trapwright/study_jobs.h"
 #include "core/study/pose_weights.h"
 #include "core/study/tables.h"
+#include "core/study/target.h"
 
 namespace trapwright::app {
 
@@ -28,13 +29,6 @@ struct Options {
     bool everyPose = false;
 };
 
-Attempt<std::optional<base::Quaternion>> readExpected(const std::vector<double>& values) {
-    if (values.empty()) return std::optional<base::Quaternion>();
-    const base::Quaternion expected(values[0], values[1], values[2], values[3]);
-    if (!(expected.norm() > 0.0)) return Failure{ExitCode::usage, "--expected must not be all zero."};
-    return std::optional(expected.normalized());
-}
-
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto expected = readExpected(options.expected);
     if (!expected) return expected.error();
@@ -51,14 +45,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
     auto record = validateAndSave(study->file, *inputs, *individual, *expected, console);
     if (!record) return record.error();
-    const base::Quaternion& goal = record->expectedOrientation;
     const std::vector<part::PoseGroup> groups = study::weighPoseGroups(*study->part, study->settings);
-    console.print(fmt::format(
-        "Generation {}, individual {}, engine {}; success: finished within {:g} deg of the orientation "
-        "(w, x, y, z) = ({:.3f}, {:.3f}, {:.3f}, {:.3f}){}\n{}",
-        record->generation, record->individual, record->engine, record->tolerance / base::kDegree, goal.w(),
-        goal.x(), goal.y(), goal.z(), record->box ? "; conditions vary over the operating box" : "",
-        study::formatValidation(study::tabulate(*record, groups), options.everyPose)));
+    console.print(
+        fmt::format("Generation {}, individual {}, engine {}; success: finished within {:g} deg of {}{}\n{}",
+                    record->generation, record->individual, record->engine, record->tolerance / base::kDegree,
+                    study::describeGoal(record->goal, *study->part),
+                    record->box ? "; conditions vary over the operating box" : "",
+                    study::formatValidation(study::tabulate(*record, groups), options.everyPose)));
     nlohmann::ordered_json document = {{"study", options.study},
                                        {"validation", toJson(*record, *study->part, groups)}};
     addRemadeTrials(*inputs, document);
@@ -84,8 +77,10 @@ void addValidateCommand(CLI::App& program, Invocation& invocation) {
     command.addOption("--tolerance", options->tolerance,
                       "Of the orientation, in degrees (default: as in the study)");
     command
-        .addOption("--expected", options->expected,
-                   "The orientation that counts as success, w x y z (default: the most frequent final one)")
+        .addOption(
+            "--expected", options->expected,
+            "The orientation that counts as success, w x y z (default: what the study wants, or the most "
+            "frequent final one)")
         .values(4);
     addConditionsOption(command, options->conditions);
     command.addOption("--engine", options->engine, "What simulates (default: as in the study)");

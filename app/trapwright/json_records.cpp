@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/stats/binomial.h"
+#include "core/study/target.h"
 #include "core/study/validation.h"
 
 namespace trapwright::app {
@@ -40,6 +41,12 @@ Json toJson(const base::Quaternion& rotation) {
 
 Json toJson(const base::Vec3& vector, double scale) {
     return Json::array({vector.x() * scale, vector.y() * scale, vector.z() * scale});
+}
+
+Json goalToJson(const char* key, const trial::Goal& goal) {
+    Json json = {{key, toJson(goal.shown())}};
+    if (!goal.isOneOrientation()) json["wanted"] = Json::parse(study::goalToJson(goal));
+    return json;
 }
 
 Json toJson(const objectives::Fitness& fitness) {
@@ -106,8 +113,8 @@ Json toJson(const study::SelectionRecord& record) {
                            {"fitness", toJson(entry.fitness)},
                            {"trials", entry.trials},
                            {"finished", entry.finished},
-                           {"oriented", shareToJson(entry.oriented, entry.trials)},
-                           {"modal_orientation", toJson(entry.modalOrientation)}});
+                           {"oriented", shareToJson(entry.oriented, entry.trials)}});
+        entries.back().update(goalToJson("modal_orientation", entry.goal));
     }
     Json json = {{"engine", record.engine}, {"entries", entries}};
     if (record.box) json.update(Json::parse(study::boxToJson(*record.box)));
@@ -137,16 +144,15 @@ Json toJson(const study::ValidationRecord& record, const part::Part& part,
         json.update(rowToJson(row));
         rows.push_back(json);
     }
-    Json json = {{"generation", record.generation},
-                 {"individual", record.individual},
-                 {"engine", record.engine},
-                 {"expected_orientation", toJson(record.expectedOrientation)},
-                 {"tolerance_deg", record.tolerance / base::kDegree},
+    Json json = {
+        {"generation", record.generation}, {"individual", record.individual}, {"engine", record.engine}};
+    json.update(goalToJson("expected_orientation", record.goal));
+    json.update({{"tolerance_deg", record.tolerance / base::kDegree},
                  {"groups", alike},
                  {"poses", rows},
                  {"weighted_success", toJson(table.weighted)},
                  {"correct", toJson(table.correct, "95 % Korn and Graubard")},
-                 {"total", rowToJson(table.total)}};
+                 {"total", rowToJson(table.total)}});
     if (record.box) json.update(Json::parse(study::boxToJson(*record.box)));
     return json;
 }

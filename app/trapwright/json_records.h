@@ -14,6 +14,8 @@ namespace trapwright::app {
 /// Records as --json shows them. Angles in degrees, quaternions [w, x, y, z]; shares with their bounds.
 nlohmann::ordered_json toJson(const base::Quaternion& rotation);
 nlohmann::ordered_json toJson(const base::Vec3& vector, double scale);
+/// {key: the orientation that is shown}, and with "wanted" all of a goal that is more than that.
+nlohmann::ordered_json goalToJson(const char* key, const trial::Goal& goal);
 /// F and the scores by their keys, in SI units; not success, which records have with its bounds.
 nlohmann::ordered_json toJson(const objectives::Fitness& fitness);
 nlohmann::ordered_json toJson(const study::IndividualRecord& record);

@@ -158,9 +158,7 @@ std::string describeCheck(const study::EvolutionSettings& settings, const study:
     for (const objectives::Objective* objective : summed) {
         const objectives::Score* judged = objectives::findScore(reference.fitness, objective->key);
         const objectives::Score* own = objectives::findScore(learning.fitness, objective->key);
-        if (!objective->isNoisy || objective->key == objectives::kSuccess || judged == nullptr ||
-            own == nullptr)
-            continue;
+        if (!objective->isNoisy || objective->isSuccess || judged == nullptr || own == nullptr) continue;
         text += fmt::format(", {} {:+.{}f}", objective->symbol,
                             (judged->value - own->value) * objective->shownAs, objective->decimals);
     }

@@ -125,6 +125,13 @@ Attempt<study::StudyInputs> makeInputs(const OpenStudy& study, const std::option
                               threads == 0 ? base::availableThreads() : threads, remade};
 }
 
+Attempt<std::optional<trial::Goal>> readExpected(const std::vector<double>& values) {
+    if (values.empty()) return std::optional<trial::Goal>();
+    const base::Quaternion expected(values[0], values[1], values[2], values[3]);
+    if (!(expected.norm() > 0.0)) return Failure{ExitCode::usage, "--expected must not be all zero."};
+    return std::optional(trial::makeGoal(expected.normalized()));
+}
+
 void addConditionsOption(Command command, std::optional<std::string>& conditions) {
     command
         .addOption("--conditions", conditions,

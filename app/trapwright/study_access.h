@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/trapwright/exit_codes.h"
 #include "app/trapwright/options.h"
@@ -45,6 +46,9 @@ void addIndividualOptions(Command command, IndividualChoice& choice);
 /// chosen in the studio, or the first of the last selection, or without any the best winner
 /// (study::findBestWinner).
 Attempt<study::Individual> findIndividual(const store::StudyFile& file, const IndividualChoice& choice);
+
+/// The orientation of --expected: w x y z, or nothing. An error if they are all zero.
+Attempt<std::optional<trial::Goal>> readExpected(const std::vector<double>& values);
 
 /// Adds --conditions: what selection and validation are judged under.
 void addConditionsOption(Command command, std::optional<std::string>& conditions);

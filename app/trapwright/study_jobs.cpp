@@ -70,7 +70,7 @@ Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const stud
 
 Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                                  const study::Individual& individual,
-                                                 const std::optional<base::Quaternion>& expected,
+                                                 const std::optional<trial::Goal>& expected,
                                                  const Console& console) {
     const base::RunControl control;
     auto record = [&] {

@@ -22,11 +22,10 @@ Failure toFailure(const workflow::Failure& failure, const store::StudyFile& file
 Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                               const Console& console);
 
-/// Validation of one individual likewise. `expected`: the orientation that counts as success, if not the
-/// mode.
+/// Validation of one individual likewise. `expected`: what counts as success, if not what the settings say.
 Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                                  const study::Individual& individual,
-                                                 const std::optional<base::Quaternion>& expected,
+                                                 const std::optional<trial::Goal>& expected,
                                                  const Console& console);
 
 /// A line on stderr about the trials that were made again, if there are any.

@@ -15,6 +15,7 @@
 #include "core/base/file.h"
 #include "core/base/parallel.h"
 #include "core/study/evaluator.h"
+#include "core/study/field_text.h"
 #include "core/study/presets.h"
 #include "core/workflow/proposal.h"
 #include "sim/engines/registry.h"
@@ -23,8 +24,14 @@ namespace trapwright::app {
 
 namespace {
 
+bool isText(const std::string& key) {
+    static const std::vector<study::FieldInfo> fields = study::listFields();
+    const auto field = std::ranges::find(fields, key, &study::FieldInfo::key);
+    return field != fields.end() && field->kind == study::FieldKind::text;
+}
+
 /// {"track": {"segmentWidth_mm": 50}} for "track.segmentWidth_mm=50"; a value that is no JSON is taken as a
-/// string.
+/// string, and so is one that is no string where a text is set ("target.poses=3").
 Attempt<std::string> toJson(const std::string& assignment) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -35,8 +42,9 @@ Attempt<std::string> toJson(const std::string& assignment) {
     }
     const std::string value = assignment.substr(equals + 1);
     // The number's own text goes on: parsing it here would lose digits.
-    std::string json = nlohmann::json::accept(value) ? value : nlohmann::json(value).dump();
     std::string key = assignment.substr(0, equals);
+    const bool isJson = nlohmann::json::accept(value) && (value.starts_with('"') || !isText(key));
+    std::string json = isJson ? value : nlohmann::json(value).dump();
     for (std::size_t dot = key.rfind('.'); dot != std::string::npos; dot = key.rfind('.')) {
         json = fmt::format("{{{}: {}}}", nlohmann::json(key.substr(dot + 1)).dump(), json);
         key.resize(dot);

@@ -8,6 +8,7 @@
 #include "core/part/part.h"
 #include "core/track/track.h"
 #include "core/trial/conditions.h"
+#include "core/trial/goal.h"
 #include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
@@ -21,14 +22,22 @@ struct Evaluation {
     std::span<const trial::Outcome> outcomes{};     // empty: the track was not simulated
     trial::OrientationDistance distance = trial::OrientationDistance::symmetric;  // that F_O measures with
     double tolerance = 0.0;                                                       // of success [rad]
-    /// The orientation in which parts shall end. None: the mode of those in which they finished
+    /// How parts shall end. None: nothing is wanted, so that the mode of those that finished counts
     /// (decisions.md#selection-and-success).
-    std::optional<base::Quaternion> expected{};
+    std::optional<trial::Goal> wanted{};
     /// How many ended so, where that is known already. None: counted when it is needed.
     std::optional<int> oriented{};
     /// Where these trials are in the operating box; empty: they are all alike.
     std::span<const trial::BoxPlace> places{};
     bool isVaried = false;  // trials are, or would be, all over an operating box
+};
+
+/// What there is to attain.
+struct Task {
+    const part::SymmetryGroup* symmetry = nullptr;                                // of the part
+    trial::OrientationDistance distance = trial::OrientationDistance::symmetric;  // that F_O measures with
+    bool isWanted = false;                                                        // a way of ending
+    bool isResting = true;  // parts can lie so on a level surface; of others there is no telling
 };
 
 struct Measured {
@@ -49,12 +58,14 @@ struct Objective {
     bool isNoisy = true;         // differs from trials to trials
     bool isDetail = false;       // for those who look into the algorithm
     bool usesTolerance = false;  // differs with the tolerance of success
+    bool needsWanted = false;    // there is none where nothing is wanted
+    bool isSuccess = false;      // people read it with exact bounds, in a place of its own
     /// Whether it says anything of a study's trials; null: of all. What counts in F is measured all the same.
     bool (*applies)(const Evaluation& evaluation) = nullptr;
     /// Of a track that was not simulated no more than what its trials could give at worst.
     Measured (*measure)(const Evaluation& evaluation) = nullptr;
     /// The value of a perfect feeder from random starts. Null: there is no telling.
-    double (*attainable)(const part::SymmetryGroup& symmetry, trial::OrientationDistance distance) = nullptr;
+    double (*attainable)(const Task& task) = nullptr;
 
     /// The symbol with its unit: "F_D [segments]".
     [[nodiscard]] std::string title() const;

@@ -13,6 +13,7 @@
 #include "core/objectives/paper_scores.h"
 #include "core/objectives/printability.h"
 #include "core/objectives/success_share.h"
+#include "core/objectives/wanted.h"
 #include "core/objectives/worst_half.h"
 
 namespace trapwright::objectives {
@@ -37,9 +38,9 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {collisions(),     distance(),     orientation(),  disorder(),
-                                           sorting(),        successShare(), correctShare(), worstHalf(),
-                                           conveyingSpeed(), printability()};
+    static const std::array kObjectives = {collisions(), distance(),       orientation(),  wanted(),
+                                           disorder(),   sorting(),        successShare(), correctShare(),
+                                           worstHalf(),  conveyingSpeed(), printability()};
     return kObjectives;
 }
 
@@ -87,11 +88,11 @@ const Score* findScore(const Fitness& fitness, std::string_view key) {
     return findIn(fitness.scores, key);
 }
 
-std::vector<Score> listAttainable(const part::SymmetryGroup& symmetry, trial::OrientationDistance distance) {
+std::vector<Score> listAttainable(const Task& task) {
     std::vector<Score> scores;
     for (const Objective& objective : allObjectives())
-        if (objective.attainable != nullptr)
-            scores.push_back({std::string(objective.key), objective.attainable(symmetry, distance)});
+        if (objective.attainable != nullptr && (!objective.needsWanted || (task.isWanted && task.isResting)))
+            scores.push_back({std::string(objective.key), objective.attainable(task)});
     return scores;
 }
 
@@ -132,6 +133,7 @@ Fitness measureAll(const Evaluation& evaluation, const ObjectiveList& summed) {
 Fitness measureOthers(const Evaluation& evaluation, const Fitness& summed) {
     Fitness fitness{summed.total, {}};
     for (const Objective& objective : allObjectives()) {
+        if (objective.needsWanted && !evaluation.wanted) continue;
         const Score* known = findScore(summed, objective.key);
         if (known == nullptr && objective.applies != nullptr && !objective.applies(evaluation)) continue;
         fitness.scores.push_back(known != nullptr ? *known : score(objective, evaluation));

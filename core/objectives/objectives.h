@@ -23,6 +23,10 @@ using ObjectiveList = std::vector<const Objective*>;
 inline constexpr std::string_view kPaperObjectives = "F_C, F_D, F_O";
 /// Of the objective that counts successes, which people read with exact bounds.
 inline constexpr std::string_view kSuccess = "success";
+/// Of the objective that counts what ends as it is wanted.
+inline constexpr std::string_view kWanted = "F_W";
+/// What is best summed up where something is wanted (decisions.md#wanted-orientation).
+inline constexpr std::string_view kWantedObjectives = "F_C, F_D, F_O, F_W";
 /// Of the objective that forgives what falls off.
 inline constexpr std::string_view kSorting = "sorting";
 
@@ -56,8 +60,9 @@ struct Fitness {
 /// The score of that key; null if there is none (a study of a program that did not know the objective).
 const Score* findScore(const Fitness& fitness, std::string_view key);
 
-/// What a perfect feeder would score, of each objective where that is known, in their order.
-std::vector<Score> listAttainable(const part::SymmetryGroup& symmetry, trial::OrientationDistance distance);
+/// What a perfect feeder would score, of each objective that there is in the task where that is known, in
+/// their order.
+std::vector<Score> listAttainable(const Task& task);
 
 /// Adds up what counts, in its order; less is better counts as minus (paper, section 4.1: F = F_C + F_D +
 /// F_O). Every one must have a score.
@@ -67,7 +72,7 @@ double calcTotalError(const Fitness& fitness, const ObjectiveList& summed);
 
 /// The scores of what counts alone: all that a search needs.
 Fitness measureSum(const Evaluation& evaluation, const ObjectiveList& summed);
-/// The scores of all objectives, in their order.
+/// The scores of all objectives that there are for the evaluation, in their order.
 Fitness measureAll(const Evaluation& evaluation, const ObjectiveList& summed);
 /// Adds to scores of what counts those of all others.
 Fitness measureOthers(const Evaluation& evaluation, const Fitness& summed);

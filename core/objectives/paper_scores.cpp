@@ -141,7 +141,7 @@ Objective collisions() {
     objective.isNoisy = false;
     objective.isDetail = true;
     objective.measure = &measureCollisions;
-    objective.attainable = [](const part::SymmetryGroup&, OrientationDistance) { return 0.0; };
+    objective.attainable = [](const Task&) { return 0.0; };
     return objective;
 }
 
@@ -153,7 +153,7 @@ Objective distance() {
     objective.help = "Minus the distance that parts stay short of the finish, on average. 0 is best.";
     objective.isDetail = true;
     objective.measure = &measureDistance;
-    objective.attainable = [](const part::SymmetryGroup&, OrientationDistance) { return 0.0; };
+    objective.attainable = [](const Task&) { return 0.0; };
     return objective;
 }
 
@@ -165,7 +165,9 @@ Objective orientation() {
     objective.help = "How much more alike the parts lie at the end than at the start. Higher is better.";
     objective.isDetail = true;
     objective.measure = &measureOrientation;
-    objective.attainable = &calcBestOrientationScore;
+    objective.attainable = [](const Task& task) {
+        return calcBestOrientationScore(*task.symmetry, task.distance);
+    };
     return objective;
 }
 

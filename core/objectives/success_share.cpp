@@ -7,14 +7,13 @@ namespace trapwright::objectives {
 
 namespace {
 
-base::Quaternion findExpected(const Evaluation& evaluation) {
-    return evaluation.expected ? *evaluation.expected
-                               : trial::findModalOrientation(trial::finalOrientations(evaluation.outcomes),
-                                                             *evaluation.symmetry, evaluation.tolerance);
+trial::Goal findGoal(const Evaluation& evaluation) {
+    return trial::findGoal(evaluation.wanted, evaluation.outcomes, *evaluation.symmetry,
+                           evaluation.tolerance);
 }
 
 trial::Tally countVerdicts(const Evaluation& evaluation) {
-    return trial::tally(evaluation.outcomes, findExpected(evaluation), *evaluation.symmetry,
+    return trial::tally(evaluation.outcomes, findGoal(evaluation), *evaluation.symmetry,
                         evaluation.tolerance);
 }
 
@@ -44,7 +43,7 @@ Measured measureSorting(const Evaluation& evaluation) {
     const double parts = tally.trials();
     const double staying = parts - tally.fellOff;
     if (staying < 2.0) return {kMostBits};
-    const double itself = evaluation.expected ? 0.0 : 1.0;
+    const double itself = evaluation.wanted ? 0.0 : 1.0;
     const double of = staying - itself;
     const double share = std::max(0.0, (tally.success - itself) / of);
     const double least = std::exp2(-kMostBits);
@@ -57,13 +56,17 @@ Measured measureSorting(const Evaluation& evaluation) {
 
 }  // namespace
 
+int countSuccess(const Evaluation& evaluation) {
+    return countVerdicts(evaluation).success;
+}
+
 std::vector<bool> listRight(const Evaluation& evaluation) {
-    const base::Quaternion expected = findExpected(evaluation);
+    const trial::Goal goal = findGoal(evaluation);
     std::vector<bool> right;
     right.reserve(evaluation.outcomes.size());
     for (const trial::Outcome& outcome : evaluation.outcomes)
         right.push_back(std::ranges::all_of(outcome.parts, [&](const trial::PartOutcome& part) {
-            return trial::judge(part, expected, *evaluation.symmetry, evaluation.tolerance) ==
+            return trial::judge(part, goal, *evaluation.symmetry, evaluation.tolerance) ==
                    trial::Verdict::success;
         }));
     return right;
@@ -79,8 +82,9 @@ Objective successShare() {
     objective.shownAs = 100.0;
     objective.decimals = 1;
     objective.usesTolerance = true;
+    objective.isSuccess = true;
     objective.measure = &measureSuccess;
-    objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 1.0; };
+    objective.attainable = [](const Task&) { return 1.0; };
     return objective;
 }
 
@@ -90,6 +94,7 @@ Objective correctShare() {
     objective.symbol = "Correct";
     objective.name = "Correct";
     objective.help = "Parts in the expected orientation, of those that finish. Higher is better.";
+    objective.isSuccess = false;
     objective.measure = &measureCorrect;
     return objective;
 }
@@ -107,7 +112,7 @@ Objective sorting() {
     objective.moreIsBetter = false;
     objective.usesTolerance = true;
     objective.measure = &measureSorting;
-    objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 0.0; };
+    objective.attainable = [](const Task&) { return 0.0; };
     return objective;
 }
 

@@ -10,6 +10,9 @@ namespace trapwright::objectives {
 /// the binomial's standard error; tables of people show the exact bounds beside it (core/stats/binomial).
 Objective successShare();
 
+/// How many parts end in the goal.
+int countSuccess(const Evaluation& evaluation);
+
 /// Which trials are a success. Of trials of several parts those of which all are.
 std::vector<bool> listRight(const Evaluation& evaluation);
 

@@ -44,6 +44,7 @@ Objective worstHalf() {
     objective.name = "Worst half";
     objective.help = "Success in the half of the operating box where it is least. Higher is better.";
     objective.isDetail = true;
+    objective.isSuccess = false;
     objective.applies = [](const Evaluation& evaluation) { return evaluation.isVaried; };
     objective.measure = &measureWorstHalf;
     return objective;

@@ -354,7 +354,13 @@ UPDATE study SET settings = json_set(settings, '$.evolution.conditions', 'nomina
     '$.validation.conditions', 'nominal');
 )sql";
 
-constexpr std::array<Migration, 15> kMigrations = {{{1, kVersion1},
+// What is wanted; nothing was.
+constexpr const char* kVersion16 = R"sql(
+ALTER TABLE selection_entry ADD COLUMN goal TEXT;   -- JSON; NULL: the one orientation
+ALTER TABLE validation ADD COLUMN goal TEXT;
+)sql";
+
+constexpr std::array<Migration, 16> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -368,7 +374,8 @@ constexpr std::array<Migration, 15> kMigrations = {{{1, kVersion1},
                                                     {12, kVersion12},
                                                     {13, kVersion13},
                                                     {14, kVersion14},
-                                                    {15, kVersion15}}};
+                                                    {15, kVersion15},
+                                                    {16, kVersion16}}};
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "core/store/scores.h"
 #include "core/store/study_state.h"
+#include "core/study/target.h"
 
 namespace trapwright::store {
 
@@ -21,7 +22,6 @@ study::SelectionEntry readEntry(const SQLite::Statement& query) {
     entry.trials = query.getColumn(3).getInt();
     entry.finished = query.getColumn(4).getInt();
     entry.oriented = query.getColumn(5).getInt();
-    entry.modalOrientation = readRotation(query, 6);
     return entry;
 }
 
@@ -41,6 +41,21 @@ std::optional<study::ValidationRow> readRow(const SQLite::Statement& query) {
     if (!counted) return std::nullopt;
     tally.success = trials - failures;
     return row;
+}
+
+/// Writes what the orientation that is shown does not say. A goal of one orientation has none.
+SQLite::Statement makeGoalUpdate(SQLite::Database& database, const std::string& table,
+                                 const std::string& condition) {
+    return {database, "UPDATE " + table + " SET goal = ? WHERE " + condition};
+}
+
+/// The goal of JSON, or else the one orientation in the columns from `rotation` on. Whether it is one.
+bool readGoal(const SQLite::Statement& query, int rotation, int json, trial::Goal& goal) {
+    goal = trial::makeGoal(readRotation(query, rotation));
+    if (query.getColumn(json).isNull()) return true;
+    const auto read = study::goalFromJson(query.getColumn(json).getString());
+    if (read) goal = *read;
+    return read.ok();
 }
 
 void saveBox(SQLite::Database& database, const std::string& table, int number,
@@ -78,11 +93,17 @@ base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
         ScoreWriter scores(database, kSelectionScores);
         int rank = 0;
         for (const study::SelectionEntry& e : record.entries) {
-            const base::Quaternion& q = e.modalOrientation;
+            const base::Quaternion& q = e.goal.shown();
             row.reset();
             SQLite::bind(row, number, rank, e.generation, e.individual, e.fitness.total, e.trials, e.finished,
                          e.oriented, q.w(), q.x(), q.y(), q.z());
             row.exec();
+            if (!e.goal.isOneOrientation()) {
+                SQLite::Statement goal =
+                    makeGoalUpdate(database, "selection_entry", "selection = ? AND rank = ?");
+                SQLite::bind(goal, study::goalToJson(e.goal), number, rank);
+                goal.exec();
+            }
             scores.write({number, rank++}, e.fitness.scores);
         }
         saveOutcomes(database, state_->program, OutcomeRun::selection, number, record.made);
@@ -98,7 +119,7 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
                                                "SELECT number, engine, box FROM selection ORDER BY number");
                        SQLite::Statement rows(*state_->database,
                                               "SELECT generation, individual, fitness, trials, "
-                                              "finished, oriented, modal_w, modal_x, modal_y, modal_z "
+                                              "finished, oriented, modal_w, modal_x, modal_y, modal_z, goal "
                                               "FROM selection_entry WHERE selection = ? ORDER BY rank");
                        ScoreReader scores(*state_->database, kSelectionScores);
                        std::vector<study::SelectionRecord> records;
@@ -112,6 +133,8 @@ base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() co
                            rows.bind(1, number);
                            while (rows.executeStep()) {
                                study::SelectionEntry entry = readEntry(rows);
+                               if (!readGoal(rows, 6, 10, entry.goal))
+                                   return damagedValue(path(), "the goal of a selection");
                                auto own = scores.read({number, static_cast<int>(record.entries.size())});
                                if (!own || !areCounts(entry.trials, {entry.finished, entry.oriented}))
                                    return damagedValue(path(), "the counts of a selection");
@@ -129,7 +152,7 @@ base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
         SQLite::Database& database = *state_->database;
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         const int number = state_->countRows("validation");
-        const base::Quaternion& q = record.expectedOrientation;
+        const base::Quaternion& q = record.goal.shown();
         SQLite::Statement head(
             database,
             "INSERT INTO validation (number, program, engine, generation, individual, expected_w, "
@@ -139,6 +162,11 @@ base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
                      q.w(), q.x(), q.y(), q.z(), record.tolerance);
         head.exec();
         saveBox(database, "validation", number, record.box);
+        if (!record.goal.isOneOrientation()) {
+            SQLite::Statement goal = makeGoalUpdate(database, "validation", "number = ?");
+            SQLite::bind(goal, study::goalToJson(record.goal), number);
+            goal.exec();
+        }
         SQLite::Statement row(database, "INSERT INTO validation_row VALUES (?, ?, ?, ?, ?, ?, ?)");
         for (const study::ValidationRow& r : record.rows) {
             row.reset();
@@ -154,36 +182,38 @@ base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {
 }
 
 base::Result<std::vector<study::ValidationRecord>> StudyFile::loadValidations() const {
-    return guarded(
-        path(), "The validations could not be read",
-        [&]() -> base::Result<std::vector<study::ValidationRecord>> {
-            SQLite::Statement heads(*state_->database,
-                                    "SELECT number, engine, generation, individual, expected_w, expected_x, "
-                                    "expected_y, expected_z, tolerance, box FROM validation ORDER BY number");
-            SQLite::Statement rows(*state_->database,
-                                   "SELECT pose, trials, failures, wrong_orientation, stuck, fell_off "
-                                   "FROM validation_row WHERE validation = ? ORDER BY pose");
-            std::vector<study::ValidationRecord> records;
-            while (heads.executeStep()) {
-                study::ValidationRecord record;
-                record.engine = heads.getColumn(1).getString();
-                record.generation = heads.getColumn(2).getInt();
-                record.individual = heads.getColumn(3).getInt();
-                record.expectedOrientation = readRotation(heads, 4);
-                record.tolerance = heads.getColumn(8).getDouble();
-                if (!readBox(heads, 9, record.box))
-                    return damagedValue(path(), "the operating box of a validation");
-                rows.reset();
-                rows.bind(1, heads.getColumn(0).getInt());
-                while (rows.executeStep()) {
-                    const auto row = readRow(rows);
-                    if (!row) return damagedValue(path(), "the counts of a validation");
-                    record.rows.push_back(*row);
-                }
-                records.push_back(std::move(record));
-            }
-            return records;
-        });
+    return guarded(path(), "The validations could not be read",
+                   [&]() -> base::Result<std::vector<study::ValidationRecord>> {
+                       SQLite::Statement heads(
+                           *state_->database,
+                           "SELECT number, engine, generation, individual, expected_w, expected_x, "
+                           "expected_y, expected_z, tolerance, box, goal FROM validation ORDER BY number");
+                       SQLite::Statement rows(
+                           *state_->database,
+                           "SELECT pose, trials, failures, wrong_orientation, stuck, fell_off "
+                           "FROM validation_row WHERE validation = ? ORDER BY pose");
+                       std::vector<study::ValidationRecord> records;
+                       while (heads.executeStep()) {
+                           study::ValidationRecord record;
+                           record.engine = heads.getColumn(1).getString();
+                           record.generation = heads.getColumn(2).getInt();
+                           record.individual = heads.getColumn(3).getInt();
+                           if (!readGoal(heads, 4, 10, record.goal))
+                               return damagedValue(path(), "the goal of a validation");
+                           record.tolerance = heads.getColumn(8).getDouble();
+                           if (!readBox(heads, 9, record.box))
+                               return damagedValue(path(), "the operating box of a validation");
+                           rows.reset();
+                           rows.bind(1, heads.getColumn(0).getInt());
+                           while (rows.executeStep()) {
+                               const auto row = readRow(rows);
+                               if (!row) return damagedValue(path(), "the counts of a validation");
+                               record.rows.push_back(*row);
+                           }
+                           records.push_back(std::move(record));
+                       }
+                       return records;
+                   });
 }
 
 }  // namespace trapwright::store

@@ -59,13 +59,18 @@ WayShares ChainSearch::pass(const WayShares& parts, const WayMatrix& chances) co
 double ChainSearch::worthOf(const WayShares& parts) const {
     constexpr double kLeast = 1.0 / 256.0;
     const auto ways = std::span(parts).first(problem_.ways);
+    double wanted = 0.0;
+    for (const std::size_t way : problem_.wanted)
+        wanted += ways[way];
     if (!problem_.forgivesFalls) {
-        const double alike = std::inner_product(ways.begin(), ways.end(), ways.begin(), 0.0);
+        const double alike = problem_.wanted.empty()
+                                 ? std::inner_product(ways.begin(), ways.end(), ways.begin(), 0.0)
+                                 : wanted;
         return std::log2(alike + kLeast);
     }
     const double staying = 1.0 - parts[problem_.fallen()];
     if (staying < kLeast) return std::log2(kLeast);
-    const double most = *std::max_element(ways.begin(), ways.end());
+    const double most = problem_.wanted.empty() ? *std::max_element(ways.begin(), ways.end()) : wanted;
     return std::log2(most / staying + kLeast) + bitsOfHalving_ * std::log2(staying);
 }
 

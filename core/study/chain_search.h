@@ -38,11 +38,12 @@ struct Chain {
 /// What chains are searched for.
 struct ChainProblem {
     std::size_t ways = 0;
-    std::size_t rows = 0;             // that traps are tried from: `ways`, or one more, the others
-    WayShares arriving;               // at the first trap
-    std::vector<std::size_t> places;  // the kind of each trap, along the track
-    double mostFall = 0.0;            // of a chain, so that it stays within the track's height [m]
-    bool forgivesFalls = false;       // what falls off comes again
+    std::size_t rows = 0;               // that traps are tried from: `ways`, or one more, the others
+    WayShares arriving;                 // at the first trap
+    std::vector<std::size_t> places;    // the kind of each trap, along the track
+    double mostFall = 0.0;              // of a chain, so that it stays within the track's height [m]
+    bool forgivesFalls = false;         // what falls off comes again
+    std::vector<std::size_t> wanted{};  // ways in which parts shall lie; none: in any one
 
     [[nodiscard]] std::size_t stuck() const { return ways + 1; }
     [[nodiscard]] std::size_t fallen() const { return ways + 2; }
@@ -75,7 +76,8 @@ class ChainSearch {
     /// always get stuck or be turned.
     [[nodiscard]] WayMatrix calcChances(const WayMatrix& counts) const;
     [[nodiscard]] WayShares pass(const WayShares& parts, const WayMatrix& chances) const;
-    /// Minus the bits of objectives::sorting() where falls are forgiven, else of objectives::disorder().
+    /// Minus the bits of objectives::sorting() where falls are forgiven, else of objectives::disorder();
+    /// where ways are wanted, of the share that lies so.
     [[nodiscard]] double worthOf(const WayShares& parts) const;
     /// Where parts are behind as many of these as there are places of their kind.
     [[nodiscard]] WayShares repeat(const KnownTrap& trap) const;

@@ -6,10 +6,11 @@
 
 #include "core/base/parallel.h"
 #include "core/geometry/self_overlap.h"
+#include "core/objectives/success_share.h"
 #include "core/search/racing.h"
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
-#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
@@ -203,6 +204,7 @@ objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Tr
     evaluation.outcomes = outcomes;
     evaluation.distance = inputs.settings.evolution.orientationDistance;
     evaluation.tolerance = inputs.settings.validation.tolerance;
+    evaluation.wanted = findWanted(inputs.settings.target, *inputs.part);
     return evaluation;
 }
 
@@ -273,13 +275,9 @@ base::Result<JudgedGeneration> evaluateGeneration(const StudyInputs& inputs, int
     base::parallelFor(candidates.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
         Candidate& candidate = candidates[i];
         const std::vector<trial::Outcome>& outcomes = candidate.outcomes;
-        const part::SymmetryGroup& symmetry = inputs.part->symmetry;
-        const double tolerance = inputs.settings.validation.tolerance;
-        const base::Quaternion expected =
-            trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
-        candidate.record.oriented = trial::tally(outcomes, expected, symmetry, tolerance).success;
         objectives::Evaluation evaluation =
             makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, outcomes, candidate.places);
+        candidate.record.oriented = objectives::countSuccess(evaluation);
         evaluation.oriented = candidate.record.oriented;
         candidate.record.fitness = objectives::measureOthers(evaluation, candidate.record.fitness);
     });

@@ -10,7 +10,7 @@
 namespace trapwright::study {
 
 OrientationShares calcOrientationShares(const part::Part& part, std::span<const trial::Outcome> outcomes,
-                                        const base::Quaternion& expected) {
+                                        const trial::Goal& goal) {
     OrientationShares shares;
     for (part::PoseGroup& group : part::findPoseGroups(part))
         shares.poses.push_back({std::move(group.poses), 0, 0});
@@ -20,8 +20,7 @@ OrientationShares calcOrientationShares(const part::Part& part, std::span<const 
         for (PoseShare& group : shares.poses)
             if (std::find(group.poses.begin(), group.poses.end(), pose) != group.poses.end())
                 ++(group.*number);
-        angles.push_back(trial::calcOrientationAngle(rotation, expected, part.symmetry,
-                                                     trial::OrientationDistance::symmetric));
+        angles.push_back(trial::calcAngleToGoal(rotation, goal, part.symmetry));
     };
     for (const trial::Outcome& outcome : outcomes) {
         for (const trial::PartOutcome& one : outcome.parts) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/part/part.h"
+#include "core/trial/goal.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::study {
@@ -20,7 +21,7 @@ struct OrientationShares {
     /// By the stable pose that is nearest; alike poses together, the most probable ones first
     /// (part::findPoseGroups).
     std::vector<PoseShare> poses;
-    /// Angles to the expected orientation modulo the part's symmetry, rising. [rad]
+    /// Angles to the goal modulo the part's symmetry, rising. [rad]
     std::vector<double> startAngles;
     std::vector<double> finishAngles;
 };
@@ -28,7 +29,7 @@ struct OrientationShares {
 /// Counts the start and final orientations of these trials. The part has stable poses, as buildPart gives
 /// them.
 OrientationShares calcOrientationShares(const part::Part& part, std::span<const trial::Outcome> outcomes,
-                                        const base::Quaternion& expected);
+                                        const trial::Goal& goal);
 
 /// A way in which parts end.
 struct EndMode {

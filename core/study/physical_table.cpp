@@ -279,16 +279,16 @@ const ValidationRecord* findSimulated(std::span<const ValidationRecord> validati
     return newest;
 }
 
-std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> validations,
-                                             std::span<const SelectionRecord> selections,
-                                             const IndividualId& individual) {
-    if (const ValidationRecord* found = findSimulated(validations, individual))
-        return found->expectedOrientation;
-    std::optional<base::Quaternion> newest;
+std::optional<trial::Goal> findExpected(std::span<const ValidationRecord> validations,
+                                        std::span<const SelectionRecord> selections,
+                                        const IndividualId& individual,
+                                        const std::optional<trial::Goal>& wanted) {
+    if (const ValidationRecord* found = findSimulated(validations, individual)) return found->goal;
+    const trial::Goal* newest = wanted ? &*wanted : nullptr;
     for (const SelectionRecord& selection : selections)
         for (const SelectionEntry& entry : selection.entries)
-            if (isSameIndividual(entry, individual) && entry.finished > 0) newest = entry.modalOrientation;
-    return newest;
+            if (isSameIndividual(entry, individual) && entry.finished > 0) newest = &entry.goal;
+    return newest != nullptr ? std::optional(*newest) : std::nullopt;
 }
 
 std::string formatPhysical(const PhysicalTable& table) {

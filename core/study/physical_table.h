@@ -52,12 +52,12 @@ PhysicalTable comparePhysical(const ValidationRecord* simulated, const PhysicalV
 const ValidationRecord* findSimulated(std::span<const ValidationRecord> validations,
                                       const IndividualId& printed);
 
-/// The orientation in which this track's parts are to end (part frame to the tangent frame at the finish):
-/// what its newest simulated validation counted as success, else the most frequent one of the newest
-/// selection that it was in; none if it was in neither.
-std::optional<base::Quaternion> findExpected(std::span<const ValidationRecord> validations,
-                                             std::span<const SelectionRecord> selections,
-                                             const IndividualId& individual);
+/// How this track's parts are to end: what its newest simulated validation counted as success, else the
+/// newest selection that it was in, else what the settings want (findWanted); none if nothing tells.
+std::optional<trial::Goal> findExpected(std::span<const ValidationRecord> validations,
+                                        std::span<const SelectionRecord> selections,
+                                        const IndividualId& individual,
+                                        const std::optional<trial::Goal>& wanted);
 
 /// As text, poses counted from 1; bounds by Clopper and Pearson. The verdict is the last line, the notice, if
 /// there is one, the first.

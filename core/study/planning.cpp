@@ -18,6 +18,7 @@
 #include "core/study/evaluator.h"
 #include "core/study/orientation_shares.h"
 #include "core/study/selection.h"
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "core/track/track_builder.h"
@@ -146,6 +147,18 @@ class Planner {
         return base::success();
     }
 
+    /// Of the ways in which parts lie in a groove. None if none of them is wanted: then parts are brought to
+    /// any one way, and what is wanted is left to the learning that follows.
+    [[nodiscard]] std::vector<std::size_t> listWantedWays() const {
+        std::vector<std::size_t> wanted;
+        const auto goal = findWanted(settings().target, *inputs_->part);
+        for (std::size_t way = 0; goal && way < ways_.size(); ++way) {
+            const double angle = trial::calcAngleToGoal(ways_[way], *goal, inputs_->part->symmetry);
+            if (angle <= settings().validation.tolerance) wanted.push_back(way);
+        }
+        return wanted;
+    }
+
     /// From so many trials.
     base::Status findWays(int trials) {
         const auto track = buildWith(nullptr, {});
@@ -162,6 +175,7 @@ class Planner {
         problem.ways = ways_.size();
         problem.places = places_;
         problem.forgivesFalls = forgivesFalls(settings().evolution);
+        problem.wanted = listWantedWays();
         problem.arriving.assign(problem.columns(), 0.0);
         search_ = ChainSearch(problem);  // findColumn() asks it
         starts_.resize(ways_.size() + 1);

@@ -23,11 +23,12 @@ namespace trapwright::study {
 std::string findPlanningProblem(const TrackSettings& settings);
 
 /// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
-/// ends, and if the settings sum up the objective sorting by that of those that stay on the track. None if
-/// parts come through no groove. The best of them are judged by trials of whole tracks in the end, in a race,
-/// by what the study maximises. About evolution.plannedTraps traps are tried; the same settings give the same
-/// designs. `planned` is told of the work as of generation 0. Errors: traps that cannot be planned, engine,
-/// cancelled, or stopped: there is no generation to wait for.
+/// ends, or by the share that lies as it is wanted where parts lie so behind the grooves; if the settings sum
+/// up the objective sorting by that of those that stay on the track. None if parts come through no groove.
+/// The best of them are judged by trials of whole tracks in the end, in a race, by what the study maximises.
+/// About evolution.plannedTraps traps are tried; the same settings give the same designs. `planned` is told
+/// of the work as of generation 0. Errors: traps that cannot be planned, engine, cancelled, or stopped: there
+/// is no generation to wait for.
 base::Result<std::vector<search::Design>> planDesigns(
     const StudyInputs& inputs, std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
     const LearningControl& control);

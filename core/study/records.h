@@ -9,6 +9,7 @@
 #include "core/search/search.h"
 #include "core/stats/binomial.h"
 #include "core/trial/conditions.h"
+#include "core/trial/goal.h"
 #include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
 
@@ -37,8 +38,8 @@ struct IndividualRecord {
     int finished = 0;
     int fellOff = 0;
     int stuck = 0;  // stuck or timed out
-    /// Success (decisions.md#selection-and-success): finished within the tolerance of the mode of its own
-    /// final orientations. None: learned by a program that did not count it.
+    /// Success (decisions.md#selection-and-success): finished within the tolerance of what is wanted, or else
+    /// of the mode of its own final orientations. None: learned by a program that did not count it.
     std::optional<int> oriented{};
 
     /// Of all its trials. None: not simulated, or not counted.
@@ -115,7 +116,7 @@ struct EngineScore {
     std::string engine;
     objectives::Fitness fitness;
     int finished = 0;
-    int oriented = 0;  // finished within the tolerance of the learning engine's modal orientation
+    int oriented = 0;  // finished within the tolerance of what is wanted, or of the learning engine's mode
 
     friend bool operator==(const EngineScore&, const EngineScore&) = default;
 };
@@ -134,8 +135,8 @@ struct SelectionEntry : IndividualId {
     objectives::Fitness fitness;  // from the many trials
     int trials = 0;
     int finished = 0;
-    int oriented = 0;  // finished within the tolerance of the modal orientation
-    base::Quaternion modalOrientation = base::Quaternion::Identity();
+    int oriented = 0;  // finished within the tolerance of the goal
+    trial::Goal goal;  // what was wanted, or this track's modal orientation
 };
 
 /// All winners that were re-simulated, best first.
@@ -155,7 +156,7 @@ struct ValidationRow {
 /// The table of one individual.
 struct ValidationRecord : IndividualId {
     std::string engine;
-    base::Quaternion expectedOrientation = base::Quaternion::Identity();
+    trial::Goal goal;        // what counted as success
     double tolerance = 0.0;  // [rad]
     std::vector<ValidationRow> rows;
     trial::MadeOutcomes made{};                // of all trials, one row after the other; until they are saved

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "core/trial/orientations.h"
@@ -16,12 +17,12 @@ namespace {
 
 EngineScore scoreOf(const StudyInputs& inputs, const trial::Engine& engine, const track::Track& track,
                     std::span<const trial::Outcome> outcomes, std::span<const trial::BoxPlace> places,
-                    int overlaps, const base::Quaternion& expected) {
+                    int overlaps, const trial::Goal& goal) {
     EngineScore score;
     score.engine = engine.name();
     score.finished = static_cast<int>(trial::finalOrientations(outcomes).size());
     score.oriented =
-        trial::tally(outcomes, expected, inputs.part->symmetry, inputs.settings.validation.tolerance).success;
+        trial::tally(outcomes, goal, inputs.part->symmetry, inputs.settings.validation.tolerance).success;
     objectives::Evaluation evaluation = makeEvaluation(inputs, track, overlaps, outcomes, places);
     evaluation.oriented = score.oriented;
     score.fitness = objectives::measureAll(evaluation, summedObjectives(inputs.settings.evolution));
@@ -51,16 +52,16 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
     if (!judged) return judged.error();
 
     const std::vector<trial::Outcome>& own = learned->front();
-    const base::Quaternion expected = trial::findModalOrientation(
-        trial::finalOrientations(own), inputs.part->symmetry, inputs.settings.validation.tolerance);
+    const trial::Goal goal = trial::findGoal(findWanted(inputs.settings.target, *inputs.part), own,
+                                             inputs.part->symmetry, inputs.settings.validation.tolerance);
     const int overlaps = winner.record.overlaps;
     const std::vector<trial::BoxPlace> places = listPlaces(batches.front());
     CheckRecord record;
     record.generation = winner.generation;
     record.individual = winner.individual;
     record.trials = static_cast<int>(own.size());
-    record.learning = scoreOf(inputs, *inputs.engine, *track, own, places, overlaps, expected);
-    record.reference = scoreOf(inputs, reference, *track, judged->front(), places, overlaps, expected);
+    record.learning = scoreOf(inputs, *inputs.engine, *track, own, places, overlaps, goal);
+    record.reference = scoreOf(inputs, reference, *track, judged->front(), places, overlaps, goal);
     return record;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/objectives/conveying_speed.h"
 #include "core/stats/binomial.h"
+#include "core/study/target.h"
 #include "core/study/trial_batches.h"
 
 namespace trapwright::study {
@@ -76,7 +77,7 @@ class Measurement {
                 base::RunControl control)
         : inputs_(&inputs), track_(std::move(track)), control_(std::move(control)) {}
 
-    std::optional<base::Quaternion> expected;
+    std::optional<trial::Goal> goal;
 
     base::Result<std::vector<PlaceResult>> measure(std::span<const PlaceTrials> wanted) const {
         std::vector<trial::TrialBatch> batches;
@@ -108,9 +109,7 @@ class Measurement {
         const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_);
         if (!outcomes) return outcomes.error();
         const std::vector<trial::Outcome>& own = outcomes->front();
-        if (!expected)
-            expected = trial::findModalOrientation(trial::finalOrientations(own), inputs_->part->symmetry,
-                                                   inputs_->settings.validation.tolerance);
+        goal = trial::findGoal(goal, own, inputs_->part->symmetry, inputs_->settings.validation.tolerance);
         return resultOf(wanted, own);
     }
 
@@ -118,10 +117,10 @@ class Measurement {
     [[nodiscard]] PlaceResult resultOf(const PlaceTrials& trials,
                                        std::span<const trial::Outcome> outcomes) const {
         const objectives::Evaluation evaluation = makeEvaluation(*inputs_, *track_, 0, outcomes);
-        return {trials,
-                trial::tally(outcomes, *expected, inputs_->part->symmetry,
-                             inputs_->settings.validation.tolerance),
-                objectives::conveyingSpeed().measure(evaluation).value};
+        return {
+            trials,
+            trial::tally(outcomes, *goal, inputs_->part->symmetry, inputs_->settings.validation.tolerance),
+            objectives::conveyingSpeed().measure(evaluation).value};
     }
 
     const StudyInputs* inputs_;
@@ -237,7 +236,7 @@ std::int64_t countRobustnessTrials(const Settings& settings, const RobustnessPla
 
 base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
                                            const std::shared_ptr<const track::Track>& track,
-                                           const std::optional<base::Quaternion>& expected,
+                                           const std::optional<trial::Goal>& given,
                                            const RobustnessPlan& plan, base::RunControl control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     if (const auto checked = plan.check(); !checked) return checked.error();
@@ -249,14 +248,14 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
             "box.frequency_percent, box.angle_deg, box.sizeBelow_mm and box.sizeAbove_mm are 0. Set what is "
             "not known exactly."};
     Measurement measurement(inputs, track, std::move(control));
-    measurement.expected = expected;
+    measurement.goal = given ? given : findWanted(settings.target, *inputs.part);
     Robustness robustness;
 
     const BoxPlace asSet = placeAsSet(settings);
     auto nominal = measurement.measureAsSet(asSet, plan.trials);
     if (!nominal) return nominal.error();
     robustness.nominal = *nominal;
-    robustness.expected = *measurement.expected;
+    robustness.goal = *measurement.goal;
 
     const PlaceTrials anywhere{std::nullopt, 0, plan.boxTrials};
     const auto overBox = measurement.measure({&anywhere, 1});

@@ -12,7 +12,7 @@
 #include "core/study/evaluator.h"
 #include "core/study/operating_box.h"
 #include "core/track/track.h"
-#include "core/trial/orientations.h"
+#include "core/trial/goal.h"
 
 namespace trapwright::study {
 
@@ -60,9 +60,8 @@ struct PairMap {
 
 /// How a track does where the physics is not quite what was set.
 struct Robustness {
-    base::Quaternion expected =
-        base::Quaternion::Identity();  // what counts: the mode as set, or what was given
-    PlaceResult nominal;               // as set
+    trial::Goal goal;     // what counts as success
+    PlaceResult nominal;  // as set
     PlaceResult overBox;
     std::vector<ConditionSweep> sweeps;  // of all conditions that vary
     std::vector<PlaceResult>
@@ -78,11 +77,12 @@ std::int64_t countRobustnessTrials(const Settings& settings, const RobustnessPla
 
 /// Simulates the track all over the settings' operating box: as set, over the box at random, over each
 /// condition, in all its corners (a few trials each; the worst again on fresh ones, since the worst of many
-/// counts is an unlucky one), and the map of the worst two conditions. `expected`: the orientation that
-/// counts; none: the mode as set. Errors: settings, a box without room, the engine's, cancelled.
+/// counts is an unlucky one), and the map of the worst two conditions. What counts as success is
+/// what is given, or else what the settings want, or else the mode as set. Errors: settings, a box without
+/// room, the engine's, cancelled.
 base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
                                            const std::shared_ptr<const track::Track>& track,
-                                           const std::optional<base::Quaternion>& expected,
+                                           const std::optional<trial::Goal>& given,
                                            const RobustnessPlan& plan, base::RunControl control);
 
 /// A table of all of it, for people.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "core/study/validation.h"
@@ -79,6 +80,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     if (!outcomes) return outcomes.error();
 
     const objectives::ObjectiveList summed = summedObjectives(settings.evolution);
+    const std::optional<trial::Goal> wanted = findWanted(settings.target, *inputs.part);
     SelectionRecord record{inputs.engine->name(), {}};
     record.box = boxOfJudging(settings);
     for (std::size_t i = 0; i < ranked.size(); ++i) {
@@ -87,13 +89,10 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         entry.generation = ranked[i].generation;
         entry.individual = ranked[i].individual;
         entry.trials = static_cast<int>(own.size());
-        const std::vector<base::Quaternion> finals = trial::finalOrientations(own);
-        entry.finished = static_cast<int>(finals.size());
-        entry.modalOrientation =
-            trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
+        entry.finished = static_cast<int>(trial::finalOrientations(own).size());
+        entry.goal = trial::findGoal(wanted, own, inputs.part->symmetry, settings.validation.tolerance);
         entry.oriented =
-            trial::tally(own, entry.modalOrientation, inputs.part->symmetry, settings.validation.tolerance)
-                .success;
+            trial::tally(own, entry.goal, inputs.part->symmetry, settings.validation.tolerance).success;
         const std::vector<trial::BoxPlace> places = listPlaces(batches[i]);
         objectives::Evaluation evaluation =
             makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own, places);

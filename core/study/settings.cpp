@@ -12,6 +12,10 @@ namespace {
 constexpr double kLearningStepsPerPeriod = 66.0;
 constexpr double kLargestStep = 0.3e-3;  // [s]
 
+bool isSame(const std::optional<base::Quaternion>& a, const std::optional<base::Quaternion>& b) {
+    return a.has_value() == b.has_value() && (!a || a->coeffs() == b->coeffs());
+}
+
 }  // namespace
 
 bool operator==(const TrackSettings& a, const TrackSettings& b) {
@@ -24,6 +28,10 @@ bool operator==(const TrackSettings& a, const TrackSettings& b) {
     return fields(a) == fields(b);
 }
 
+bool operator==(const TargetSettings& a, const TargetSettings& b) {
+    return a.poses == b.poses && a.heading == b.heading && isSame(a.orientation, b.orientation);
+}
+
 bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
     const auto fields = [](const SimulationSettings& s) {
         return std::tie(s.drive.frequency, s.drive.halfStroke, s.drive.angle, s.contact.staticFriction,
@@ -31,11 +39,7 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
                         s.termination.stuckTime, s.termination.stuckProgress, s.start.tilt, s.start.lateral,
                         s.gravity, s.engine);
     };
-    const auto& poseA = a.start.nearPose;
-    const auto& poseB = b.start.nearPose;
-    const bool samePose =
-        poseA.has_value() == poseB.has_value() && (!poseA || poseA->coeffs() == poseB->coeffs());
-    return samePose && fields(a) == fields(b);
+    return isSame(a.start.nearPose, b.start.nearPose) && fields(a) == fields(b);
 }
 
 std::optional<trial::OperatingBox> boxOfJudging(const Settings& settings) {

@@ -83,6 +83,19 @@ struct ValidationSettings {
     friend bool operator==(const ValidationSettings&, const ValidationSettings&) = default;
 };
 
+/// How parts shall end (decisions.md#wanted-orientation). Nothing is wanted, as in the paper, unless `poses`
+/// or `orientation` is set; then any orientation is as good as another, so long as most parts end in it.
+struct TargetSettings {
+    std::string poses{};  // stable poses, each as good as the others, by their numbers: "3, 5-6"
+    // In which they are turned about the vertical, from how the part has them: "any", or an angle in degrees.
+    std::string heading = "any";
+    std::optional<base::Quaternion> orientation{};  // part frame to track frame; instead of poses
+
+    [[nodiscard]] bool isSet() const { return !poses.empty() || orientation.has_value(); }
+
+    friend bool operator==(const TargetSettings& a, const TargetSettings& b);
+};
+
 /// What the drive of the real feeder may be told, whoever operates it. Shares of its full set-point.
 struct FeederSettings {
     double highestSetPoint = 0.8;
@@ -117,6 +130,7 @@ struct Settings {
     EvolutionSettings evolution;
     SimulationSettings simulation;
     trial::OperatingBox box;
+    TargetSettings target;
     ValidationSettings validation;
     FeederSettings feeder;
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/part/specimen.h"
@@ -5,6 +6,7 @@
 #include "core/study/pose_weights.h"
 #include "core/study/settings.h"
 #include "core/study/settings_fields.h"
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/traps/trap_chain.h"
 
@@ -119,6 +121,8 @@ std::vector<std::string> findProblems(const Settings& settings) {
 
     const std::vector<std::string> track = findTrackProblems(settings.track);
     problems.insert(problems.end(), track.begin(), track.end());
+    const std::vector<std::string> target = findTargetProblems(settings);
+    problems.insert(problems.end(), target.begin(), target.end());
     const EvolutionSettings& evolution = settings.evolution;
     if (evolution.populationSize > 0 && evolution.tournamentSize > evolution.populationSize) {
         problems.push_back("evolution.tournamentSize is " + std::to_string(evolution.tournamentSize) +
@@ -159,7 +163,7 @@ std::vector<std::string> findProblems(const Settings& settings) {
 }
 
 std::vector<std::string> findPartProblems(const Settings& settings, const part::Part& part) {
-    std::vector<std::string> problems;
+    std::vector<std::string> problems = findTargetPartProblems(settings.target, part);
     const TrackSettings& track = settings.track;
     const double radius = part.boundingRadius;
     const std::string size =
@@ -205,6 +209,14 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
             " of lead-in lie behind the start point (track.leadInLength_mm minus "
             "track.startFromLeadInEnd_mm); at least 60 mm are recommended, because parts drift back at "
             "first.");
+    }
+    const auto summed = objectives::readObjectives(settings.evolution.objectives);
+    if (settings.target.isSet() && summed &&
+        std::ranges::none_of(*summed, &objectives::Objective::usesTolerance)) {
+        recommendations.push_back(
+            "How parts shall end is told (target), but nothing in evolution.objectives looks at it, so that "
+            "learning is content with any way; " +
+            std::string(objectives::kWantedObjectives) + " is recommended.");
     }
     const double fall = calcTypicalFall(settings.track);
     if (fall > 0.5 * settings.track.segmentHeight) {

@@ -135,6 +135,10 @@ void visitFields(Visitor& v, SettingsType& s) {
              Choices<trial::BoxDistribution, 2>{
                  {{"uniform", trial::BoxDistribution::uniform}, {"normal", trial::BoxDistribution::normal}}});
 
+    v.text("target.poses", s.target.poses);
+    v.rotation("target.orientation", s.target.orientation);
+    v.text("target.heading_deg", s.target.heading);
+
     v.count({"validation.selectionWinners", 1, 10000}, s.validation.selectionWinners);
     v.count({"validation.selectionTrials", 1, 1000000}, s.validation.selectionTrials);
     v.count({"validation.trialsPerPose", 1, 1000000}, s.validation.trialsPerPose);

@@ -65,8 +65,7 @@ std::string formatSelection(const SelectionRecord& record) {
     for (const objectives::Objective& objective : objectives::allObjectives()) {
         const bool isScored = !record.entries.empty() &&
                               objectives::findScore(record.entries.front().fitness, objective.key) != nullptr;
-        if (isScored && objective.isNoisy && objective.key != objectives::kSuccess)
-            objectives.push_back(&objective);
+        if (isScored && objective.isNoisy && !objective.isSuccess) objectives.push_back(&objective);
     }
     std::string text = fmt::format("{:>4} {:>10} {:>10}", "Rank", "Generation", "Individual");
     std::vector<std::size_t> widths;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/trial/goal.h"
 #include "core/trial/orientations.h"
 #include "core/trial/start.h"
 
@@ -116,7 +117,7 @@ TrialCounts countTrials(std::span<const trial::Outcome> outcomes, const part::Sy
     counts.expected =
         expected ? *expected
                  : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
-    counts.tally = trial::tally(outcomes, counts.expected, symmetry, tolerance);
+    counts.tally = trial::tally(outcomes, trial::makeGoal(counts.expected), symmetry, tolerance);
     for (const trial::Outcome& outcome : outcomes) {
         for (const trial::PartOutcome& part : outcome.parts)
             counts.simulatedTime += part.time;

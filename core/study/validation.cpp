@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "core/trial/orientations.h"
@@ -42,8 +43,7 @@ std::vector<stats::ArrivalStratum> strataOf(std::span<const ValidationGroup> gro
 }  // namespace
 
 base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individual& individual,
-                                        const std::optional<base::Quaternion>& expected,
-                                        base::RunControl control) {
+                                        const std::optional<trial::Goal>& given, base::RunControl control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     const Settings& settings = inputs.settings;
     const int poses = static_cast<int>(inputs.part->stablePoses.size());
@@ -74,23 +74,15 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
     record.engine = inputs.engine->name();
     record.box = boxOfJudging(settings);
     record.tolerance = settings.validation.tolerance;
-    if (expected) {
-        record.expectedOrientation = *expected;
-    } else {
-        std::vector<base::Quaternion> finals;
-        for (const std::vector<trial::Outcome>& own : *outcomes) {
-            const std::vector<base::Quaternion> some = trial::finalOrientations(own);
-            finals.insert(finals.end(), some.begin(), some.end());
-        }
-        record.expectedOrientation =
-            trial::findModalOrientation(finals, inputs.part->symmetry, settings.validation.tolerance);
-    }
     record.made.maker = makerOf(*inputs.engine);
+    for (const std::vector<trial::Outcome>& own : *outcomes)
+        record.made.outcomes.insert(record.made.outcomes.end(), own.begin(), own.end());
+    record.goal = trial::findGoal(given ? given : findWanted(settings.target, *inputs.part),
+                                  record.made.outcomes, inputs.part->symmetry, record.tolerance);
     for (int pose = 0; pose < poses; ++pose) {
         const std::vector<trial::Outcome>& own = (*outcomes)[static_cast<std::size_t>(pose)];
         record.rows.push_back(
-            {pose, trial::tally(own, record.expectedOrientation, inputs.part->symmetry, record.tolerance)});
-        record.made.outcomes.insert(record.made.outcomes.end(), own.begin(), own.end());
+            {pose, trial::tally(own, record.goal, inputs.part->symmetry, record.tolerance)});
     }
     return record;
 }

@@ -14,12 +14,11 @@
 namespace trapwright::study {
 
 /// The paper's Tables 2 and 3 for one individual (section 6.2; decisions.md#selection-and-success): trials
-/// that start near each of the part's stable poses with a random heading. The expected orientation is the
-/// mode of all final orientations, unless one is given. Errors: settings or part that cannot be used, a part
-/// without stable poses, genes, engine, cancelled.
+/// that start near each of the part's stable poses with a random heading. What counts as success is what is
+/// given, or else what the settings want, or else the mode of all final orientations. Errors: settings or
+/// part that cannot be used, a part without stable poses, genes, engine, cancelled.
 base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individual& individual,
-                                        const std::optional<base::Quaternion>& expected,
-                                        base::RunControl control);
+                                        const std::optional<trial::Goal>& given, base::RunControl control);
 
 /// The sums of all rows, all trials alike; its pose is -1.
 ValidationRow calcTotal(const ValidationRecord& record);

@@ -138,22 +138,6 @@ std::optional<Verdict> findVerdict(std::string_view name) {
     return static_cast<Verdict>(found - kVerdictNames.begin());
 }
 
-Verdict judge(const PartOutcome& outcome, const base::Quaternion& expected,
-              const part::SymmetryGroup& symmetry, double tolerance) {
-    switch (outcome.ending) {
-        case Ending::finished:
-            break;
-        case Ending::fellOff:
-            return Verdict::fellOff;
-        case Ending::stuck:
-        case Ending::timedOut:
-            return Verdict::stuck;
-    }
-    const double angle =
-        calcOrientationAngle(outcome.farthest.rotation, expected, symmetry, OrientationDistance::symmetric);
-    return angle <= tolerance ? Verdict::success : Verdict::wrongOrientation;
-}
-
 void Tally::add(Verdict verdict) {
     switch (verdict) {
         case Verdict::success:
@@ -177,16 +161,6 @@ Tally& Tally::operator+=(const Tally& other) {
     stuck += other.stuck;
     fellOff += other.fellOff;
     return *this;
-}
-
-Tally tally(std::span<const Outcome> outcomes, const base::Quaternion& expected,
-            const part::SymmetryGroup& symmetry, double tolerance) {
-    Tally counts;
-    for (const Outcome& outcome : outcomes) {
-        for (const PartOutcome& part : outcome.parts)
-            counts.add(judge(part, expected, symmetry, tolerance));
-    }
-    return counts;
 }
 
 base::Quaternion findModalOrientation(std::span<const base::Quaternion> orientations,

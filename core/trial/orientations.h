@@ -55,11 +55,6 @@ enum class Verdict { success, wrongOrientation, stuck, fellOff };
 std::string_view verdictName(Verdict verdict);
 std::optional<Verdict> findVerdict(std::string_view name);
 
-/// Success (decisions.md#selection-and-success): finished within `tolerance` [rad] of the expected
-/// orientation, modulo the part's symmetry.
-Verdict judge(const PartOutcome& outcome, const base::Quaternion& expected,
-              const part::SymmetryGroup& symmetry, double tolerance);
-
 /// Parts by what their runs count as.
 struct Tally {
     int success = 0;
@@ -78,10 +73,6 @@ struct Tally {
 
     friend bool operator==(const Tally&, const Tally&) = default;
 };
-
-/// What all these parts count as.
-Tally tally(std::span<const Outcome> outcomes, const base::Quaternion& expected,
-            const part::SymmetryGroup& symmetry, double tolerance);
 
 /// The orientations in which parts passed the finish line, in the trials' order.
 std::vector<base::Quaternion> finalOrientations(std::span<const Outcome> outcomes);

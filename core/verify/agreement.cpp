@@ -13,6 +13,7 @@
 #include "core/stats/rates.h"
 #include "core/study/evaluator.h"
 #include "core/study/trial_batches.h"
+#include "core/trial/goal.h"
 #include "core/trial/orientations.h"
 #include "core/verify/scenes.h"
 
@@ -86,7 +87,7 @@ Agreement compare(const AgreementScene& scene, const Outcomes& own, const Outcom
     std::vector<base::Quaternion> ends = trial::finalOrientations(own);
     const std::vector<base::Quaternion> judgedEnds = trial::finalOrientations(judged);
     ends.insert(ends.end(), judgedEnds.begin(), judgedEnds.end());
-    const base::Quaternion expected = trial::findModalOrientation(ends, symmetry, kTolerance);
+    const trial::Goal expected = trial::makeGoal(trial::findModalOrientation(ends, symmetry, kTolerance));
     Agreement result;
     result.part = scene.part;
     result.track = scene.track;

@@ -60,7 +60,7 @@ std::int64_t countValidationTrials(const study::StudyInputs& inputs) {
 
 Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                                 const study::Individual& individual,
-                                                const std::optional<base::Quaternion>& expected,
+                                                const std::optional<trial::Goal>& expected,
                                                 const base::RunControl& control) {
     if (const auto checked = study::checkInputs(inputs); !checked)
         return Failure{FailureKind::settings, checked.error().message};

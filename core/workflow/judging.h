@@ -26,11 +26,11 @@ Result<study::SelectionRecord> selectAndSave(store::StudyFile& file, const study
 /// Trials of one validation.
 std::int64_t countValidationTrials(const study::StudyInputs& inputs);
 
-/// Validates one individual and saves the result in the file. `expected`: the orientation that counts as
-/// success, if not the most frequent one.
+/// Validates one individual and saves the result in the file. `expected`: what counts as success, if
+/// not what the settings say.
 Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                                 const study::Individual& individual,
-                                                const std::optional<base::Quaternion>& expected,
+                                                const std::optional<trial::Goal>& expected,
                                                 const base::RunControl& control);
 
 }  // namespace trapwright::workflow

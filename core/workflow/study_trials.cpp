@@ -38,7 +38,7 @@ base::Result<StoredTrials> findSelectionTrials(const store::StudyFile& file, con
         for (std::size_t rank = 0; rank < selection.entries.size(); ++rank) {
             const study::SelectionEntry& entry = selection.entries[rank];
             if (!isSameIndividual(entry, individual)) continue;
-            trials = {entry.trials, selection.engine, entry.modalOrientation, settings.validation.tolerance,
+            trials = {entry.trials, selection.engine, entry.goal, settings.validation.tolerance,
                       selection.box};
             place = {static_cast<int>(number), static_cast<int>(rank)};
         }
@@ -64,8 +64,7 @@ base::Result<StoredTrials> findValidationTrials(const store::StudyFile& file,
         for (const study::ValidationRow& row : validation.rows)
             if (std::find(poses.begin(), poses.end(), row.pose) != poses.end()) count += row.tally.trials();
         if (count == 0) continue;
-        trials = {count, validation.engine, validation.expectedOrientation, validation.tolerance,
-                  validation.box};
+        trials = {count, validation.engine, validation.goal, validation.tolerance, validation.box};
         number = static_cast<int>(place);
     }
     if (trials.count == 0) return trials;
@@ -100,7 +99,7 @@ base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const 
     if (request.robustness)
         return StoredTrials{request.robustness->trials.count,
                             engines.nameFor(settings.simulation.engine, trial::EngineUse::judging),
-                            request.robustness->expected, settings.validation.tolerance};
+                            request.robustness->goal, settings.validation.tolerance};
     auto trials = request.kind == TrialKind::selection ? findSelectionTrials(file, settings, request.winner)
                   : request.kind == TrialKind::validation
                       ? findValidationTrials(file, request.winner, request.poses)
@@ -210,14 +209,12 @@ std::string describe(const OutcomeDifference& difference) {
 }
 
 JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
-                         const std::optional<base::Quaternion>& expected, double tolerance) {
+                         const std::optional<trial::Goal>& goal, double tolerance) {
     JudgedTrials judged;
-    judged.expected =
-        expected ? *expected
-                 : trial::findModalOrientation(trial::finalOrientations(outcomes), symmetry, tolerance);
+    judged.goal = trial::findGoal(goal, outcomes, symmetry, tolerance);
     judged.verdicts.reserve(outcomes.size());
     for (const trial::Outcome& outcome : outcomes)
-        judged.verdicts.push_back(trial::judge(outcome.parts.front(), judged.expected, symmetry, tolerance));
+        judged.verdicts.push_back(trial::judge(outcome.parts.front(), judged.goal, symmetry, tolerance));
     return judged;
 }
 

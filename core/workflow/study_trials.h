@@ -14,7 +14,7 @@
 #include "core/study/settings.h"
 #include "core/trial/batch.h"
 #include "core/trial/engine_registry.h"
-#include "core/trial/orientations.h"
+#include "core/trial/goal.h"
 #include "core/trial/outcome.h"
 
 namespace trapwright::workflow {
@@ -25,11 +25,9 @@ enum class TrialKind { learning, selection, validation, robustness };
 struct RobustnessTrials {
     study::PlaceTrials trials;
     trial::OperatingBox box;  // that was measured in
-    base::Quaternion expected = base::Quaternion::Identity();
+    trial::Goal goal;         // what counted as success
 
-    friend bool operator==(const RobustnessTrials& a, const RobustnessTrials& b) {
-        return a.trials == b.trials && a.box == b.box && a.expected.coeffs() == b.expected.coeffs();
-    }
+    friend bool operator==(const RobustnessTrials&, const RobustnessTrials&) = default;
 };
 
 /// Which trials of a study are meant.
@@ -47,8 +45,8 @@ struct TrialsRequest {
 struct StoredTrials {
     int count = 0;  // 0 if there are none
     std::string engine;
-    std::optional<base::Quaternion> expected{};  // the orientation that counted as success; none if learning
-    double tolerance = 0.0;                      // of it [rad]
+    std::optional<trial::Goal> goal{};  // what counted as success; none if learning
+    double tolerance = 0.0;             // of it [rad]
     // That they varied over, of a selection or validation; none: all alike. In learning as the settings say.
     std::optional<trial::OperatingBox> box{};
     std::vector<store::PackedOutcomes> kept{};  // all of them, one piece for each pose; none: not stored
@@ -89,12 +87,12 @@ std::string describe(const OutcomeDifference& difference);
 
 /// Trials and what each counts as.
 struct JudgedTrials {
-    base::Quaternion expected = base::Quaternion::Identity();  // the orientation that counts as success
-    std::vector<trial::Verdict> verdicts;                      // slot i for outcome i, of its first part
+    trial::Goal goal;                      // what counts as success
+    std::vector<trial::Verdict> verdicts;  // slot i for outcome i, of its first part
 };
 
-/// `expected`: the orientation that counts; without it the most frequent final one. `tolerance` [rad].
+/// `goal`: what counts; without it the most frequent final orientation. `tolerance` [rad].
 JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::SymmetryGroup& symmetry,
-                         const std::optional<base::Quaternion>& expected, double tolerance);
+                         const std::optional<trial::Goal>& goal, double tolerance);
 
 }  // namespace trapwright::workflow

@@ -267,6 +267,51 @@ class LearningTest : public QObject {
                  unknown.all());
     }
 
+    /// A wanted pose: told, learned for, resumed, and what selection and validation go by.
+    void wantedPose() {
+        const QStringList with{"--set", "target.poses=4", "--set", "evolution.objectives=F_C, F_D, F_O, F_W"};
+        QVERIFY(learn(quickStudy("whole.trap", 3) + with).code == 0);
+        const Ran first = learn(quickStudy("pieces.trap", 2) + with);
+        QVERIFY2(first.code == 0 &&
+                     first.output.contains("Parts shall end in stable pose 3-4, any heading.") &&
+                     first.output.contains("F_W 100.0 %"),
+                 first.all());
+        const Ran ran = learn({"evolve", "pieces.trap", "--resume", "--generations", "3", "--json"});
+        QVERIFY2(ran.code == 0, ran.all());
+        QCOMPARE(dumpOf("pieces.trap"), dumpOf("whole.trap"));
+        for (const auto value : ran.json()["generations"].toArray()) {
+            const QJsonObject best = value.toObject()["best"].toObject();
+            QVERIFY(best.contains("F_W"));
+            QCOMPARE(best["F_W"].toDouble(), value.toObject()["success"].toObject()["share"].toDouble());
+        }
+        const Ran selected = learn({"select", "whole.trap", "--winners", "2", "--trials", "20"});
+        QVERIFY2(selected.code == 0 && selected.output.contains("parts end in stable pose 3-4"),
+                 selected.all());
+        const Ran validated = learn({"validate", "whole.trap", "--trials", "10"});
+        QVERIFY2(validated.code == 0 && validated.output.contains("of stable pose 3-4 in any heading"),
+                 validated.all());
+        const Ran given =
+            learn({"validate", "whole.trap", "--trials", "10", "--expected", "1", "0", "0", "0"});
+        QVERIFY2(given.code == 0 && given.output.contains("of the orientation (w, x, y, z) = (1.000"),
+                 given.all());
+        const Ran exported = learn({"export", "whole.trap", "track.json"});
+        QVERIFY2(exported.code == 0, exported.all());
+        const Ran other = learn({"evolve", "whole.trap", "--resume", "--set", "target.poses=5"});
+        QVERIFY2(other.code == 2 && other.errors.contains("Only evolution.generations"), other.all());
+    }
+
+    void whatIsWantedMustBeThere() {
+        const Ran none = learn(quickStudy("none.trap", 1) + QStringList{"--set", "target.poses=3, 7"});
+        QVERIFY2(none.code == 2 &&
+                     none.errors.contains("has no stable pose 7. It has 1-2; 3-4; 5-6 (alike ones together)"),
+                 none.all());
+        const Ran nothing =
+            learn(quickStudy("none.trap", 1) + QStringList{"--set", "evolution.objectives=F_W"});
+        QVERIFY2(nothing.code == 2 && nothing.errors.contains("but nothing is wanted"), nothing.all());
+        const Ran idle = learn({"new", "idle.trap", "--preset", "cuboid", "--set", "target.poses=3"});
+        QVERIFY2(idle.code == 0 && idle.errors.contains("F_C, F_D, F_O, F_W is recommended"), idle.all());
+    }
+
     void unknownTrapsAreRefused() {
         const Ran ran = learn(quickStudy("none.trap", 1) + QStringList{"--set", "track.traps=ledge"});
         QVERIFY2(ran.code != 0 && ran.errors.contains("The kinds are: free-form, step"), ran.all());

@@ -123,8 +123,7 @@ double shownValue(const objectives::Fitness& fitness, const objectives::Objectiv
 objectives::ObjectiveList plottedObjectives(bool onlyNoisy) {
     objectives::ObjectiveList list;
     for (const objectives::Objective& objective : objectives::allObjectives())
-        if (objective.key != objectives::kSuccess && (objective.isNoisy || !onlyNoisy))
-            list.push_back(&objective);
+        if (!objective.isSuccess && (objective.isNoisy || !onlyNoisy)) list.push_back(&objective);
     return list;
 }
 

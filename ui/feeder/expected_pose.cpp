@@ -22,15 +22,7 @@ struct Texts {
 constexpr int kLeastHeight = 96;  // of the picture
 constexpr double kRound = 6.0;
 
-}  // namespace
-
-bool operator==(const ExpectedExit& a, const ExpectedExit& b) {
-    const bool same = a.orientation.has_value() == b.orientation.has_value() &&
-                      (!a.orientation || a.orientation->coeffs() == b.orientation->coeffs());
-    return a.track == b.track && a.part == b.part && same;
-}
-
-QString alikeText(const part::SymmetryGroup& symmetry) {
+QString symmetryText(const part::SymmetryGroup& symmetry) {
     if (symmetry.sphere) return Texts::tr("The part is round: any orientation is right.");
     if (symmetry.continuous) {
         return symmetry.flip ? Texts::tr(
@@ -43,10 +35,22 @@ QString alikeText(const part::SymmetryGroup& symmetry) {
     return Texts::tr("The part looks the same in %1 orientations: each of them is right.").arg(alike);
 }
 
+}  // namespace
+
+QString alikeText(const part::SymmetryGroup& symmetry, const trial::Goal& goal) {
+    QStringList sentences;
+    if (goal.orientations.front().anyHeading)
+        sentences += Texts::tr("In any heading, turned about the vertical, it is right as well.");
+    if (goal.orientations.size() > 1)
+        sentences += Texts::tr("This is one of %1 poses that are right.").arg(goal.orientations.size());
+    if (const QString alike = symmetryText(symmetry); !alike.isEmpty()) sentences += alike;
+    return sentences.join(' ');
+}
+
 QFuture<QImage> expectedPicture(scene::PictureMaker& maker, const ExpectedExit& exit, QSize size,
                                 double pixelRatio) {
     if (!exit.known()) return QtFuture::makeReadyFuture(QImage());
-    const base::Pose pose = trial::findFinishPose(*exit.track, *exit.part, *exit.orientation);
+    const base::Pose pose = trial::findFinishPose(*exit.track, *exit.part, exit.goal->shown());
     return maker.exitPicture(exit.track, exit.part, pose, size, pixelRatio);
 }
 
@@ -99,12 +103,12 @@ void ExpectedPose::showEvent(QShowEvent* event) {
 void ExpectedPose::refresh() {
     title_->setVisible(exit_.part != nullptr);
     QString text;
-    if (exit_.part && !exit_.orientation) {
+    if (exit_.part && !exit_.goal) {
         text =
             tr("What success looks like is known once this track has been validated in simulation, on the "
                "page Review.");
     } else if (exit_.part) {
-        const QString alike = alikeText(exit_.part->symmetry);
+        const QString alike = alikeText(exit_.part->symmetry, *exit_.goal);
         text = alike.isEmpty() ? tr("The arrow tells the conveying direction.") : alike;
     }
     text_->setText(text);
@@ -145,7 +149,7 @@ void ExpectedPose::paintEvent(QPaintEvent* event) {
     } else {
         painter.setPen(palette().placeholderText().color());
         painter.drawText(area, Qt::AlignCenter | Qt::TextWordWrap,
-                         exit_.orientation ? tr("Drawing...") : tr("Not known yet"));
+                         exit_.goal ? tr("Drawing...") : tr("Not known yet"));
     }
     painter.setPen(QPen(palette().mid().color(), 1.0));
     painter.setBrush(Qt::NoBrush);

@@ -7,6 +7,7 @@
 
 #include "core/part/part.h"
 #include "core/track/track.h"
+#include "core/trial/goal.h"
 #include "ui/scene/picture_maker.h"
 
 class QLabel;
@@ -17,15 +18,15 @@ namespace trapwright::feeder {
 struct ExpectedExit {
     std::shared_ptr<const track::Track> track;  // null while it is built
     std::shared_ptr<const part::Part> part;
-    std::optional<base::Quaternion> orientation;  // in the tangent frame at the finish; none: not known yet
+    std::optional<trial::Goal> goal;  // none: not known yet
 
-    [[nodiscard]] bool known() const { return track && part && orientation; }
-    friend bool operator==(const ExpectedExit&, const ExpectedExit&);
+    [[nodiscard]] bool known() const { return track && part && goal; }
+    friend bool operator==(const ExpectedExit&, const ExpectedExit&) = default;
 };
 
-/// Which other orientations are right as well, in a sentence: "Any of 4 alike orientations is right." Empty
-/// for a part without symmetry.
-QString alikeText(const part::SymmetryGroup& symmetry);
+/// Which other orientations are right as well, in sentences: "Any of 4 alike orientations is right." Empty if
+/// there are none.
+QString alikeText(const part::SymmetryGroup& symmetry, const trial::Goal& goal);
 
 /// The picture of a success, drawn in the background: the track's exit with the part on it as it leaves, from
 /// the operator's side, the conveying direction marked. Null if something is not known.

@@ -1,6 +1,7 @@
 #include "ui/feeder/placing_scene.h"
 
 #include "core/study/physical_table.h"
+#include "core/study/target.h"
 #include "core/trial/start.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_design.h"
@@ -46,8 +47,10 @@ void PlacingScene::setRuns(const session::StudyRuns* runs) {
 
 ExpectedExit PlacingScene::expected() const {
     if (!runs_ || !printed_ || *printed_ == kLayout) return {};
-    return {track_, runs_->design().part(),
-            study::findExpected(runs_->validations(), runs_->selections(), *printed_)};
+    const session::StudyDesign& design = runs_->design();
+    return {track_, design.part(),
+            study::findExpected(runs_->validations(), runs_->selections(), *printed_,
+                                study::findWanted(design.settings().target, *design.part()))};
 }
 
 void PlacingScene::setScene(scene::SceneView* scene) {

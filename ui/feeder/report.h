@@ -25,10 +25,11 @@ struct Report {
     std::optional<study::ValidationRecord> simulated;
     study::PhysicalTable table;
     std::vector<calibration::Calibration> calibrations;
-    QImage track;               // a picture of it; null: none
-    QImage expected;            // of a part that leaves as expected; null: not known
-    std::vector<QImage> poses;  // pictures by pose
-    QString program;            // that writes the report, and its version
+    QImage track;                     // a picture of it; null: none
+    std::optional<trial::Goal> goal;  // how parts are to end
+    QImage expected;                  // of a part that leaves as expected; null: not known
+    std::vector<QImage> poses;        // pictures by pose
+    QString program;                  // that writes the report, and its version
     QDateTime written;
 };
 

@@ -73,7 +73,9 @@ Report ReportCard::makeReport() const {
     scene::PictureMaker pictures;
     pictures.setTheme(scene::SceneTheme::light());
     if (placing_.track()) report.track = pictures.trackPicture(placing_.track(), kTrackPicture).result();
-    report.expected = expectedPicture(pictures, placing_.expected(), kExpectedPicture).result();
+    const ExpectedExit expected = placing_.expected();
+    report.goal = expected.goal;
+    report.expected = expectedPicture(pictures, expected, kExpectedPicture).result();
     for (const part::StablePose& pose : report.part->stablePoses)
         report.poses.push_back(pictures.partPicture(report.part, pose.rotation, kPosePicture).result());
     report.program = QString::fromStdString(program_);

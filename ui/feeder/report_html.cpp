@@ -211,7 +211,7 @@ QString picturesPiece(const Report& report) {
         QString words = Texts::tr(
             "A success: the part as it leaves the track, seen from the operator's side. "
             "The arrow is the conveying direction.");
-        const QString alike = alikeText(report.part->symmetry);
+        const QString alike = report.goal ? alikeText(report.part->symmetry, *report.goal) : QString();
         if (!alike.isEmpty()) words += ' ' + alike;
         expected = captioned(imageTag("expected", kExpectedPicture), words);
     }

@@ -34,8 +34,7 @@ Column<Row> numberColumn(const search::NumberInfo& info,
 inline objectives::ObjectiveList scoredObjectives(bool isDetail, bool isNoisy = false) {
     objectives::ObjectiveList list;
     for (const objectives::Objective& objective : objectives::allObjectives()) {
-        if (objective.isDetail == isDetail && objective.key != objectives::kSuccess &&
-            (objective.isNoisy || !isNoisy))
+        if (objective.isDetail == isDetail && !objective.isSuccess && (objective.isNoisy || !isNoisy))
             list.push_back(&objective);
     }
     return list;

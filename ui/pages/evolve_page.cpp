@@ -232,7 +232,7 @@ void EvolvePage::refresh() {
         form_->setLocked(
             [locked](const std::string& key) { return !locked || key == "evolution.generations"; });
         form_->setProblems(session_->design().problems(), session_->design().recommendations());
-        summary_->show(session_->design().settings(), locked);
+        summary_->show(session_->design().settings(), *session_->design().part(), locked);
     }
     showPicked();
 }

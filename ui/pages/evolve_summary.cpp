@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "ui/look/text.h"
 #include "ui/pages/fact_list.h"
+#include "ui/pages/target_card.h"
 
 namespace trapwright::pages {
 
@@ -29,7 +30,7 @@ QString stepText(const study::Settings& settings) {
     return settings.evolution.learningStep > 0.0 ? text : EvolveSummary::tr("%1 (automatic)").arg(text);
 }
 
-Facts factsOf(const study::Settings& settings) {
+Facts factsOf(const study::Settings& settings, const part::Part& part) {
     const study::TrackSettings& track = settings.track;
     const study::EvolutionSettings& evolution = settings.evolution;
     const trial::Vibration& drive = settings.simulation.drive;
@@ -39,6 +40,7 @@ Facts factsOf(const study::Settings& settings) {
             ? EvolveSummary::tr("bowl of %1 mm radius").arg(millimetres(track.shape.bowlRadius))
             : EvolveSummary::tr("linear");
     return {
+        {EvolveSummary::tr("Wanted"), wantedText(settings.target, part)},
         {EvolveSummary::tr("Feeder"), feeder},
         {EvolveSummary::tr("Trap"), track.traps == "free-form" ? EvolveSummary::tr("%1 sections of %2 points")
                                                                      .arg(track.crossSections)
@@ -87,8 +89,8 @@ EvolveSummary::EvolveSummary(QWidget* parent)
     layout->addWidget(change_, 0, Qt::AlignRight);
 }
 
-void EvolveSummary::show(const study::Settings& settings, bool locked) {
-    facts_->show(factsOf(settings));
+void EvolveSummary::show(const study::Settings& settings, const part::Part& part, bool locked) {
+    facts_->show(factsOf(settings, part));
     reason_->setVisible(locked);
     change_->setText(locked ? tr("Change in a new study") : tr("Change"));
     change_->setToolTip(locked ? tr("A new study with the same part and settings, and no generations")

@@ -2,6 +2,7 @@
 
 #include <QWidget>
 
+#include "core/part/part.h"
 #include "core/study/settings.h"
 
 class QLabel;
@@ -18,7 +19,7 @@ class EvolveSummary : public QWidget {
     explicit EvolveSummary(QWidget* parent);
 
     /// `locked`: scores belong to them.
-    void show(const study::Settings& settings, bool locked);
+    void show(const study::Settings& settings, const part::Part& part, bool locked);
 
  signals:
     void changeWanted();

@@ -52,7 +52,7 @@ const RawText kTexts[] = {
     {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
 
     {"evolution.search", TEXT("Search"), TEXT("How tracks are looked for: bred from the best ones, as in the paper, or drawn at random, which shows what breeding is worth."), {TEXT("Genetic"), TEXT("Random")}},
-    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); success, the share of parts that finish in the most frequent orientation; disorder, in how many ways parts end, in bits; sorting, how far the parts that stay on the track are from all lying right, for tracks that throw back what lies wrong; correct, the share of finished parts in the most frequent orientation; worst_half, the success in the half of the operating box where it is least; conveying_speed, in m/s; F_P, minus the area in mm² that a printer cannot make because walls are thinner than 1.2 mm or overhangs steeper than 45 degrees.")},
+    {"evolution.objectives", TEXT("Objective"), TEXT("What the search maximises, the sum of: F_C, tracks that do not cross themselves; F_D, parts that come to the end; F_O, parts that end more alike than they start (these three are the paper's); F_W, the share of parts that end as wanted, where something is wanted; success, the share of parts that finish as wanted or else in the most frequent orientation; disorder, in how many ways parts end, in bits; sorting, how far the parts that stay on the track are from all lying right, for tracks that throw back what lies wrong; correct, the share of finished parts in the most frequent orientation; worst_half, the success in the half of the operating box where it is least; conveying_speed, in m/s; F_P, minus the area in mm² that a printer cannot make because walls are thinner than 1.2 mm or overhangs steeper than 45 degrees.")},
     {"evolution.populationSize", TEXT("Population"), TEXT("Individuals in each generation.")},
     {"evolution.trialsPerEvaluation", TEXT("Trials each"), TEXT("Parts that are simulated to judge one individual.")},
     {"evolution.tournamentSize", TEXT("Tournament"), TEXT("Individuals that compete to become a parent; more of them press harder.")},
@@ -99,6 +99,10 @@ const RawText kTexts[] = {
     {"box.centre_mm", TEXT("Centre of mass ±"), TEXT("How far a part's centre of mass may be off in each direction.")},
     {"box.distribution", TEXT("Spread"), TEXT("How conditions are drawn: all of the range alike, or most in its middle, with twice the standard deviation at its ends."), {TEXT("Even"), TEXT("Normal, cut off")}},
 
+    {"target.poses", TEXT("Wanted poses"), TEXT("The stable poses in which parts shall leave the track, by their numbers on the Part page, as in 3, 5-6; each is as good as the others, alike ones are one. Empty: any one way will do, as in the paper.")},
+    {"target.heading_deg", TEXT("Wanted heading"), TEXT("How far parts shall be turned about the vertical in a wanted pose, anticlockwise seen from above, from how the pose is listed: an angle, or any.")},
+    {"target.orientation", TEXT("Wanted orientation"), TEXT("An orientation in which parts shall leave the track instead of wanted poses: a rotation w x y z from the part's frame to the track's, whose x is the conveying direction and z up.")},
+
     {"validation.selectionWinners", TEXT("Winners"), TEXT("How many of the best are simulated again to choose the final one.")},
     {"validation.selectionTrials", TEXT("Trials of each"), TEXT("Parts that are simulated for each of these winners.")},
     {"validation.trialsPerPose", TEXT("Trials per pose"), TEXT("Parts that are simulated from each stable pose in a validation.")},
@@ -121,7 +125,8 @@ QString toText(std::string_view text) {
 
 /// What may be typed there, and what stands there at first.
 QString valuesOf(const study::FieldInfo& field, const FieldText& text) {
-    const QString unit = unitOf(field.key).isEmpty() ? QString() : ' ' + unitOf(field.key);
+    const bool hasUnit = field.kind != study::FieldKind::text && !unitOf(field.key).isEmpty();
+    const QString unit = hasUnit ? ' ' + unitOf(field.key) : QString();
     QString first = QString::fromStdString(study::fieldText(study::Settings(), field.key));
     QStringList lines;
     if (!text.choices.empty() && text.choices.size() == field.choices.size()) {

@@ -89,7 +89,9 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
     Facts scores{{tr("Fitness F"), fixed(record.fitness.total, 3)}};
     for (const objectives::Objective& objective : objectives::allObjectives()) {
         const objectives::Score* score = objectives::findScore(record.fitness, objective.key);
-        if (!objective.isDetail || (score == nullptr && objective.applies != nullptr)) continue;
+        if (!objective.isDetail ||
+            (score == nullptr && (objective.applies != nullptr || objective.needsWanted)))
+            continue;
         scores.emplace_back(textOf(objective.name) + ' ' + textOf(objective.symbol),
                             models::scoreText(objective, score) + ' ' + textOf(objective.unit));
     }

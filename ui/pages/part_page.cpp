@@ -23,6 +23,7 @@
 #include "ui/pages/pose_cards.h"
 #include "ui/pages/problem_text.h"
 #include "ui/pages/settings_form.h"
+#include "ui/pages/target_card.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -160,6 +161,7 @@ void PartPage::addHead() {
 
 void PartPage::addForm() {
     form_ = new SettingsForm({{"part.poses", tr("Stable poses"), {"part.poseWeights"}},
+                              {"part.wanted", tr("Wanted"), {}},
                               {"part.drops", tr("Drop test"), {}, true},
                               {"part.material", tr("Material"), {"part.density_kg_m3"}},
                               {"part.symmetry",
@@ -172,6 +174,9 @@ void PartPage::addForm() {
 
     poses_ = new PoseCards(form_);
     form_->addToGroup("part.poses", poses_, true);
+    target_ = new TargetCard(form_);
+    connect(target_, &TargetCard::edited, this, &PartPage::edit);
+    form_->addToGroup("part.wanted", target_);
     drop_ = new DropCard(form_);
     form_->addToGroup("part.drops", drop_);
 
@@ -334,6 +339,8 @@ void PartPage::refresh() {
     symmetry_->setText(symmetryText(part->symmetry));
     mass_->show(massFacts(*part));
     poses_->show(part, design_->dropTest(), study::weightsInForce(*part, design_->settings()));
+    target_->show(part, design_->settings());
+    target_->setLocked(design_->locked());
     drop_->refresh(library_);
     showMaterial();
     showUnits();

@@ -25,6 +25,7 @@ class DropCard;
 class FactList;
 class PoseCards;
 class SettingsForm;
+class TargetCard;
 class ImportQuestion;
 
 /// Step 1: the part. Import with its unit, what was found in the mesh and mended, material, symmetry, stable
@@ -96,6 +97,7 @@ class PartPage : public Page {
     FactList* mesh_;
     FactList* mass_;
     PoseCards* poses_;
+    TargetCard* target_;
 };
 
 }  // namespace trapwright::pages

@@ -72,8 +72,9 @@ void RobustnessPanel::showHead() {
         corners << linkOf(links_.size(), corner) + u' ' + nameOf(corner.trials).toHtmlEscaped();
         links_.push_back(corner);
     }
-    text += corners.join("; ") + tr(". Simulated by %1; choose a number, a point or a cell to see its trials.")
-                                     .arg(QString::fromStdString(measured_->engine));
+    text +=
+        corners.join("; ") + tr(". Simulated by %1; choose a number, a point or a cell to see its trials.")
+                                 .arg(QString::fromStdString(measured_->engine));
     head_->setText(text);
 }
 
@@ -99,7 +100,7 @@ void RobustnessPanel::goTo(const study::PlaceTrials& trials) {
     std::set<trial::Verdict> verdicts = {trial::Verdict::wrongOrientation, trial::Verdict::stuck,
                                          trial::Verdict::fellOff};
     if (!fails) verdicts.insert(trial::Verdict::success);
-    emit trialsWanted({trials, measured_->settings.box, robustness.expected}, nameOf(trials), verdicts);
+    emit trialsWanted({trials, measured_->settings.box, robustness.goal}, nameOf(trials), verdicts);
 }
 
 }  // namespace trapwright::pages

@@ -14,6 +14,8 @@
 #include "ui/models/numbers.h"
 #include "ui/pages/fact_list.h"
 #include "ui/pages/success_card.h"
+#include "ui/pages/target_card.h"
+#include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
 
 namespace trapwright::pages {
@@ -143,7 +145,9 @@ void TrackChoice::showFacts() {
     showFinal();
     if (!winner_) return facts_->show({});
     const study::IndividualRecord& record = winner_->record;
-    Facts facts = {{tr("While learning"), models::shareText(record.success())},
+    const session::StudyDesign& design = runs_->design();
+    Facts facts = {{tr("Wanted"), wantedText(design.settings().target, *design.part())},
+                   {tr("While learning"), models::shareText(record.success())},
                    {tr("Finished"), tr("%1 of %2").arg(record.finished).arg(record.trials)}};
     const study::SelectionEntry* compared = nullptr;
     for (const study::SelectionRecord& selection : runs_->selections())

@@ -39,8 +39,7 @@ std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::S
                              : -1;
         models::TrialRow row{static_cast<int>(i), pose, trials.judged.verdicts[i], outcome};
         if (outcome.ending == trial::Ending::finished)
-            row.angle = trial::calcOrientationAngle(outcome.farthest.rotation, trials.judged.expected,
-                                                    symmetry, trial::OrientationDistance::symmetric);
+            row.angle = trial::calcAngleToGoal(outcome.farthest.rotation, trials.judged.goal, symmetry);
         rows.push_back(std::move(row));
     }
     return rows;
@@ -262,7 +261,7 @@ void TrialReview::takeTrials(const ListedTrials& trials) {
     counting_.start(
         [this, trials, tolerance, part = study_->design().part()]() -> session::NewestTask::Deliver {
             auto rows = makeRows(trials, part->symmetry);
-            auto shares = study::calcOrientationShares(*part, trials.outcomes, trials.judged.expected);
+            auto shares = study::calcOrientationShares(*part, trials.outcomes, trials.judged.goal);
             return [this, rows = std::move(rows), shares = std::move(shares), tolerance,
                     wanted = trials.wanted]() mutable {
                 showTrials(std::move(rows), wanted, std::move(shares), tolerance);

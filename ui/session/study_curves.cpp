@@ -1,5 +1,6 @@
 #include "ui/session/study_curves.h"
 
+#include "core/study/target.h"
 #include "core/workflow/study_design.h"
 
 namespace trapwright::session {
@@ -13,9 +14,8 @@ base::Result<StoredCurves> loadCurves(const std::filesystem::path& study) {
     if (!summaries) return summaries.error();
     auto checks = file->loadChecks();
     if (!checks) return checks.error();
-    return StoredCurves{
-        study.stem().string(), std::move(*summaries), std::move(*checks),
-        objectives::listAttainable(design->part->symmetry, design->settings.evolution.orientationDistance)};
+    return StoredCurves{study.stem().string(), std::move(*summaries), std::move(*checks),
+                        objectives::listAttainable(study::makeTask(design->settings, *design->part))};
 }
 
 }  // namespace trapwright::session

@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/study/pose_weights.h"
+#include "core/study/target.h"
 #include "core/workflow/estimate.h"
 #include "ui/session/study_state.h"
 
@@ -109,8 +110,7 @@ const store::StoredPart& StudyDesign::storedPart() const {
 }
 
 std::vector<objectives::Score> StudyDesign::attainable() const {
-    return objectives::listAttainable(state_->part.part->symmetry,
-                                      state_->settings.evolution.orientationDistance);
+    return objectives::listAttainable(study::makeTask(state_->settings, *state_->part.part));
 }
 
 const std::vector<std::string>& StudyDesign::problems() const {
@@ -169,8 +169,14 @@ void StudyDesign::pushPart(const PartVersion& version, const QString& what) {
         state_->fail(what, lockedMessage());
         return;
     }
-    state_->undo.push(new PartCommand(what, state_->part, version,
-                                      [this](const PartVersion& wanted) { applyPart(wanted); }));
+    PartVersion before = state_->part;
+    before.target = state_->settings.target;
+    PartVersion after = version;
+    // The poses that are wanted are of the part that there was.
+    if (study::holdsFor(study::makeDropRecord(*before.part, {}, {}, {}), *after.part))
+        after.target = before.target;
+    state_->undo.push(
+        new PartCommand(what, before, after, [this](const PartVersion& wanted) { applyPart(wanted); }));
 }
 
 void StudyDesign::applySettings(const study::Settings& settings) {
@@ -191,6 +197,7 @@ void StudyDesign::applyPart(const PartVersion& version) {
     cancelDrops();
     state_->part = version;
     state_->settings.part = version.settings;
+    state_->settings.target = version.target;
     state_->forgetCost();
     saveDesign(version.stored);
     emit partChanged();

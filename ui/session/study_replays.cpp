@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/study/evaluator.h"
+#include "core/study/target.h"
 #include "ui/session/study_state.h"
 
 namespace trapwright::session {
@@ -27,8 +28,9 @@ bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) 
 
 void judge(const workflow::StoredTrials& stored, const part::Part& part, const study::Settings& settings,
            ListedTrials& trials) {
-    trials.judged =
-        workflow::judgeTrials(trials.outcomes, part.symmetry, stored.expected, settings.validation.tolerance);
+    trials.judged = workflow::judgeTrials(
+        trials.outcomes, part.symmetry, stored.goal ? stored.goal : study::findWanted(settings.target, part),
+        settings.validation.tolerance);
 }
 
 }  // namespace

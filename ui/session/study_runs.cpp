@@ -285,8 +285,7 @@ void StudyRuns::startSelection() {
     startRun(RunState::selecting, tr("The winners could not be compared"), work);
 }
 
-void StudyRuns::startValidation(const study::Individual& winner,
-                                const std::optional<base::Quaternion>& expected) {
+void StudyRuns::startValidation(const study::Individual& winner, const std::optional<trial::Goal>& expected) {
     const auto work = [this, winner, expected, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
@@ -307,9 +306,9 @@ void StudyRuns::startValidation(const study::Individual& winner,
 }
 
 void StudyRuns::startRobustness(const study::Individual& individual, const study::RobustnessPlan& plan,
-                                const std::optional<base::Quaternion>& expected) {
-    const auto work = [this, individual, plan, expected, settings = state_->settings,
-                       part = state_->part.part, threads = state_->threads](Run& run) -> Failed {
+                                const std::optional<trial::Goal>& goal) {
+    const auto work = [this, individual, plan, goal, settings = state_->settings, part = state_->part.part,
+                       threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
             makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads, run.remade);
         if (!inputs) return settingsFailure(inputs.error());
@@ -318,7 +317,7 @@ void StudyRuns::startRobustness(const study::Individual& individual, const study
         state_->tell(
             [this, total = study::countRobustnessTrials(settings, plan)] { state_->run->total = total; });
         auto robustness = study::measureRobustness(
-            *inputs, std::make_shared<const track::Track>(std::move(*track)), expected, plan, run.trials);
+            *inputs, std::make_shared<const track::Track>(std::move(*track)), goal, plan, run.trials);
         if (!robustness) {
             const auto kind =
                 run.trials.cancelled() ? workflow::FailureKind::cancelled : workflow::FailureKind::settings;

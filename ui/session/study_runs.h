@@ -119,12 +119,12 @@ class StudyRuns : public QObject {
     /// The table of one individual, into validations(). `expected`: the orientation that counts as success,
     /// if not the most frequent one.
     void startValidation(const study::Individual& winner,
-                         const std::optional<base::Quaternion>& expected = std::nullopt);
+                         const std::optional<trial::Goal>& expected = std::nullopt);
 
     /// How it does all over the operating box (study::measureRobustness), told by robustnessMeasured().
-    /// `expected` as above.
+    /// `goal`: what counts as success, if not what the study wants or the most frequent orientation.
     void startRobustness(const study::Individual& individual, const study::RobustnessPlan& plan = {},
-                         const std::optional<base::Quaternion>& expected = std::nullopt);
+                         const std::optional<trial::Goal>& goal = std::nullopt);
 
     /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
     /// from here. Does nothing while something goes on or the study has problems; what begins meanwhile ends

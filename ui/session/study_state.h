@@ -28,6 +28,7 @@ struct PartVersion {
     std::shared_ptr<const store::StoredPart> stored;
     study::PartSettings settings;
     std::shared_ptr<const part::Part> part;
+    study::TargetSettings target{};  // names poses of this part; known in commands of undo alone
 };
 
 /// Learning, selection or validation that goes on. Values without a word belong to the GUI thread.

@@ -192,6 +192,7 @@ class ObjectivesTest : public QObject {
         }
         const Fitness bad = judge.judge(outcomes, 3);
         for (const objectives::Objective& objective : objectives::allObjectives()) {
+            if (objective.needsWanted) continue;
             const double sign = objective.moreIsBetter ? 1.0 : -1.0;
             QVERIFY(sign * scoreOf(worst, objective.key) <= sign * scoreOf(bad, objective.key) + 1e-12);
         }
@@ -211,7 +212,7 @@ class ObjectivesTest : public QObject {
         QVERIFY(std::abs(success.error - std::sqrt(0.6 * 0.4 / 9.0)) < 1e-12);
         // In the orientation that is wanted, which is not the mode.
         Evaluation wanted = judge.evaluation(outcomes);
-        wanted.expected = turn(90.0, base::Vec3::UnitX());
+        wanted.wanted = trial::makeGoal(turn(90.0, base::Vec3::UnitX()));
         QCOMPARE(scoreOf(objectives::measureAll(wanted, paperObjectives()), "success"), 0.2);
     }
 
@@ -309,7 +310,7 @@ class ObjectivesTest : public QObject {
         const Judge judge;
         QVERIFY(scoreOf(judge.judge(outcomes), "sorting") > 8.0);
         objectives::Evaluation told = judge.evaluation(outcomes);
-        told.expected = base::Quaternion::Identity();
+        told.wanted = trial::makeGoal(base::Quaternion::Identity());
         QVERIFY(scoreOf(objectives::measureAll(told, objectives::readObjectives("sorting").value()),
                         "sorting") < 1.3);
     }
@@ -396,6 +397,7 @@ class ObjectivesTest : public QObject {
                 scores[score.key].push_back(score);
         }
         for (const objectives::Objective& objective : objectives::allObjectives()) {
+            if (objective.needsWanted) continue;
             double mean = 0.0;
             double told = 0.0;
             for (const objectives::Score& score : scores[std::string(objective.key)]) {
@@ -433,12 +435,48 @@ class ObjectivesTest : public QObject {
     }
 
     void aPerfectFeederIsWorthWhatIsAttainable() {
-        const auto attainable = objectives::listAttainable(testing::makeC1(), OrientationDistance::symmetric);
+        const part::SymmetryGroup none = testing::makeC1();
+        const auto attainable = objectives::listAttainable({&none, OrientationDistance::symmetric, false});
         const Fitness perfect{0.0, attainable};
         QCOMPARE(scoreOf(perfect, "F_D"), 0.0);
         QCOMPARE(scoreOf(perfect, "success"), 1.0);
         QVERIFY(std::abs(scoreOf(perfect, "F_O") - 1.4664) < 1e-3);
         QVERIFY(objectives::findScore(perfect, "conveying_speed") == nullptr);
+        QVERIFY(objectives::findScore(perfect, "F_W") == nullptr);
+        const Fitness wanted{0.0, objectives::listAttainable({&none, OrientationDistance::symmetric, true})};
+        QCOMPARE(scoreOf(wanted, "F_W"), 1.0);
+        QCOMPARE(scoreOf(wanted, "F_O"), scoreOf(perfect, "F_O"));
+    }
+
+    void whatIsWantedCountsWhereItIsWantedAlone() {
+        const Judge judge;
+        // 3 of 5 lie on a side, 1 stands, 1 fell off: the mode is a side, and standing is wanted.
+        const base::Quaternion side = turn(90.0, base::Vec3::UnitX());
+        std::vector<Outcome> outcomes(3, finishedAfter(104e-3, 1.0, side));
+        outcomes.push_back(finishedAfter(104e-3, 1.0, turn(130.0, base::Vec3::UnitZ())));
+        outcomes.push_back(outcomes.front());
+        outcomes.back().parts.front().ending = trial::Ending::fellOff;
+        objectives::Evaluation evaluation = judge.evaluation(outcomes);
+        const auto sum = objectives::readObjectives("F_O, F_W").value();
+        const Fitness any = objectives::measureAll(evaluation, paperObjectives());
+        QVERIFY(objectives::findScore(any, "F_W") == nullptr);
+        QCOMPARE(scoreOf(any, "success"), 0.6);
+
+        evaluation.wanted = trial::Goal{{{base::Quaternion::Identity(), true}}};
+        const Fitness wanted = objectives::measureAll(evaluation, sum);
+        QCOMPARE(scoreOf(wanted, "F_W"), 0.2);
+        QCOMPARE(scoreOf(wanted, "success"), 0.2);
+        QCOMPARE(scoreOf(wanted, "correct"), 0.25);
+        QCOMPARE(scoreOf(wanted, "worst_half"), 0.2);
+        QCOMPARE(wanted.total, scoreOf(any, "F_O") + 0.2);
+        // The binomial's: sqrt(p (1 - p) / (n - 1)).
+        QVERIFY(std::abs(objectives::findScore(wanted, "F_W")->error - 0.2) < 1e-12);
+        // In one heading alone it does not stand right.
+        evaluation.wanted = trial::makeGoal(base::Quaternion::Identity());
+        QCOMPARE(scoreOf(objectives::measureAll(evaluation, sum), "F_W"), 0.0);
+        // Several are as good as each other.
+        evaluation.wanted = trial::Goal{{{base::Quaternion::Identity(), true}, {side, false}}};
+        QCOMPARE(scoreOf(objectives::measureAll(evaluation, sum), "F_W"), 0.8);
     }
 
     void whatCountsIsSummed() {
@@ -452,7 +490,7 @@ class ObjectivesTest : public QObject {
         QCOMPARE(some.total, 1.0);
         const Fitness all = objectives::measureOthers(judge.evaluation(outcomes), some);
         QCOMPARE(all.total, 1.0);
-        QCOMPARE(all.scores.size(), objectives::allObjectives().size());
+        QCOMPARE(all.scores.size(), objectives::allObjectives().size() - 1);  // all but F_W
         QVERIFY(all == objectives::measureAll(judge.evaluation(outcomes), *list));
         const Fitness errors{0.0, {{"F_D", 1.0, 3.0}, {"success", 1.0, 4.0}, {"F_O", 1.0, 9.0}}};
         QCOMPARE(objectives::calcTotalError(errors, *list), 5.0);
@@ -464,7 +502,7 @@ class ObjectivesTest : public QObject {
         QTest::newRow("unknown")
             << "F_C, F_Q"
             << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-               "disorder, sorting, success, correct, worst_half, conveying_speed, F_P. Write several "
+               "F_W, disorder, sorting, success, correct, worst_half, conveying_speed, F_P. Write several "
                "with commas between them.";
         QTest::newRow("empty") << ""
                                << "There is no objective named \"\".";

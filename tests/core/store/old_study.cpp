@@ -106,6 +106,10 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 16)
+        database.exec(
+            "ALTER TABLE selection_entry DROP COLUMN goal; ALTER TABLE validation DROP COLUMN goal; "
+            "UPDATE study SET settings = json_remove(settings, '$.target')");
     if (version < 15)
         database.exec(
             "ALTER TABLE selection DROP COLUMN box; ALTER TABLE validation DROP COLUMN box; "

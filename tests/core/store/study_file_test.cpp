@@ -4,6 +4,7 @@
 #include <QtTest>
 #include <set>
 
+#include "old_study.h"
 #include "sample_study.h"
 
 using namespace trapwright;
@@ -26,8 +27,10 @@ study::SelectionRecord sampleSelection(double offset) {
                                   1000,
                                   999 - i,
                                   990 - i,
-                                  base::Quaternion(0.5, -0.5, 0.1 + 0.2, offset)});
+                                  trial::makeGoal(base::Quaternion(0.5, -0.5, 0.1 + 0.2, offset))});
     }
+    record.entries[1].goal.orientations.push_back({base::Quaternion(1.0 / 3.0, 0.1, offset, 0.7), false});
+    record.entries[2].goal.orientations.front().anyHeading = true;
     return record;
 }
 
@@ -36,7 +39,8 @@ study::ValidationRecord sampleValidation(int generation) {
     record.generation = generation;
     record.individual = 3;
     record.engine = "native";
-    record.expectedOrientation = base::Quaternion(0.1, 0.2, 0.3, 0.4);
+    record.goal = trial::makeGoal(base::Quaternion(0.1, 0.2, 0.3, 0.4));
+    if (generation == 9) record.goal.orientations.front().anyHeading = true;
     record.tolerance = 25.0 * base::kDegree;
     for (int i = 0; i < 3; ++i)
         record.rows.push_back({i, {994 - 10 * i, 10 * i, 4, 2}});
@@ -157,7 +161,7 @@ class StudyFileTest : public QObject {
                 QCOMPARE(a.trials, e.trials);
                 QCOMPARE(a.finished, e.finished);
                 QCOMPARE(a.oriented, e.oriented);
-                QVERIFY(a.modalOrientation.coeffs() == e.modalOrientation.coeffs());
+                QVERIFY(a.goal == e.goal);
             }
             const study::ValidationRecord expectedTable = sampleValidation(s == 0 ? 7 : 9);
             const study::ValidationRecord& table = (*validations)[s];
@@ -165,7 +169,7 @@ class StudyFileTest : public QObject {
             QCOMPARE(table.individual, 3);
             QCOMPARE(table.engine, std::string("native"));
             QCOMPARE(table.tolerance, expectedTable.tolerance);
-            QVERIFY(table.expectedOrientation.coeffs() == expectedTable.expectedOrientation.coeffs());
+            QVERIFY(table.goal == expectedTable.goal);
             QCOMPARE(table.rows.size(), std::size_t{3});
             for (std::size_t i = 0; i < 3; ++i) {
                 const study::ValidationRow& a = table.rows[i];
@@ -174,6 +178,26 @@ class StudyFileTest : public QObject {
                 QVERIFY(a.tally == e.tally);
             }
         }
+    }
+
+    // What an older program judged by is the one orientation that it stored.
+    void goalsOfVersion15AreOrientations() {
+        {
+            auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+            VERIFY_OK(study);
+            VERIFY_OK(study->saveSelection(sampleSelection(0.5)));
+            VERIFY_OK(study->saveValidation(sampleValidation(9)));
+        }
+        sample::makeOld(path_, 15);
+        QVERIFY(sample::messageOf(StudyFile::openReadOnly(path_)).contains("older Trapwright"));
+        const auto study = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(study);
+        QVERIFY(!study->loadSettings().value().target.isSet());
+        const auto goal = [](const trial::Goal& full) { return trial::makeGoal(full.shown()); };
+        const study::SelectionRecord selection = study->loadSelections().value()[0];
+        for (std::size_t i = 0; i < 3; ++i)
+            QVERIFY(selection.entries[i].goal == goal(sampleSelection(0.5).entries[i].goal));
+        QVERIFY(study->loadValidations().value()[0].goal == goal(sampleValidation(9).goal));
     }
 
     void readerSeesEachGenerationAsItIsSaved() {

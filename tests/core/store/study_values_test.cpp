@@ -82,6 +82,8 @@ class StudyValuesTest : public QObject {
         row("winner_check SET trials = 0", "the check of generation 0");
         row("selection_entry SET oriented = 11", "the counts of a selection");
         row("selection_entry SET trials = -3", "the counts of a selection");
+        row("selection_entry SET goal = '[]'", "the goal of a selection");
+        row("validation SET goal = '{\"rotation\": 1}'", "the goal of a validation");
         row("validation_row SET failures = 11", "the counts of a validation");
         row("validation_row SET pose = -1", "the counts of a validation");
         row("validation_row SET stuck = -1", "the counts of a validation");

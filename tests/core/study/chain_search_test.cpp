@@ -91,6 +91,21 @@ class ChainSearchTest : public QObject {
         QVERIFY(forgiving.worthOf({0, 0, 0, 0, 0, 1.0}) <= -8.0);
     }
 
+    void whereAWayIsWantedItsShareCounts() {
+        for (const bool forgivesFalls : {false, true}) {
+            ChainProblem problem = makeProblem({0}, forgivesFalls);
+            problem.wanted = {1, 2};
+            ChainSearch search(problem);
+            search.setBitsOfHalving(0.0);
+            // In either of the two, however few lie in the other one.
+            QVERIFY(std::abs(search.worthOf({0, 0.4, 0.6, 0, 0, 0})) < 0.02);
+            QVERIFY(std::abs(search.worthOf({0.5, 0.1, 0.4, 0, 0, 0}) - (-1.0)) < 0.02);
+            QVERIFY(search.worthOf({1, 0, 0, 0, 0, 0}) <= -7.9);
+            // What throws the other way out gains where it comes again.
+            QVERIFY(std::abs(search.worthOf({0, 0.5, 0, 0, 0, 0.5}) - (forgivesFalls ? 0.0 : -1.0)) < 0.02);
+        }
+    }
+
     // A sieve for the second way and one for the third, behind each other; what turns everything into chaos
     // is known, too.
     void findsTheTwoThatLeaveOneWay() {

@@ -46,8 +46,7 @@ class OrientationSharesTest : public QObject {
 
  private slots:
     void cuboidHasThreeKindsOfPoses() {
-        const study::OrientationShares shares =
-            study::calcOrientationShares(cuboid(), {}, base::Quaternion::Identity());
+        const study::OrientationShares shares = study::calcOrientationShares(cuboid(), {}, trial::Goal());
         QCOMPARE(shares.poses.size(), std::size_t{3});
         for (const study::PoseShare& share : shares.poses)
             QCOMPARE(share.poses.size(), std::size_t{2});  // opposite faces
@@ -55,8 +54,7 @@ class OrientationSharesTest : public QObject {
 
     void coneHasNoAlikePoses() {
         const part::Part part = cone();
-        const study::OrientationShares shares =
-            study::calcOrientationShares(part, {}, base::Quaternion::Identity());
+        const study::OrientationShares shares = study::calcOrientationShares(part, {}, trial::Goal());
         QCOMPARE(shares.poses.size(), part.stablePoses.size());
     }
 
@@ -70,7 +68,8 @@ class OrientationSharesTest : public QObject {
         const std::vector<trial::Outcome> outcomes{ended(trial::Ending::finished, other, turned),
                                                    ended(trial::Ending::finished, turned, opposite),
                                                    ended(trial::Ending::fellOff, first, other)};
-        const study::OrientationShares shares = study::calcOrientationShares(part, outcomes, first);
+        const study::OrientationShares shares =
+            study::calcOrientationShares(part, outcomes, trial::makeGoal(first));
         QCOMPARE(shares.poses[0].start, 2);
         QCOMPARE(shares.poses[0].finish, 2);
         int starts = 0;

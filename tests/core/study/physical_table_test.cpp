@@ -223,18 +223,22 @@ class PhysicalTableTest : public QObject {
         selections[0].entries.resize(1);
         selections[0].entries[0].generation = 3;
         selections[0].entries[0].individual = 7;
-        selections[0].entries[0].modalOrientation = one;
-        QVERIFY(!study::findExpected({}, {}, {3, 7}));
+        selections[0].entries[0].goal = trial::makeGoal(one);
+        QVERIFY(!study::findExpected({}, {}, {3, 7}, {}));
         // None finished: their most frequent orientation says nothing.
-        QVERIFY(!study::findExpected({}, selections, {3, 7}));
+        QVERIFY(!study::findExpected({}, selections, {3, 7}, {}));
         selections[0].entries[0].finished = 5;
-        QVERIFY(!study::findExpected({}, selections, {3, 8}));
-        QVERIFY(study::findExpected({}, selections, {3, 7})->coeffs() == one.coeffs());
+        QVERIFY(!study::findExpected({}, selections, {3, 8}, {}));
+        QVERIFY(study::findExpected({}, selections, {3, 7}, {}) == trial::makeGoal(one));
+        // What is wanted tells it before anything was simulated.
+        const trial::Goal wanted{{{two, true}}};
+        QVERIFY(study::findExpected({}, {}, {3, 7}, wanted) == wanted);
+        QVERIFY(study::findExpected({}, selections, {3, 7}, wanted) == trial::makeGoal(one));
         std::vector<ValidationRecord> validations(2);
         validations[0].generation = 3;
         validations[0].individual = 7;
-        validations[0].expectedOrientation = two;
-        QVERIFY(study::findExpected(validations, selections, {3, 7})->coeffs() == two.coeffs());
+        validations[0].goal = trial::makeGoal(two);
+        QVERIFY(study::findExpected(validations, selections, {3, 7}, {}) == trial::makeGoal(two));
     }
 
     void csvCanBeReadAgain() {

@@ -15,6 +15,7 @@ part::Part partOfRadius(double radius) {
     part::Part part;
     part.name = "block";
     part.boundingRadius = radius;
+    part.hull.vertices = {base::Vec3::Constant(-0.5 * radius), base::Vec3::Constant(0.5 * radius)};
     return part;
 }
 

@@ -128,7 +128,7 @@ class ValidationTest : public QObject {
         QCOMPARE(record->entries[0].finished, 48);
         QCOMPARE(record->entries[0].oriented, 47);
         QCOMPARE(record->entries[1].oriented, 44);
-        QVERIFY(trial::calcOrientationAngle(record->entries[0].modalOrientation, base::Quaternion::Identity(),
+        QVERIFY(trial::calcOrientationAngle(record->entries[0].goal.shown(), base::Quaternion::Identity(),
                                             inputs.part->symmetry,
                                             trial::OrientationDistance::symmetric) < 1e-6);
     }
@@ -160,7 +160,8 @@ class ValidationTest : public QObject {
                              i % 2 == 0 ? about(base::Vec3::UnitZ(), 20) : about(base::Vec3::UnitZ(), 200));
             });
         const study::Individual winner = winnerOf(inputs, 6, 5, 0.0);
-        const auto expected = given ? std::optional(about(base::Vec3::UnitX(), 90)) : std::nullopt;
+        const auto expected =
+            given ? std::optional(trial::makeGoal(about(base::Vec3::UnitX(), 90))) : std::nullopt;
         const auto record = study::validate(inputs, winner, expected, {});
         VERIFY_OK(record);
         QCOMPARE(record->generation, 6);
@@ -178,7 +179,7 @@ class ValidationTest : public QObject {
             QCOMPARE(row.tally.failures(), row.tally.fellOff + row.tally.stuck + row.tally.wrongOrientation);
         }
         if (!given) {
-            QVERIFY(trial::calcOrientationAngle(record->expectedOrientation, about(base::Vec3::UnitZ(), 20),
+            QVERIFY(trial::calcOrientationAngle(record->goal.shown(), about(base::Vec3::UnitZ(), 20),
                                                 inputs.part->symmetry,
                                                 trial::OrientationDistance::symmetric) < 1e-6);
         }
@@ -369,14 +370,9 @@ class ValidationTest : public QObject {
 
     void selectionTableListsTheBestFirst() {
         study::SelectionRecord record{"fake", {}};
-        record.entries.push_back({{439, 17},
-                                  testing::paperFitness(0.0, -0.01, 0.85),
-                                  1000,
-                                  1000,
-                                  1000,
-                                  base::Quaternion::Identity()});
         record.entries.push_back(
-            {{12, 3}, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
+            {{439, 17}, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 1000, trial::Goal()});
+        record.entries.push_back({{12, 3}, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, trial::Goal()});
         const QStringList lines = QString::fromStdString(study::formatSelection(record)).split('\n');
         QCOMPARE(lines[1].simplified(), QString("1 439 17 -0.010 0.850 1000 1000 100.0 % 99.6 ... 100.0 %"));
         QCOMPARE(lines[2].simplified(), QString("2 12 3 -0.250 0.500 0 0 - -"));

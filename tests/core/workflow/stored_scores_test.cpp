@@ -117,8 +117,8 @@ class StoredScoresTest : public QObject {
         const study::ValidationRecord validation = file->loadValidations()->front();
         for (const study::ValidationRow& row : validation.rows) {
             const auto [batch, outcomes] = read(*file, inputs, {TrialKind::validation, winner, {row.pose}});
-            const auto counted = study::countTrials(outcomes, inputs.part->symmetry,
-                                                    validation.expectedOrientation, validation.tolerance);
+            const auto counted = study::countTrials(outcomes, inputs.part->symmetry, validation.goal.shown(),
+                                                    validation.tolerance);
             QCOMPARE(counted.tally.failures(), row.tally.failures());
             QCOMPARE(counted.tally.fellOff, row.tally.fellOff);
             QCOMPARE(counted.tally.stuck, row.tally.stuck);

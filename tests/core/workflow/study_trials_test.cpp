@@ -29,13 +29,13 @@ class StudyTrialsTest : public QObject {
         const auto learned = find({TrialKind::learning, winner_});
         QCOMPARE(learned.count, 6);
         QCOMPARE(learned.engine, std::string("native"));
-        QVERIFY(!learned.expected);
+        QVERIFY(!learned.goal);
         const auto selected = find({TrialKind::selection, winner_});
         QCOMPARE(selected.count, 9);
         QCOMPARE(selected.engine, std::string("fake"));
         const auto validated = find({TrialKind::validation, winner_, {2}});
         QCOMPARE(validated.count, 5);
-        QVERIFY(validated.expected);
+        QVERIFY(validated.goal);
         study::Individual other = winner_;
         other.individual += 1;
         QCOMPARE(find({TrialKind::selection, other}).count, 0);
@@ -162,8 +162,8 @@ class StudyTrialsTest : public QObject {
             trial::Verdict::success};
         QVERIFY(judged.verdicts == expected);
         const base::Quaternion turned(Eigen::AngleAxisd(base::kPi / 2, base::Vec3::UnitZ()));
-        const auto others =
-            workflow::judgeTrials(outcomes, fake::block()->symmetry, turned, 25.0 * base::kDegree);
+        const auto others = workflow::judgeTrials(outcomes, fake::block()->symmetry, trial::makeGoal(turned),
+                                                  25.0 * base::kDegree);
         QCOMPARE(others.verdicts[0], trial::Verdict::wrongOrientation);
         QCOMPARE(others.verdicts[1], trial::Verdict::success);
     }

@@ -9,6 +9,7 @@
 #include "core/part/part_builder.h"
 #include "core/store/study_file.h"
 #include "core/study/selection.h"
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
 #include "sim/native/native_engine.h"
@@ -54,8 +55,7 @@ Study load(const char* path) {
     loaded.curves.name = QString::fromStdString(std::filesystem::path(path).filename().string());
     loaded.curves.summaries = take(file.loadSummaries());
     loaded.curves.checks = take(file.loadChecks());
-    loaded.curves.attainable =
-        objectives::listAttainable(part->symmetry, settings.evolution.orientationDistance);
+    loaded.curves.attainable = objectives::listAttainable(study::makeTask(settings, *part));
     for (const study::GenerationSummary& summary : loaded.curves.summaries)
         loaded.curves.trialsPerSecond.push_back(trialsPerSecond(take(file.loadGeneration(summary.index))));
 

@@ -2,6 +2,7 @@
 
 #include "ui/pages/part_page.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFrame>
@@ -15,7 +16,9 @@
 #include <QSpinBox>
 #include <QTableView>
 #include <QTemporaryDir>
+#include <QToolButton>
 #include <QtTest>
+#include <algorithm>
 #include <fstream>
 
 #include "core/study/presets.h"
@@ -206,6 +209,75 @@ class PartPageTest : public QObject {
         QVERIFY(dialog->findChild<QLabel*>("materials.problems")->text().contains("at \"version\""));
         dialog->findChild<QLineEdit*>("materials.search")->setText("cork");
         QCOMPARE(dialog->findChild<QTableView*>("materials.table")->model()->rowCount(), 1);
+    }
+
+    // Poses are chosen, one more, a heading; learning looks at it when the user says so; and all is undone.
+    void wantedPosesAreChosen() {
+        Designer user(create());
+        const auto settings = [&] { return user.session()->design().settings(); };
+        const auto press = [&](const QString& name) {
+            auto* button = user.find<QAbstractButton>(name);
+            QVERIFY2(button != nullptr && button->isVisible(), qPrintable(name));
+            QTest::mouseClick(button, Qt::LeftButton);
+        };
+        QTRY_VERIFY(user.find<QToolButton>("target.pose5") != nullptr);
+        // One button for each of the three kinds of pose.
+        QVERIFY(user.find<QToolButton>("target.pose2") == nullptr);
+        QVERIFY(user.find<QToolButton>("target.any")->isChecked());
+        QVERIFY(!user.find<QCheckBox>("target.anyHeading")->isVisible());
+        QTRY_VERIFY(!user.find<QToolButton>("target.pose3")->icon().isNull());
+
+        press("target.pose3");
+        QCOMPARE(settings().target.poses, std::string("3-4"));
+        QVERIFY(!user.find<QToolButton>("target.any")->isChecked());
+        QVERIFY(user.text("target.told").startsWith("Pose 3-4, any heading."));
+        // It is proposed to learn for it, and the user's objective is his own until he agrees.
+        QVERIFY(user.find<QWidget>("target.proposal")->isVisible());
+        QCOMPARE(settings().evolution.objectives, std::string(objectives::kPaperObjectives));
+        press("target.count");
+        QCOMPARE(settings().evolution.objectives, std::string(objectives::kWantedObjectives));
+        QVERIFY(!user.find<QWidget>("target.proposal")->isVisible());
+        QVERIFY(user.session()->design().problems().empty());
+        const auto attainable = user.session()->design().attainable();
+        QVERIFY(std::ranges::any_of(attainable, [](const objectives::Score& score) {
+            return score.key == "F_W" && score.value == 1.0;
+        }));
+
+        press("target.pose5");
+        QCOMPARE(settings().target.poses, std::string("3-6"));
+        QVERIFY(user.text("target.told").startsWith("Pose 3-4 or 5-6, any heading."));
+        press("target.pose3");
+        QCOMPARE(settings().target.poses, std::string("5-6"));
+
+        press("target.anyHeading");
+        QCOMPARE(settings().target.heading, std::string("0"));
+        auto* heading = user.find<QDoubleSpinBox>("target.heading");
+        QVERIFY(heading->isEnabled());
+        heading->setFocus();
+        heading->selectAll();
+        QTest::keyClicks(heading, "90");
+        QTest::keyClick(heading, Qt::Key_Return);
+        QCOMPARE(settings().target.heading, std::string("90"));
+        QVERIFY(user.text("target.told").startsWith("Pose 5-6, heading 90°."));
+
+        // Back to any way: F_W, which there is not then, goes with it.
+        press("target.any");
+        QVERIFY(!settings().target.isSet());
+        QCOMPARE(settings().evolution.objectives, std::string(objectives::kPaperObjectives));
+        QVERIFY(user.session()->design().problems().empty());
+        user.session()->design().undoStack()->undo();
+        QCOMPARE(settings().target.poses, std::string("5-6"));
+        QCOMPARE(settings().evolution.objectives, std::string(objectives::kWantedObjectives));
+        QTRY_VERIFY(user.find<QToolButton>("target.pose5")->isChecked());
+
+        // Another density is the same shape; another shape has other poses.
+        user.choose("part.material", "steel");
+        QTRY_COMPARE_WITH_TIMEOUT(user.session()->design().part()->density, 7850.0, kPatience);
+        QCOMPARE(settings().target.poses, std::string("5-6"));
+        user.session()->design().changePart(workflow::importPart({"cone"}).value(), "Import");
+        QCOMPARE(settings().target.poses, std::string());
+        user.session()->design().undoStack()->undo();
+        QCOMPARE(settings().target.poses, std::string("5-6"));
     }
 
     // Dropped, cancelled, dropped again, chosen to count, and the same when it is opened again.

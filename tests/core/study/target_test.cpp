@@ -1,0 +1,314 @@
+#include "core/study/target.h"
+
+#include <QtTest>
+
+#include "core/part/part_builder.h"
+#include "core/part/shapes.h"
+#include "core/study/presets.h"
+#include "core/study/reference_check.h"
+#include "core/study/robustness.h"
+#include "core/study/runner.h"
+#include "core/study/selection.h"
+#include "core/study/track_design.h"
+#include "core/study/validation.h"
+#include "fake_engine.h"
+
+using namespace trapwright;
+
+namespace {
+
+part::Part cuboid() {
+    part::PartOptions options;
+    options.name = "cuboid";
+    options.density = 1000.0;
+    return part::buildPart(part::makeBox({4e-3, 8e-3, 12e-3}), options)->part;
+}
+
+study::TargetSettings poses(const std::string& text, const std::string& heading = "any") {
+    return {text, heading, {}};
+}
+
+/// 60 % lie as pose 1 of the block, 30 % as pose 2 in some heading, 10 % fall off.
+trial::PartOutcome threeWays(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    trial::PartOutcome outcome = fake::waveLaw(batch, spec);
+    const std::uint32_t i = spec.stream.trial % 10;
+    outcome.ending = i == 9 ? trial::Ending::fellOff : trial::Ending::finished;
+    const base::Quaternion heading(Eigen::AngleAxisd(0.7 * spec.stream.trial, base::Vec3::UnitZ()));
+    const std::vector<part::StablePose>& lying = batch.parts.front()->stablePoses;
+    outcome.farthest = {i < 6 ? lying[0].rotation : heading * lying[1].rotation,
+                        {batch.track->finish, 0.0, 0.0}};
+    return outcome;
+}
+
+study::StudyInputs threeWayInputs(const study::TargetSettings& target) {
+    study::StudyInputs inputs = fake::waveInputs();
+    inputs.settings.target = target;
+    inputs.settings.evolution.objectives =
+        target.isSet() ? objectives::kWantedObjectives : objectives::kPaperObjectives;
+    inputs.settings.evolution.trialsPerEvaluation = 20;
+    inputs.settings.evolution.generations = 1;
+    inputs.settings.validation.selectionTrials = 50;
+    inputs.settings.validation.trialsPerPose = 20;
+    inputs.engine = std::make_shared<fake::FakeEngine>(threeWays);
+    return inputs;
+}
+
+}  // namespace
+
+class TargetTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void poseNumbersAreRead_data() {
+        QTest::addColumn<QString>("text");
+        QTest::addColumn<QList<int>>("indices");
+        QTest::newRow("one") << "3" << QList{2};
+        QTest::newRow("several") << " 5, 3" << QList{2, 4};
+        QTest::newRow("as the page names a group") << "5-6,1" << QList{0, 4, 5};
+        QTest::newRow("twice") << "3, 2-3" << QList{1, 2};
+        for (const char* bad : {"three", "0", "-1", "3-", "4-3", "3,", "3.5", "1000001", "any", " "})
+            QTest::newRow(bad) << bad << QList<int>();
+    }
+    void poseNumbersAreRead() {
+        QFETCH(QString, text);
+        QFETCH(QList<int>, indices);
+        const auto read = study::readPoses(text.toStdString());
+        QCOMPARE(read.ok(), !indices.empty());
+        if (read) QCOMPARE(QList<int>(read->begin(), read->end()), indices);
+        if (!read) QVERIFY(read.error().message.find("is no stable pose") != std::string::npos);
+    }
+
+    void headingsAreRead() {
+        QVERIFY(study::readHeading("any").ok() && !*study::readHeading("any"));
+        QCOMPARE(**study::readHeading("90"), base::kPi / 2);
+        QCOMPARE(**study::readHeading("-45.5"), -45.5 * base::kDegree);
+        for (const char* bad : {"", "north", "361", "nan", "90 deg"})
+            QVERIFY2(!study::readHeading(bad).ok(), bad);
+    }
+
+    void alikePosesAreOne() {
+        const part::Part part = cuboid();
+        QVERIFY(!study::findWanted({}, part));
+        const auto wanted = study::findWanted(poses("3"), part);
+        QVERIFY(*wanted == *study::findWanted(poses("3-4"), part));
+        QVERIFY(*wanted == *study::findWanted(poses("4"), part));
+        QCOMPARE(wanted->orientations.size(), std::size_t{1});
+        QVERIFY(wanted->orientations[0].anyHeading);
+        QCOMPARE(study::findWanted(poses("6, 4"), part)->orientations.size(), std::size_t{2});
+        // Either of the two is right.
+        for (const std::size_t pose : {2U, 3U})
+            QVERIFY(trial::calcAngleToGoal(part.stablePoses[pose].rotation, *wanted, part.symmetry) < 1e-6);
+        QVERIFY(trial::calcAngleToGoal(part.stablePoses[4].rotation, *wanted, part.symmetry) > 1.0);
+        // With its symmetry switched off the part has six poses.
+        part::Part plain = part;
+        plain.symmetry = {};
+        QCOMPARE(study::findWanted(poses("3-4"), plain)->orientations.size(), std::size_t{2});
+    }
+
+    void aHeadingTurnsThePose() {
+        const part::Part part = cuboid();
+        const trial::Goal goal = *study::findWanted(poses("1", "90"), part);
+        QVERIFY(goal.isOneOrientation());
+        const base::Quaternion& pose = part.stablePoses[0].rotation;
+        const auto angle = [&](double degrees) {
+            const base::Quaternion turn(Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitZ()));
+            return trial::calcAngleToGoal(turn * pose, goal, part.symmetry) / base::kDegree;
+        };
+        QVERIFY(angle(90.0) < 1e-6);
+        QVERIFY(angle(-90.0) < 1e-6);  // alike
+        QVERIFY(std::abs(angle(60.0) - 30.0) < 1e-6);
+    }
+
+    void anOrientationIsItself() {
+        study::TargetSettings target;
+        target.orientation = base::Quaternion(0.5, 0.5, 0.5, 0.5);
+        QVERIFY(*study::findWanted(target, cuboid()) == trial::makeGoal(*target.orientation));
+    }
+
+    void whatCanBeAttainedIsKnownOfPartsAtRest() {
+        const part::Part part = cuboid();
+        study::Settings settings;
+        const auto isKnown = [&](const study::TargetSettings& target) {
+            settings.target = target;
+            const objectives::Fitness best{0.0, objectives::listAttainable(study::makeTask(settings, part))};
+            return objectives::findScore(best, "F_W") != nullptr;
+        };
+        QVERIFY(!isKnown({}));
+        QVERIFY(isKnown(poses("5")));
+        const auto tilted = [&](double degrees) {
+            study::TargetSettings target;
+            target.orientation =
+                base::Quaternion(Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitX())) *
+                part.stablePoses[0].rotation;
+            return target;
+        };
+        QVERIFY(isKnown(tilted(20.0)));
+        QVERIFY(!isKnown(tilted(45.0)));
+    }
+
+    void problemsAreTold_data() {
+        QTest::addColumn<QString>("poses");
+        QTest::addColumn<QString>("heading");
+        QTest::addColumn<bool>("orientation");
+        QTest::addColumn<QString>("objectives");
+        QTest::addColumn<QString>("told");
+        const QString paper = "F_C, F_D, F_O";
+        QTest::newRow("nothing") << ""
+                                 << "any" << false << paper << "";
+        QTest::newRow("a pose") << "3"
+                                << "12.5" << false << "F_C, F_W"
+                                << "";
+        QTest::newRow("no pose") << "x"
+                                 << "any" << false << paper << "target.poses is \"x\"";
+        QTest::newRow("no heading") << "3"
+                                    << "up" << false << paper << "target.heading_deg is \"up\"";
+        QTest::newRow("both") << "3"
+                              << "any" << true << paper << "both set";
+        QTest::newRow("nothing is wanted") << ""
+                                           << "any" << false << "F_O, F_W"
+                                           << "names F_W, but nothing is wanted";
+    }
+    void problemsAreTold() {
+        QFETCH(QString, poses);
+        QFETCH(QString, heading);
+        QFETCH(bool, orientation);
+        QFETCH(QString, objectives);
+        QFETCH(QString, told);
+        study::Settings settings = study::presetSettings("cuboid").value();
+        settings.target.poses = poses.toStdString();
+        settings.target.heading = heading.toStdString();
+        if (orientation) settings.target.orientation = base::Quaternion::Identity();
+        settings.evolution.objectives = objectives.toStdString();
+        QStringList problems;
+        for (const std::string& problem : study::findProblems(settings))
+            problems += QString::fromStdString(problem);
+        QVERIFY2(told.isEmpty() ? problems.isEmpty() : problems.join(' ').contains(told),
+                 qPrintable(problems.join(' ')));
+    }
+
+    void whatThePartDoesNotHaveIsTold() {
+        const part::Part part = cuboid();
+        QVERIFY(study::findTargetPartProblems(poses("1, 6"), part).empty());
+        const auto problems = study::findTargetPartProblems(poses("2, 7"), part);
+        QCOMPARE(problems.size(), std::size_t{1});
+        QCOMPARE(
+            problems[0],
+            std::string("target.poses is \"2, 7\", but the part cuboid has no stable pose 7. It has 1-2; "
+                        "3-4; 5-6 (alike ones together)."));
+    }
+
+    void learningThatIsContentWithAnyWayIsTold() {
+        study::Settings settings = study::presetSettings("cuboid").value();
+        settings.target = poses("3");
+        const auto told = study::findRecommendations(settings);
+        QCOMPARE(told.size(), std::size_t{1});
+        QVERIFY(told[0].find("F_C, F_D, F_O, F_W is recommended") != std::string::npos);
+        settings.evolution.objectives = objectives::kWantedObjectives;
+        QVERIFY(study::findRecommendations(settings).empty());
+        // Another goal is another task.
+        study::Settings other = settings;
+        other.target.poses = "5";
+        QVERIFY(!study::keepsScores(settings, other));
+    }
+
+    void itIsTold() {
+        const part::Part part = cuboid();
+        QCOMPARE(study::describeTarget({}, part), std::string("in whatever way most do"));
+        QCOMPARE(study::describeTarget(poses("3,5"), part),
+                 std::string("in stable pose 3-4 or 5-6, any heading"));
+        QCOMPARE(study::describeTarget(poses("3", "90"), part),
+                 std::string("in stable pose 3-4, turned to 90°"));
+        study::TargetSettings target;
+        target.orientation = part.stablePoses[0].rotation;
+        QVERIFY(study::describeTarget(target, part).ends_with("0° from stable pose 1"));
+        QCOMPARE(study::describeGoal(*study::findWanted(poses("3,5"), part), part),
+                 std::string("stable pose 3-4 in any heading or stable pose 5-6 in any heading"));
+        QVERIFY(study::describeGoal(trial::makeGoal(base::Quaternion::Identity()), part)
+                    .starts_with("the orientation (w, x, y, z) = (1.000, 0.000"));
+    }
+
+    void goalsAsJsonAreExact() {
+        const trial::Goal goal{{{base::Quaternion(0.1, 1.0 / 3.0, -0.7, 1e-17), true},
+                                {base::Quaternion(0.1 + 0.2, 0.0, 0.5, 1.0), false}}};
+        QVERIFY(*study::goalFromJson(study::goalToJson(goal)) == goal);
+        for (const char* bad :
+             {"", "[]", "{}", "[1]", R"([{"rotation": [1, 0, 0], "any_heading": true}])",
+              R"([{"rotation": [1, 0, 0, "x"], "any_heading": true}])", R"([{"rotation": [1, 0, 0, 0]}])"})
+            QVERIFY2(!study::goalFromJson(bad).ok(), bad);
+    }
+
+    void everythingGoesByWhatIsWanted_data() {
+        QTest::addColumn<QString>("poses");
+        QTest::addColumn<QString>("heading");
+        QTest::addColumn<int>("ofTen");
+        QTest::newRow("nothing: the mode") << ""
+                                           << "any" << 6;
+        QTest::newRow("pose 1") << "1"
+                                << "any" << 6;
+        QTest::newRow("pose 1, turned") << "1"
+                                        << "90" << 0;
+        QTest::newRow("pose 2") << "2"
+                                << "any" << 3;
+        QTest::newRow("pose 3, in which none ends") << "3"
+                                                    << "any" << 0;
+        QTest::newRow("pose 1 or 2") << "1-2"
+                                     << "any" << 9;
+    }
+    void everythingGoesByWhatIsWanted() {
+        QFETCH(QString, poses);
+        QFETCH(QString, heading);
+        QFETCH(int, ofTen);
+        const study::StudyInputs inputs = threeWayInputs({poses.toStdString(), heading.toStdString(), {}});
+        const bool isWanted = !poses.isEmpty();
+        std::vector<study::Individual> winners;
+        study::LearningEvents events;
+        events.save = [&](const study::GenerationRecord& record) {
+            const study::IndividualRecord& winner =
+                record.individuals[static_cast<std::size_t>(record.winner)];
+            winners.push_back({{record.index, record.winner}, winner});
+            return base::success();
+        };
+        VERIFY_OK(study::evolve(inputs, std::nullopt, events, {}));
+        const study::IndividualRecord& learned = winners.at(0).record;
+        QCOMPARE(learned.oriented, std::optional(2 * ofTen));
+        const objectives::Score* share = objectives::findScore(learned.fitness, "F_W");
+        QCOMPARE(share != nullptr, isWanted);
+        if (share != nullptr) QCOMPARE(share->value, 0.1 * ofTen);
+
+        const auto selection = study::selectWinners(inputs, winners, {});
+        VERIFY_OK(selection);
+        QCOMPARE(selection->entries[0].oriented, 5 * ofTen);
+        QCOMPARE(objectives::findScore(selection->entries[0].fitness, "F_W") != nullptr, isWanted);
+
+        const auto validation = study::validate(inputs, winners[0], std::nullopt, {});
+        VERIFY_OK(validation);
+        QCOMPARE(study::calcTotal(*validation).tally.success, 6 * ofTen);
+        QCOMPARE(validation->goal.orientations.size(), std::size_t{poses == "1-2" ? 2U : 1U});
+        // What is given goes before what the study wants.
+        const auto given = study::validate(inputs, winners[0],
+                                           trial::Goal{{{inputs.part->stablePoses[1].rotation, true}}}, {});
+        VERIFY_OK(given);
+        QCOMPARE(study::calcTotal(*given).tally.success, 6 * 3);
+
+        const auto check = study::checkWinner(inputs, *inputs.engine, winners[0], {});
+        VERIFY_OK(check);
+        QCOMPARE(check->learning.oriented, 2 * ofTen);
+        QCOMPARE(check->reference.oriented, 2 * ofTen);
+
+        const auto track = std::make_shared<const track::Track>(
+            study::decodeTrack(inputs.settings.track, learned.design).value());
+        const auto robustness = study::measureRobustness(inputs, track, std::nullopt, {20, 20, 2, 2}, {});
+        VERIFY_OK(robustness);
+        QCOMPARE(robustness->nominal.tally.success, 2 * ofTen);
+        QCOMPARE(robustness->overBox.tally.success, 2 * ofTen);
+    }
+
+    void aStudyOfAnotherPartIsRefused() {
+        const study::StudyInputs inputs = threeWayInputs(poses("9"));
+        const std::string told = study::checkInputs(inputs).error().message;
+        QVERIFY2(told.find("no stable pose 9. It has 1; 2; 3.") != std::string::npos, told.c_str());
+    }
+};
+
+QTEST_APPLESS_MAIN(TargetTest)
+#include "target_test.moc"
