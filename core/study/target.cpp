@@ -161,7 +161,7 @@ objectives::Task makeTask(const Settings& settings, const part::Part& part) {
 std::string describeTarget(const TargetSettings& target, const part::Part& part) {
     if (!target.isSet()) return "in whatever way most do";
     if (target.orientation) {
-        const std::string text = "in " + nameOrientation(*target.orientation);
+        std::string text = "in " + nameOrientation(*target.orientation);
         if (part.stablePoses.empty()) return text;
         const part::NearestPose nearest = part::findStablePose(part, *target.orientation);
         return fmt::format("{}, {:.0f}° from stable pose {}", text, nearest.angle / base::kDegree,

@@ -95,8 +95,8 @@ class StudyChecksTest : public QObject {
         sample::write(path_, 3);
         const study::SelectionRecord selection{
             "simbody",
-            {{{2, 1}, testing::paperFitness(-1.0, -0.1, 0.1 + 0.2), 10, 9, 8, base::Quaternion::Identity()},
-             {{0, 4}, testing::paperFitness(0.0, -1.0 / 3.0, 0.7), 10, 9, 7, base::Quaternion::Identity()}}};
+            {{{2, 1}, testing::paperFitness(-1.0, -0.1, 0.1 + 0.2), 10, 9, 8, trial::Goal()},
+             {{0, 4}, testing::paperFitness(0.0, -1.0 / 3.0, 0.7), 10, 9, 7, trial::Goal()}}};
         {
             auto study = StudyFile::open(path_, sample::kProgram);
             VERIFY_OK(study);

@@ -68,7 +68,7 @@ Study load(const char* path) {
     const auto outcomes = take(native::NativeEngine({0, 0.0}).run(std::span(&batch, 1), {})).front();
     const base::Quaternion expected =
         trial::findModalOrientation(trial::finalOrientations(outcomes), part->symmetry, loaded.tolerance);
-    loaded.shares = study::calcOrientationShares(*part, outcomes, expected);
+    loaded.shares = study::calcOrientationShares(*part, outcomes, trial::makeGoal(expected));
     return loaded;
 }
 

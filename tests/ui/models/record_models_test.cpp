@@ -300,14 +300,9 @@ class RecordModelsTest : public QObject {
 
     void selectionIsRanked() {
         study::SelectionRecord record{"simbody", {}};
-        record.entries.push_back({{439, 17},
-                                  testing::paperFitness(0.0, -0.01, 0.85),
-                                  1000,
-                                  1000,
-                                  994,
-                                  base::Quaternion::Identity()});
         record.entries.push_back(
-            {{12, 3}, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, base::Quaternion::Identity()});
+            {{439, 17}, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 994, trial::Goal()});
+        record.entries.push_back({{12, 3}, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, trial::Goal()});
         SelectionModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
         model.setSelection(record);
