@@ -24,6 +24,8 @@ packages=(
     qt6-serialbus-dev qt6-serialport-dev
     # tests, those with windows on a screen of their own; a Modbus device and client of somebody else
     python3-pymodbus python3-serial python3-serial-asyncio xauth xvfb
+    # what reads the reports that the tests write
+    poppler-utils
     # bare systems to try the first command in (try_bare.sh, try_debs.sh)
     mmdebstrap uidmap
     # what packages have beside the programs, and what looks at it: manual pages, completions, desktop metadata

@@ -22,12 +22,14 @@ Objective printability() {
     objective.unit = "mm²";
     objective.help =
         "Minus the area that a printer cannot make: walls thinner than 1.2 mm, overhangs of more than 45 "
-        "degrees. "
-        "0 is perfect.";
+        "degrees. 0 is perfect.";
     objective.decimals = 1;
     objective.isNoisy = false;
+    objective.isDetail = true;
+    // It costs milliseconds for each track: only where it counts in F.
+    objective.applies = [](const Evaluation&) { return false; };
     objective.measure = &measurePrintability;
-    objective.attainable = [](const part::SymmetryGroup&, trial::OrientationDistance) { return 0.0; };
+    objective.attainable = [](const Task&) { return 0.0; };
     return objective;
 }
 
