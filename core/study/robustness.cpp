@@ -348,9 +348,10 @@ std::string formatRobustness(const StudyInputs& inputs, const Robustness& robust
         text += '\n';
         for (int line = 0; line < map.points; ++line) {
             text += fmt::format("{:>12}", shown(settings, map.up, share(line)));
-            for (int column = 0; column < map.points; ++column) {
+            const auto columns = static_cast<std::size_t>(map.points);
+            for (std::size_t column = 0; column < columns; ++column) {
                 const trial::Tally& tally =
-                    map.places[static_cast<std::size_t>(line * map.points + column)].tally;
+                    map.places[static_cast<std::size_t>(line) * columns + column].tally;
                 text += fmt::format("{:>11.1f}", 100.0 * tally.success / tally.trials());
             }
             text += '\n';

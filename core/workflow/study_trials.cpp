@@ -110,7 +110,7 @@ base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const 
 }
 
 base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
-                                           std::shared_ptr<const part::Part> part,
+                                           const std::shared_ptr<const part::Part>& part,
                                            const TrialsRequest& request, const StoredTrials& stored) {
     const study::Individual& individual = request.winner;
     auto track = study::decodeTrack(settings.track, individual.record.design);
@@ -127,7 +127,7 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
         own.box = stored.box.value_or(own.box);
     }
     const study::TrialScene scene =
-        study::makeScene(own, std::move(part), std::make_shared<const track::Track>(std::move(*track)));
+        study::makeScene(own, part, std::make_shared<const track::Track>(std::move(*track)));
     const int count = request.count > 0 ? request.count : stored.count;
     if (request.kind == TrialKind::selection) return study::makeSelectionBatch(scene, individual, count);
     if (request.kind == TrialKind::validation) {

@@ -60,7 +60,7 @@ base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const 
 /// These trials, made anew with the same bits. More than are stored only where they are numbered on: not of a
 /// validation. None if there are none. An error if the track cannot be built.
 base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
-                                           std::shared_ptr<const part::Part> part,
+                                           const std::shared_ptr<const part::Part>& part,
                                            const TrialsRequest& request, const StoredTrials& stored);
 
 /// What the study holds of the trials of this batch, made by makeTrials(); none if it does not hold all of

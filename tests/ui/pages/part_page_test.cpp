@@ -230,7 +230,8 @@ class PartPageTest : public QObject {
         press("target.pose3");
         QCOMPARE(settings().target.poses, std::string("3-4"));
         QVERIFY(!user.find<QToolButton>("target.any")->isChecked());
-        QVERIFY(user.text("target.told").startsWith("Pose 3-4, any heading."));
+        QVERIFY2(user.text("target.told").startsWith(QString("Pose 3–4, any heading.")),
+                 qPrintable(user.text("target.told")));
         // It is proposed to learn for it, and the user's objective is his own until he agrees.
         QVERIFY(user.find<QWidget>("target.proposal")->isVisible());
         QCOMPARE(settings().evolution.objectives, std::string(objectives::kPaperObjectives));
@@ -245,7 +246,7 @@ class PartPageTest : public QObject {
 
         press("target.pose5");
         QCOMPARE(settings().target.poses, std::string("3-6"));
-        QVERIFY(user.text("target.told").startsWith("Pose 3-4 or 5-6, any heading."));
+        QVERIFY(user.text("target.told").startsWith(QString("Pose 3–4 or 5–6, any heading.")));
         press("target.pose3");
         QCOMPARE(settings().target.poses, std::string("5-6"));
 

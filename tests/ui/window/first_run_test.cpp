@@ -210,7 +210,7 @@ class FirstRunTest : public QObject {
             saveOneGeneration(*file);
             study::SelectionRecord selection;
             selection.engine = "native";
-            selection.entries.push_back({0, 0, {}, 1000, 990, 980});
+            selection.entries.push_back({0, 0, {}, 1000, 990, 980, {}});
             QVERIFY(file->saveSelection(selection).ok());
         }
         auto writer = store::StudyFile::open(path.toStdString(), "test");
