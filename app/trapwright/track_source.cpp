@@ -27,8 +27,7 @@ study::Settings settingsFor(const TrackRequest& request, const track::Track& tra
 }  // namespace
 
 void addTrackOptions(Command command, TrackRequest& request) {
-    command.addOption("--part", request.part.part,
-                      "The part: a file, or the name of a bundled one (cuboid)");
+    command.addOption("--part", request.part.part, "The part: a file, or the name of a bundled one (cuboid)");
     addPartOptions(command, request.part);
     command.addOption("--seed", request.seed, "Of the random starts (1)");
     command.addOption("--half-stroke", request.halfStroke, "Amplitude along the vibration line in mm (0.8)");

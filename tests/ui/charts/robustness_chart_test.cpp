@@ -72,8 +72,7 @@ class RobustnessChartTest : public QObject {
         auto* plot = chart.findChild<charts::Plot*>("robustness.success.friction");
         QVERIFY(plot != nullptr);
         QTest::mouseMove(plot->viewport(), plot->toWidget({0.34, 90.0}).toPoint());
-        QTRY_COMPARE(plot->readOff(),
-                     (QStringList{"Friction 0.3", "success: 70.0 (63.1 … 76.3)"}));
+        QTRY_COMPARE(plot->readOff(), (QStringList{"Friction 0.3", "success: 70.0 (63.1 … 76.3)"}));
         auto* stroke = chart.findChild<charts::Plot*>("robustness.success.half_stroke_mm");
         QVERIFY(stroke != nullptr);
         QCOMPARE(stroke->sheet().xTitle, QString("Half-stroke [mm]"));
