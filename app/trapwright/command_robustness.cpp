@@ -136,7 +136,7 @@ Attempt<Subject> loadStudySubject(const Options& options) {
     if (!study) return study.error();
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.error();
-    auto inputs = makeInputs(*study, options.engine, trial::EngineUse::judging, options.threads);
+    auto inputs = makeInputs(*study, options.engine, trial::EngineUse::learning, options.threads);
     if (!inputs) return inputs.error();
     auto built = study::decodeTrack(inputs->settings.track, individual->record.design);
     if (!built) return Failure{ExitCode::badInput, built.error().message};
@@ -208,7 +208,7 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
                    "The orientation that counts as success, w x y z (default: the most frequent final one "
                    "as set)")
         .values(4);
-    command.addOption("--engine", options->engine, "What simulates (default: as in the study)");
+    command.addOption("--engine", options->engine, "What simulates (default: what the study learns with)");
     command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }
 

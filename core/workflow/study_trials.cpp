@@ -97,8 +97,7 @@ base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const 
                                             const trial::EngineRegistry& engines,
                                             const TrialsRequest& request) {
     if (request.robustness)
-        return StoredTrials{request.robustness->trials.count,
-                            engines.nameFor(settings.simulation.engine, trial::EngineUse::judging),
+        return StoredTrials{request.robustness->trials.count, request.robustness->engine,
                             request.robustness->goal, settings.validation.tolerance};
     auto trials = request.kind == TrialKind::selection ? findSelectionTrials(file, settings, request.winner)
                   : request.kind == TrialKind::validation

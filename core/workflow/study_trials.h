@@ -26,6 +26,7 @@ struct RobustnessTrials {
     study::PlaceTrials trials;
     trial::OperatingBox box;  // that was measured in
     trial::Goal goal;         // what counted as success
+    std::string engine;       // that measured
 
     friend bool operator==(const RobustnessTrials&, const RobustnessTrials&) = default;
 };

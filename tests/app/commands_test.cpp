@@ -321,10 +321,10 @@ class CommandsTest : public QObject {
         QCOMPARE(ask(QStringList{"robustness", "study.trap"} + few).output, ran.output);
 
         // A track of no study, with a box of its own about other values.
+        const QString file = QStringLiteral(TRAPWRIGHT_SOURCE_DIR "/resources/tracks/cuboid_track.json");
         const Ran onTrack =
-            ask(QStringList{"robustness", TRAPWRIGHT_SOURCE_DIR "/resources/tracks/cuboid_track.json",
-                            "--friction", "0.6", "--friction-range", "0.1", "--restitution-range", "0",
-                            "--half-stroke-range", "0", "--size-range", "0"} +
+            ask(QStringList{"robustness", file, "--friction", "0.6", "--friction-range", "0.1",
+                            "--restitution-range", "0", "--half-stroke-range", "0", "--size-range", "0"} +
                 few);
         QVERIFY2(onTrack.code == 0, onTrack.all());
         const QJsonObject ofTrack = onTrack.json()["robustness"].toObject();

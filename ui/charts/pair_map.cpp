@@ -96,8 +96,9 @@ QRectF PairMap::cellRect(int cell) const {
     const QRectF area = chart()->plotArea();
     const double width = area.width() / columns();
     const double height = area.height() / rows();
-    return {area.left() + cell % columns() * width, area.bottom() - (cell / columns() + 1) * height, width,
-            height};
+    const int column = cell % columns();
+    const int row = cell / columns();
+    return {area.left() + column * width, area.bottom() - (row + 1) * height, width, height};
 }
 
 std::optional<int> PairMap::cellAt(const QPointF& position) const {

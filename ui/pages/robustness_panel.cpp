@@ -100,7 +100,8 @@ void RobustnessPanel::goTo(const study::PlaceTrials& trials) {
     std::set<trial::Verdict> verdicts = {trial::Verdict::wrongOrientation, trial::Verdict::stuck,
                                          trial::Verdict::fellOff};
     if (!fails) verdicts.insert(trial::Verdict::success);
-    emit trialsWanted({trials, measured_->settings.box, robustness.goal}, nameOf(trials), verdicts);
+    emit trialsWanted({trials, measured_->settings.box, robustness.goal, measured_->engine}, nameOf(trials),
+                      verdicts);
 }
 
 }  // namespace trapwright::pages

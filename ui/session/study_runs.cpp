@@ -310,7 +310,7 @@ void StudyRuns::startRobustness(const study::Individual& individual, const study
     const auto work = [this, individual, plan, goal, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
-            makeInputs(state_->environment, settings, part, trial::EngineUse::judging, threads, run.remade);
+            makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads, run.remade);
         if (!inputs) return settingsFailure(inputs.error());
         auto track = study::decodeTrack(settings.track, individual.record.design);
         if (!track) return settingsFailure(track.error());

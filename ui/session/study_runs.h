@@ -121,7 +121,8 @@ class StudyRuns : public QObject {
     void startValidation(const study::Individual& winner,
                          const std::optional<trial::Goal>& expected = std::nullopt);
 
-    /// How it does all over the operating box (study::measureRobustness), told by robustnessMeasured().
+    /// How it does all over the operating box (study::measureRobustness) in the engine that learns, which is
+    /// the quick one, told by robustnessMeasured().
     /// `goal`: what counts as success, if not what the study wants or the most frequent orientation.
     void startRobustness(const study::Individual& individual, const study::RobustnessPlan& plan = {},
                          const std::optional<trial::Goal>& goal = std::nullopt);

@@ -328,7 +328,8 @@ class ObjectivesTest : public QObject {
         for (int i = 0; i < 80; ++i) {
             trial::BoxPlace place = trial::kMiddle;
             place[static_cast<std::size_t>(trial::Condition::friction)] = (i % 8 + 0.5) / 8.0;
-            place[static_cast<std::size_t>(trial::Condition::halfStroke)] = (i / 8 + 0.5) / 10.0;
+            const int row = i / 8;
+            place[static_cast<std::size_t>(trial::Condition::halfStroke)] = (row + 0.5) / 10.0;
             const bool fails = i % 8 < 2 || i == 7;
             places.push_back(place);
             outcomes.push_back(finishedAfter(104e-3, 1.0, turn(fails ? 90.0 + i : 0.0, base::Vec3::UnitX())));

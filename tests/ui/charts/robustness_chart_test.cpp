@@ -51,8 +51,11 @@ study::Robustness someRobustness() {
     }
     robustness.corners = {resultAt(placeAt(0.0, 1.0), 100)};
     study::PairMap map{Condition::friction, Condition::halfStroke, 2, {}};
-    for (int i = 0; i < 4; ++i)
-        map.places.push_back(resultAt(placeAt(i % 2, i / 2), 200 - 40 * i));
+    for (const double stroke : {0.0, 1.0}) {
+        for (const double friction : {0.0, 1.0})
+            map.places.push_back(
+                resultAt(placeAt(friction, stroke), 200 - 40 * static_cast<int>(map.places.size())));
+    }
     robustness.worstPair = map;
     return robustness;
 }
