@@ -287,7 +287,11 @@ void Plot::mouseMoveEvent(QMouseEvent* event) {
 
 void Plot::mouseReleaseEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton) return;
-    if (pressed_ && !dragging_ && cursor_) emit picked(*cursor_);
+    if (pressed_ && !dragging_) {
+        // Whatever came between, such as a leave.
+        moveCursorTo(event->position());
+        if (cursor_) emit picked(*cursor_);
+    }
     pressed_.reset();
     dragging_ = false;
     viewport()->unsetCursor();

@@ -9,7 +9,6 @@
 #include "core/trial/engine_registry.h"
 
 using namespace trapwright;
-using trial::BackedEngine;
 using trial::Ending;
 using trial::Outcome;
 using trial::RemadeTrial;
