@@ -62,6 +62,7 @@ class OperatingBoxTest : public QObject {
         for (const Condition condition :
              {Condition::friction, Condition::restitution, Condition::halfStroke, Condition::part}) {
             std::vector<int> slices;
+            slices.reserve(places.size());
             for (const BoxPlace& place : places)
                 slices.push_back(static_cast<int>(32.0 * place[static_cast<std::size_t>(condition)]));
             std::sort(slices.begin(), slices.end());
