@@ -22,6 +22,8 @@ using trial::Condition;
 constexpr double kPercent = 100.0;
 constexpr double kMillimetres = 1e3;
 constexpr double kLeastHeight = 4.0;  // of the success plots [%]
+constexpr int kLeastPlot = 60;        // many side by side must not widen the window [px]
+constexpr int kLeastMap = 150;
 
 const CurveStyle kSuccess{SeriesColour::first, Qt::SolidLine, Marker::circle};
 const CurveStyle kSpeed{SeriesColour::third, Qt::SolidLine, Marker::square};
@@ -58,8 +60,9 @@ RobustnessChart::RobustnessChart(QWidget* parent)
     layout_ = new QHBoxLayout(row_);
     layout_->setContentsMargins(0, 0, 0, 0);
     layout_->setSpacing(4);
-    layout_->addWidget(map_, 1);
+    layout_->addWidget(map_, 2);
     setBody(row_);
+    map_->setMinimumWidth(kLeastMap);
     map_->setTheme(theme());
     connect(legend(), &Legend::switched, this, &RobustnessChart::updateShown);
     connect(map_, &PairMap::picked, this, [this](int cell) {
@@ -113,14 +116,16 @@ void RobustnessChart::addSweeps(bool isSpeed) {
         PlotSheet sheet;
         sheet.key = isSpeed ? "speed" : "success";
         sheet.xTitle = titleOf(sweep.condition);
-        sheet.yTitle = isSpeed ? tr("Speed [mm/s]") : tr("Success [%]");
+        const QString axis = isSpeed ? tr("Speed [mm/s]") : tr("Success [%]");
+        // All have the same; once is enough where there is little room.
+        if (i == 0) sheet.yTitle = axis;
         sheet.decimals = 1;
         sheet.isWhole = false;
         sheet.leastWidth = 0.0;
         sheet.leastHeight = isSpeed ? 1.0 : kLeastHeight;
         sheet.yIncluded = included;
         sheet.mark = XMark{valueAt(robustness_->nominal, sweep.condition), kAsSet};
-        Curve curve{isSpeed ? tr("speed") : tr("success"), sheet.yTitle, {}, isSpeed ? kSpeed : kSuccess, {}};
+        Curve curve{isSpeed ? tr("speed") : tr("success"), axis, {}, isSpeed ? kSpeed : kSuccess, {}};
         for (const PlaceResult& point : sweep.points) {
             curve.points.emplace_back(valueAt(point, sweep.condition),
                                       isSpeed ? point.speed * kMillimetres : shareOf(point));
@@ -130,8 +135,12 @@ void RobustnessChart::addSweeps(bool isSpeed) {
         auto* plot = new Plot(row_);
         plot->setObjectName(QString("robustness.%1.%2")
                                 .arg(sheet.key, QString::fromUtf8(textOf(sweep.condition).key.data())));
+        plot->setMinimumWidth(kLeastPlot);
+        // Until updateShown() has decided it takes no room.
+        plot->hide();
         plot->setTheme(theme());
         plot->setSheet(sheet);
+        plot->setAccessibleName(tr("%1 over %2").arg(axis, sheet.xTitle));
         connect(plot, &Plot::fitWanted, plot, &Plot::fit);
         connect(plot, &Plot::cursorMoved, plot, &Plot::setCursor);
         const Sweep made{plot, isSpeed, i};

@@ -10,6 +10,8 @@ namespace trapwright::pages {
 
 namespace {
 
+constexpr qsizetype kShownCorners = 2;
+
 /// "<a>95.2 %</a> (94.5 … 95.8)".
 QString linkOf(std::size_t link, const study::PlaceResult& result) {
     const trial::Tally& tally = result.tally;
@@ -69,6 +71,8 @@ void RobustnessPanel::showHead() {
                        .arg(linkOf(0, links_[0]), linkOf(1, links_[1]));
     QStringList corners;
     for (const study::PlaceResult& corner : robustness.corners) {
+        // The saved numbers have all of them; more would take the room of the curves.
+        if (corners.size() == kShownCorners) break;
         corners << linkOf(links_.size(), corner) + u' ' + nameOf(corner.trials).toHtmlEscaped();
         links_.push_back(corner);
     }

@@ -85,6 +85,9 @@ class RobustnessChartTest : public QObject {
         // Speed only for those who ask.
         auto* speed = chart.findChild<charts::Plot*>("robustness.speed.friction");
         QVERIFY(speed != nullptr && !speed->isVisible());
+        // What is hidden takes no room.
+        QVERIFY2(chart.minimumSizeHint().width() < 600,
+                 qPrintable(QString::number(chart.minimumSizeHint().width())));
     }
 
     void aPointAndACellArePicked() {
