@@ -13,7 +13,6 @@
 #include "core/objectives/paper_scores.h"
 #include "core/objectives/printability.h"
 #include "core/objectives/success_share.h"
-#include "core/objectives/wanted.h"
 #include "core/objectives/worst_half.h"
 
 namespace trapwright::objectives {

@@ -1,7 +1,10 @@
 #include "core/objectives/success_share.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+
+#include "core/objectives/objectives.h"
 
 namespace trapwright::objectives {
 
@@ -85,6 +88,20 @@ Objective successShare() {
     objective.isSuccess = true;
     objective.measure = &measureSuccess;
     objective.attainable = [](const Task&) { return 1.0; };
+    return objective;
+}
+
+Objective wanted() {
+    Objective objective = successShare();
+    objective.key = objective.symbol = kWanted;
+    objective.name = "Wanted";
+    objective.help = "Parts that finish as they are wanted, of all trials. Higher is better.";
+    objective.isDetail = true;
+    objective.needsWanted = true;
+    objective.measure = [](const Evaluation& evaluation) {
+        assert(evaluation.wanted);
+        return successShare().measure(evaluation);
+    };
     return objective;
 }
 

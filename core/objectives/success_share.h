@@ -10,6 +10,10 @@ namespace trapwright::objectives {
 /// the binomial's standard error; tables of people show the exact bounds beside it (core/stats/binomial).
 Objective successShare();
 
+/// F_W: success where something is wanted, and only there: a search that sums it up is led to one way of
+/// ending, where F_O is content with any (decisions.md#wanted-orientation).
+Objective wanted();
+
 /// How many parts end in the goal.
 int countSuccess(const Evaluation& evaluation);
 

@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::size_t kColours = 7;  // those of SeriesColour before neutral
 
-/// `share` of the first colour, the rest of the second.
-QColor mix(const QColor& first, const QColor& second, double share) {
-    const auto part = [&](float a, float b) { return static_cast<float>(share * a + (1.0 - share) * b); };
-    return QColor::fromRgbF(part(first.redF(), second.redF()), part(first.greenF(), second.greenF()),
-                            part(first.blueF(), second.blueF()));
-}
-
 ChartTheme makeTheme(const QColor& background, const QColor& text) {
     ChartTheme theme;
     theme.dark = background.lightnessF() < 0.5F;
@@ -40,6 +33,12 @@ const std::array<QColor, kColours>& coloursOn(bool dark) {
 }
 
 }  // namespace
+
+QColor mix(const QColor& first, const QColor& second, double share) {
+    const auto part = [&](float a, float b) { return static_cast<float>(share * a + (1.0 - share) * b); };
+    return QColor::fromRgbF(part(first.redF(), second.redF()), part(first.greenF(), second.greenF()),
+                            part(first.blueF(), second.blueF()));
+}
 
 ChartTheme ChartTheme::from(const QPalette& palette) {
     return makeTheme(palette.color(QPalette::Active, QPalette::Base),

@@ -5,6 +5,9 @@
 
 namespace trapwright::charts {
 
+/// `share` of the first colour, the rest of the second.
+QColor mix(const QColor& first, const QColor& second, double share);
+
 /// What the colour of a series stands for; the theme says which colour that is.
 enum class SeriesColour { first, second, third, fourth, fifth, sixth, seventh, neutral };
 

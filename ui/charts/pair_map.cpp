@@ -2,10 +2,11 @@
 
 #include <QCategoryAxis>
 #include <QChart>
-#include <QGraphicsLayout>
 #include <QHelpEvent>
 #include <QToolTip>
 #include <algorithm>
+
+#include "ui/charts/chart_view.h"
 
 namespace trapwright::charts {
 
@@ -15,15 +16,6 @@ constexpr double kWhole = 100.0;      // [%]
 constexpr double kLeastScale = 10.0;  // failures that a full colour stands for, at least [%]
 constexpr double kDarkest = 0.85;     // of the colour
 constexpr double kTickSpace = 44.0;   // between labels along x, at least
-
-QCategoryAxis* makeAxis(QChart* chart, Qt::Alignment side) {
-    auto* axis = new QCategoryAxis(chart);
-    axis->setLabelsPosition(QCategoryAxis::AxisLabelsPositionOnValue);
-    axis->setTruncateLabels(false);
-    axis->setGridLineVisible(false);
-    chart->addAxis(axis, side);
-    return axis;
-}
 
 void setLabels(QCategoryAxis* axis, const QStringList& labels, int most) {
     for (const QString& old : axis->categoriesLabels())
@@ -37,30 +29,20 @@ void setLabels(QCategoryAxis* axis, const QStringList& labels, int most) {
         axis->append(labels[i], i);
 }
 
-QColor blend(const QColor& over, const QColor& under, double share) {
-    const auto part = [share](float a, float b) { return static_cast<float>(share * a + (1.0 - share) * b); };
-    return QColor::fromRgbF(part(over.redF(), under.redF()), part(over.greenF(), under.greenF()),
-                            part(over.blueF(), under.blueF()));
-}
-
 }  // namespace
 
 PairMap::PairMap(QWidget* parent)
     : QChartView(parent),
-      xAxis_(makeAxis(chart(), Qt::AlignBottom)),
-      yAxis_(makeAxis(chart(), Qt::AlignLeft)) {
-    setFrameShape(QFrame::NoFrame);
-    setRenderHint(QPainter::Antialiasing);
-    setViewportUpdateMode(QGraphicsView::FullViewportUpdate);
+      xAxis_(addLabelledAxis(*chart(), Qt::AlignBottom)),
+      yAxis_(addLabelledAxis(*chart(), Qt::AlignLeft)) {
+    // The cells are the grid.
+    xAxis_->setGridLineVisible(false);
+    yAxis_->setGridLineVisible(false);
+    setUpView(*this, 8);
     setFocusPolicy(Qt::NoFocus);
     setMouseTracking(true);
     viewport()->setMouseTracking(true);
     setMinimumSize(140, 90);
-    chart()->legend()->hide();
-    chart()->setMargins(QMargins(2, 4, 8, 2));
-    chart()->layout()->setContentsMargins(0, 0, 0, 0);
-    chart()->setBackgroundRoundness(0.0);
-    chart()->setBackgroundPen(Qt::NoPen);
 }
 
 void PairMap::setCells(MapAxis across, MapAxis up, std::vector<double> shares, QStringList help) {
@@ -78,18 +60,7 @@ void PairMap::setCells(MapAxis across, MapAxis up, std::vector<double> shares, Q
 
 void PairMap::setTheme(const ChartTheme& theme) {
     theme_ = theme;
-    chart()->setBackgroundBrush(theme.background);
-    setBackgroundBrush(theme.background);
-    QFont titleFont = font();
-    titleFont.setBold(false);
-    for (QCategoryAxis* axis : {xAxis_, yAxis_}) {
-        axis->setLabelsColor(theme.text);
-        axis->setLabelsFont(font());
-        axis->setTitleBrush(theme.faintText);
-        axis->setTitleFont(titleFont);
-        axis->setLinePen(QPen(theme.axis, 1.0));
-    }
-    viewport()->update();
+    applyTheme(*this, theme, {xAxis_, yAxis_});
 }
 
 QRectF PairMap::cellRect(int cell) const {
@@ -150,7 +121,7 @@ void PairMap::drawForeground(QPainter* painter, const QRectF&) {
         const double share = shares_[static_cast<std::size_t>(cell)];
         const QRectF rect = cellRect(cell);
         const QColor fill =
-            blend(theme_.series(SeriesColour::second), theme_.background, kDarkest * (kWhole - share) / most);
+            mix(theme_.series(SeriesColour::second), theme_.background, kDarkest * (kWhole - share) / most);
         painter->setPen(QPen(theme_.background, 1.5));
         painter->setBrush(fill);
         painter->drawRect(rect);

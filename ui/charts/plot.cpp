@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QCategoryAxis>
 #include <QChart>
-#include <QGraphicsLayout>
 #include <QMouseEvent>
 #include <QTextDocument>
 #include <QWheelEvent>
@@ -11,6 +10,7 @@
 #include <cmath>
 
 #include "ui/charts/axes.h"
+#include "ui/charts/chart_view.h"
 
 namespace trapwright::charts {
 
@@ -24,14 +24,6 @@ constexpr double kLeastShare = 1e-4;   // of the fitted height that can be zoome
 constexpr double kTickSpace = 48.0;    // between labels along x, at least
 constexpr int kMostUp = 8;             // labels along y
 constexpr double kTitleShare = 0.95;   // of the plot's height that a title may take
-
-QCategoryAxis* makeAxis(QChart* chart, Qt::Alignment side) {
-    auto* axis = new QCategoryAxis(chart);
-    axis->setLabelsPosition(QCategoryAxis::AxisLabelsPositionOnValue);
-    axis->setTruncateLabels(false);
-    chart->addAxis(axis, side);
-    return axis;
-}
 
 void setTicks(QCategoryAxis* axis, const std::vector<Tick>& ticks, const Range& range) {
     QStringList labels;
@@ -52,20 +44,13 @@ void setTicks(QCategoryAxis* axis, const std::vector<Tick>& ticks, const Range& 
 
 Plot::Plot(QWidget* parent)
     : QChartView(parent),
-      xAxis_(makeAxis(chart(), Qt::AlignBottom)),
-      yAxis_(makeAxis(chart(), Qt::AlignLeft)) {
-    setFrameShape(QFrame::NoFrame);
-    setRenderHint(QPainter::Antialiasing);
-    setViewportUpdateMode(QGraphicsView::FullViewportUpdate);
+      xAxis_(addLabelledAxis(*chart(), Qt::AlignBottom)),
+      yAxis_(addLabelledAxis(*chart(), Qt::AlignLeft)) {
+    setUpView(*this, 8);
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     viewport()->setMouseTracking(true);
     setMinimumSize(120, 90);
-    chart()->legend()->hide();
-    chart()->setMargins(QMargins(2, 4, 8, 2));
-    chart()->layout()->setContentsMargins(0, 0, 0, 0);
-    chart()->setBackgroundRoundness(0.0);
-    chart()->setAnimationOptions(QChart::NoAnimation);
 }
 
 void Plot::setSheet(const PlotSheet& sheet) {
@@ -81,20 +66,7 @@ void Plot::setSheet(const PlotSheet& sheet) {
 
 void Plot::setTheme(const ChartTheme& theme) {
     theme_ = theme;
-    chart()->setBackgroundBrush(theme.background);
-    chart()->setBackgroundPen(Qt::NoPen);
-    setBackgroundBrush(theme.background);
-    QFont titleFont = font();
-    titleFont.setBold(false);
-    for (QCategoryAxis* axis : {xAxis_, yAxis_}) {
-        axis->setLabelsColor(theme.text);
-        axis->setLabelsFont(font());
-        axis->setTitleBrush(theme.faintText);
-        axis->setTitleFont(titleFont);
-        axis->setLinePen(QPen(theme.axis, 1.0));
-        axis->setGridLinePen(QPen(theme.grid, 1.0));
-    }
-    viewport()->update();
+    applyTheme(*this, theme, {xAxis_, yAxis_});
 }
 
 void Plot::setShown(std::vector<bool> shown) {

@@ -4,11 +4,11 @@
 #include <QBarSet>
 #include <QCategoryAxis>
 #include <QChart>
-#include <QGraphicsLayout>
 #include <QHorizontalStackedBarSeries>
 #include <algorithm>
 
 #include "ui/charts/axes.h"
+#include "ui/charts/chart_view.h"
 
 namespace trapwright::charts {
 
@@ -25,16 +25,9 @@ PoseBars::PoseBars(QWidget* parent)
       series_(new QHorizontalStackedBarSeries(chart())),
       barAxis_(new QBarCategoryAxis(chart())),
       shareAxis_(new QCategoryAxis(chart())) {
-    setFrameShape(QFrame::NoFrame);
-    setRenderHint(QPainter::Antialiasing);
-    setViewportUpdateMode(QGraphicsView::FullViewportUpdate);
+    setUpView(*this, 14);
     setFocusPolicy(Qt::NoFocus);
     setMinimumSize(120, 90);
-    chart()->legend()->hide();
-    chart()->setMargins(QMargins(2, 4, 14, 2));
-    chart()->layout()->setContentsMargins(0, 0, 0, 0);
-    chart()->setBackgroundRoundness(0.0);
-    chart()->setBackgroundPen(Qt::NoPen);
     chart()->addSeries(series_);
     series_->setBarWidth(kBarWidth);
     shareAxis_->setLabelsPosition(QCategoryAxis::AxisLabelsPositionOnValue);
@@ -82,18 +75,7 @@ void PoseBars::setBars(std::vector<PoseBar> bars, const QStringList& names,
 
 void PoseBars::setTheme(const ChartTheme& theme) {
     theme_ = theme;
-    chart()->setBackgroundBrush(theme.background);
-    setBackgroundBrush(theme.background);
-    for (QAbstractAxis* axis : std::initializer_list<QAbstractAxis*>{barAxis_, shareAxis_}) {
-        axis->setLabelsColor(theme.text);
-        axis->setLabelsFont(font());
-        axis->setTitleBrush(theme.faintText);
-        QFont titleFont = font();
-        titleFont.setBold(false);
-        axis->setTitleFont(titleFont);
-        axis->setLinePen(QPen(theme.axis, 1.0));
-        axis->setGridLinePen(QPen(theme.grid, 1.0));
-    }
+    applyTheme(*this, theme, {barAxis_, shareAxis_});
     updateColours();
 }
 
