@@ -254,8 +254,7 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
     if (creation.surface) {
         auto pair = findPair(*creation.surface, *loaded);
         if (!pair) return pair.error();
-        settings->simulation.contact = study::contactOf(*pair);
-        settings->simulation.surface = pair->surface;
+        study::useContact(*settings, *pair);
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }

@@ -1,6 +1,7 @@
 #include "core/calibration/apply.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 namespace trapwright::calibration {
@@ -11,6 +12,8 @@ constexpr const char* kStaticFriction = "simulation.contact.staticFriction";
 constexpr const char* kKineticFriction = "simulation.contact.kineticFriction";
 constexpr const char* kRestitution = "simulation.contact.restitution";
 constexpr const char* kHalfStroke = "simulation.drive.halfStroke_mm";
+constexpr const char* kFrictionRange = "box.friction";
+constexpr const char* kRestitutionRange = "box.restitution";
 
 /// The newest measurement by one of these methods; null without one.
 const Calibration* findNewest(std::span<const Calibration> calibrations,
@@ -26,6 +29,16 @@ Estimate scaled(const Estimate& estimate, double factor) {
     return {factor * estimate.value, factor * estimate.low, factor * estimate.high};
 }
 
+/// Half of the 95 % interval of one more reading: that of the mean of n is t s / sqrt(n), this t s sqrt(1 + 1
+/// / n). Never less than what a gauge of angles or heights is wrong by itself.
+double halfRange(const Calibration& calibration) {
+    constexpr double kSurest = 0.02;
+    const Estimate& mean = calibration.result;
+    const double half = std::max(mean.value - mean.low, mean.high - mean.value);
+    const auto readings = static_cast<double>(countReadings(calibration.readings));
+    return std::max(kSurest, half * std::sqrt(readings + 1.0));
+}
+
 }  // namespace
 
 std::vector<Change> findChanges(const Parameters& before, std::span<const Calibration> calibrations,
@@ -33,6 +46,9 @@ std::vector<Change> findChanges(const Parameters& before, std::span<const Calibr
     std::vector<Change> changes;
     const auto add = [&](const char* key, double value, const Estimate& after) {
         if (value != after.value) changes.push_back({key, value, after});
+    };
+    const auto narrow = [&](const char* key, double range, double measured) {
+        if (measured < range) changes.push_back({key, range, {measured, measured, measured}});
     };
     const Calibration* const resting = findNewest(calibrations, {Method::tiltUntilSliding});
     const Calibration* const sliding = findNewest(calibrations, {Method::tiltWhileSliding});
@@ -46,9 +62,15 @@ std::vector<Change> findChanges(const Parameters& before, std::span<const Calibr
         if (kinetic.value > still.value) kinetic = still;
         add(kStaticFriction, before.contact.staticFriction, still);
         add(kKineticFriction, before.contact.kineticFriction, kinetic);
+        double range = 0.0;
+        for (const Calibration* measured : {resting, sliding})
+            if (measured != nullptr) range = std::max(range, halfRange(*measured));
+        narrow(kFrictionRange, before.box.friction, range);
     }
-    if (const Calibration* bounce = findNewest(calibrations, {Method::bounceHeight, Method::bounceTime}))
+    if (const Calibration* bounce = findNewest(calibrations, {Method::bounceHeight, Method::bounceTime})) {
         add(kRestitution, before.contact.restitution, bounce->result);
+        narrow(kRestitutionRange, before.box.restitution, halfRange(*bounce));
+    }
     if (const Calibration* speed = findNewest(calibrations, {Method::conveyingSpeed});
         speed != nullptr && setPoint > 0.0)
         add(kHalfStroke, before.drive.halfStroke, scaled(speed->result, setPoint));
@@ -62,6 +84,8 @@ Parameters applyChanges(const Parameters& before, std::span<const Change> change
         if (change.key == kKineticFriction) after.contact.kineticFriction = change.after.value;
         if (change.key == kRestitution) after.contact.restitution = change.after.value;
         if (change.key == kHalfStroke) after.drive.halfStroke = change.after.value;
+        if (change.key == kFrictionRange) after.box.friction = change.after.value;
+        if (change.key == kRestitutionRange) after.box.restitution = change.after.value;
     }
     return after;
 }

@@ -6,14 +6,17 @@
 
 #include "core/calibration/measurement.h"
 #include "core/trial/batch.h"
+#include "core/trial/conditions.h"
 #include "core/trial/vibration.h"
 
 namespace trapwright::calibration {
 
-/// What a simulation has of what is measured: in study::Settings `simulation.contact` and `simulation.drive`.
+/// What a study has of what is measured: in study::Settings `simulation.contact`, `simulation.drive` and
+/// `box`.
 struct Parameters {
     trial::ContactParameters contact;
     trial::Vibration drive;
+    trial::OperatingBox box{};
 };
 
 /// One parameter that would change.
@@ -26,7 +29,9 @@ struct Change {
 /// What these measurements would change, the newest of each kind. Static friction stands for kinetic as well
 /// as long as that is not measured, and kinetic friction is never more than static. Half-stroke is set to
 /// what the drive does at `setPoint` (share of full, the one that parts are fed with); it is left alone for
-/// 0.
+/// 0. What friction and restitution may be off becomes narrower where readings say so, never wider: the 95 %
+/// interval of one more reading, which holds the scatter from part to part and the uncertainty of the mean.
+/// How far a stroke drifts no single measurement tells.
 std::vector<Change> findChanges(const Parameters& before, std::span<const Calibration> calibrations,
                                 double setPoint);
 

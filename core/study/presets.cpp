@@ -61,6 +61,7 @@ base::Result<Settings> presetSettings(const std::string& name) {
     const auto pair = part::requirePair(part::readMaterials(), cuboid ? kCuboidPair : kConePair);
     if (!pair) return pair.error();
     usePair(settings, *pair);
+    settings.box = {};  // what shipped tracks are held to is wider than the pair's spreads
     return settings;
 }
 
@@ -134,9 +135,16 @@ trial::ContactParameters contactOf(const part::MaterialPair& pair) {
     return {pair.staticFriction.value, pair.kineticFriction.value, pair.restitution.value};
 }
 
-void usePair(Settings& settings, const part::MaterialPair& pair) {
+void useContact(Settings& settings, const part::MaterialPair& pair) {
     settings.simulation.contact = contactOf(pair);
     settings.simulation.surface = pair.surface;
+    // Both coefficients vary together: by the more uncertain one.
+    settings.box.friction = std::max(pair.staticFriction.spread, pair.kineticFriction.spread);
+    settings.box.restitution = pair.restitution.spread;
+}
+
+void usePair(Settings& settings, const part::MaterialPair& pair) {
+    useContact(settings, pair);
     settings.part.density = pair.density.value;
     settings.part.material = pair.material;
 }

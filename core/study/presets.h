@@ -16,7 +16,8 @@ namespace trapwright::study {
 std::span<const std::string_view> presetNames();
 
 /// The paper's Table 1 with the drive of its section 6: "cuboid" and "cone". The pairs of materials are those
-/// that come with Trapwright. Error: an unknown name, or a library that cannot be read.
+/// that come with Trapwright, the operating box is the default one. Error: an unknown name, or a library that
+/// cannot be read.
 base::Result<Settings> presetSettings(const std::string& name);
 
 /// Changes settings to the paper's own choices where the defaults go past it: free points, plain angle, p_s
@@ -35,7 +36,10 @@ Settings sortingMode(Settings settings, const part::Part& part);
 
 /// What the engines need of a pair of materials.
 trial::ContactParameters contactOf(const part::MaterialPair& pair);
-/// Puts a pair's friction, restitution, density and material into the settings.
+/// Puts a pair's friction and restitution into the settings, with how far they may be off: the half ranges of
+/// the operating box become the pair's spreads.
+void useContact(Settings& settings, const part::MaterialPair& pair);
+/// The same with its density and material.
 void usePair(Settings& settings, const part::MaterialPair& pair);
 /// Which material of a library the part is of: by its name, or by its density where a study does not tell
 /// the name. None where the density is another.

@@ -418,8 +418,7 @@ part::MaterialLibrary readMaterials(const session::StudyDesign& design) {
 
 void usePair(session::StudyDesign& design, const part::MaterialPair& pair) {
     study::Settings settings = design.settings();
-    settings.simulation.contact = study::contactOf(pair);
-    settings.simulation.surface = pair.surface;
+    study::useContact(settings, pair);
     design.changeSettings(settings, MaterialsDialog::tr("Pair of materials"));
     if (settings.part.material == pair.material && settings.part.density == pair.density.value) return;
     settings.part.material = pair.material;

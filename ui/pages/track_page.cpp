@@ -238,8 +238,7 @@ void TrackPage::addContactChoice() {
         const auto* pair = part::findPair(library_, contact_->itemData(index).toString().toStdString());
         if (pair == nullptr || !design_) return showContact();
         study::Settings settings = design_->settings();
-        settings.simulation.contact = study::contactOf(*pair);
-        settings.simulation.surface = pair->surface;
+        study::useContact(settings, *pair);
         edit(settings, tr("Pair of materials"));
     });
     auto* library = new QPushButton(tr("Library..."), form_);

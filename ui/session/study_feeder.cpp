@@ -14,7 +14,7 @@ std::string currentUtc() {
 }
 
 calibration::Parameters parametersOf(const study::Settings& settings) {
-    return {settings.simulation.contact, settings.simulation.drive};
+    return {settings.simulation.contact, settings.simulation.drive, settings.box};
 }
 
 }  // namespace
@@ -89,6 +89,7 @@ study::Settings StudyFeeder::calibratedSettings(std::span<const calibration::Cha
     const calibration::Parameters after = calibration::applyChanges(parametersOf(settings), changes);
     settings.simulation.contact = after.contact;
     settings.simulation.drive = after.drive;
+    settings.box = after.box;
     return settings;
 }
 

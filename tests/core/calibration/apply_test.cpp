@@ -50,11 +50,31 @@ class ApplyTest : public QObject {
         // Without a set-point the drive is left alone.
         QCOMPARE(applied(calibrations, 0.0).drive.halfStroke, 0.8e-3);
         const auto changes = calibration::findChanges(parameters(), calibrations, 0.5);
-        QCOMPARE(changes.size(), std::size_t{4});
+        QCOMPARE(changes.size(), std::size_t{6});  // two of them of the operating box
         QCOMPARE(changes[0].key, std::string("simulation.contact.staticFriction"));
         QCOMPARE(changes[0].before, 0.5);
-        QCOMPARE(changes[3].key, std::string("simulation.drive.halfStroke_mm"));
-        QVERIFY(std::abs(changes[3].after.low - 0.55e-3) < 1e-12);
+        QCOMPARE(changes.back().key, std::string("simulation.drive.halfStroke_mm"));
+        QVERIFY(std::abs(changes.back().after.low - 0.55e-3) < 1e-12);
+    }
+
+    // Student's interval of one more reading is sqrt(n + 1) times that of the mean of n.
+    void readingsNarrowTheOperatingBox() {
+        Calibration sliding = measured(Method::tiltWhileSliding, 0.45, 0.03);
+        sliding.readings = std::vector<calibration::Tilt>(8);
+        Calibration bounce = measured(Method::bounceTime, 0.2, 1e-4);
+        bounce.readings = std::vector<calibration::BounceTimes>(3);
+        const calibration::Parameters after = applied({sliding, bounce}, 0.0);
+        QVERIFY(std::abs(after.box.friction - 0.09) < 1e-12);
+        QCOMPARE(after.box.restitution, 0.02);
+        QCOMPARE(after.box.halfStroke, parameters().box.halfStroke);
+        QVERIFY(calibration::findChanges(after, std::vector{sliding, bounce}, 0.0).empty());
+
+        // Of two kinds of friction the more uncertain one counts, and no range becomes wider.
+        Calibration resting = measured(Method::tiltUntilSliding, 0.5, 0.05);
+        resting.readings = std::vector<calibration::Tilt>(8);
+        QVERIFY(std::abs(applied({sliding, resting}, 0.0).box.friction - 0.15) < 1e-12);
+        resting.result = {0.5, 0.4, 0.6};
+        QCOMPARE(applied({sliding, resting}, 0.0).box.friction, parameters().box.friction);
     }
 
     // study::findProblems refuses settings in which kinetic friction is more than static.

@@ -144,6 +144,9 @@ class SettingsCheckTest : public QObject {
         QCOMPARE(study::findUsedPair(library, settings), part::findPair(library, "ABS", "printed plastic"));
         study::usePair(settings, *part::findPair(library, "steel", "steel sheet"));
         QCOMPARE(study::findUsedPair(library, settings), part::findPair(library, "steel", "steel sheet"));
+        // What the pair does not know for sure is what the operating box does not.
+        QCOMPARE(settings.box.friction, 0.35);
+        QCOMPARE(settings.box.restitution, 0.15);
         settings.simulation.contact.restitution += 0.01;
         QVERIFY(study::findUsedPair(library, settings) == nullptr);
         QCOMPARE(study::findUsedMaterial(library, settings.part)->name, std::string("steel"));
