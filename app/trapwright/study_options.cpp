@@ -152,15 +152,16 @@ void addCreationOptions(Command command, CreationOptions& options) {
     command.addOption("--preset", options.preset, "Start from the paper's Table 1: cuboid or cone");
     command.addOption("--part", options.part.part, "The part: a file, or the name of a bundled one");
     addPartOptions(command, options.part);
-    const Option contact = command.addOption(
-        "--contact", options.contact,
-        "Friction, restitution and density by pair: abs-on-printed-plastic, steel-on-steel-sheet ... "
-        "`trapwright materials` lists them");
+    const Option contact = command.addOption("--contact", options.contact,
+                                             "Friction and restitution, how far they may be off, and density "
+                                             "by pair: abs-on-printed-plastic, steel-on-steel-sheet ... "
+                                             "`trapwright materials` lists them");
     command
-        .addOption(
-            "--surface", options.surface,
-            "What the track's surface is made of, for friction and restitution with the part's material: "
-            "printed-pla, steel-sheet ...")
+        .addOption("--surface", options.surface,
+                   "What the track's surface is made of, for friction and restitution with the part's "
+                   "material, and how far "
+                   "they may be off: "
+                   "printed-pla, steel-sheet ...")
         .excludes(contact);
     command.addOption("--settings", options.settingsFile,
                       "Settings in JSON, as `trapwright settings` prints them");

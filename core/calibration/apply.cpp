@@ -62,10 +62,9 @@ std::vector<Change> findChanges(const Parameters& before, std::span<const Calibr
         if (kinetic.value > still.value) kinetic = still;
         add(kStaticFriction, before.contact.staticFriction, still);
         add(kKineticFriction, before.contact.kineticFriction, kinetic);
-        double range = 0.0;
-        for (const Calibration* measured : {resting, sliding})
-            if (measured != nullptr) range = std::max(range, halfRange(*measured));
-        narrow(kFrictionRange, before.box.friction, range);
+        // The box holds both coefficients: one that was not measured is as uncertain as before.
+        if (resting != nullptr && sliding != nullptr)
+            narrow(kFrictionRange, before.box.friction, std::max(halfRange(*resting), halfRange(*sliding)));
     }
     if (const Calibration* bounce = findNewest(calibrations, {Method::bounceHeight, Method::bounceTime})) {
         add(kRestitution, before.contact.restitution, bounce->result);

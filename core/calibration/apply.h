@@ -29,9 +29,9 @@ struct Change {
 /// What these measurements would change, the newest of each kind. Static friction stands for kinetic as well
 /// as long as that is not measured, and kinetic friction is never more than static. Half-stroke is set to
 /// what the drive does at `setPoint` (share of full, the one that parts are fed with); it is left alone for
-/// 0. What friction and restitution may be off becomes narrower where readings say so, never wider: the 95 %
-/// interval of one more reading, which holds the scatter from part to part and the uncertainty of the mean.
-/// How far a stroke drifts no single measurement tells.
+/// 0. What restitution may be off, and friction where both coefficients are measured, becomes narrower where
+/// readings say so, never wider: the 95 % interval of one more reading, which holds the scatter from part to
+/// part and the uncertainty of the mean. How far a stroke drifts no single measurement tells.
 std::vector<Change> findChanges(const Parameters& before, std::span<const Calibration> calibrations,
                                 double setPoint);
 

@@ -125,6 +125,17 @@ class CommandsTest : public QObject {
         QCOMPARE(settings["part"].toObject()["file"].toString(), "cone");
     }
 
+    // How far a pair of materials may be off comes with it; what is set one by one comes after it.
+    void surfaceSetsTheOperatingBox() {
+        QCOMPARE(ask({"new", "steel.trap", "--part", "bolt", "--material", "steel", "--surface",
+                      "steel-sheet", "--set", "box.restitution=0.05"})
+                     .code,
+                 0);
+        const QJsonObject box = ask({"settings", "steel.trap", "--json"}).json()["box"].toObject();
+        QCOMPARE(box["friction"].toDouble(), 0.35);
+        QCOMPARE(box["restitution"].toDouble(), 0.05);
+    }
+
     // In proportion to the part; what is set one by one comes after it.
     void sortingMode() {
         QCOMPARE(ask({"new", "sorting.trap", "--part", "wedge", "--sorting", "--population", "7", "--set",

@@ -89,8 +89,8 @@ const RawText kTexts[] = {
     {"simulation.gravity_m_s2", TEXT("Gravity"), TEXT("9.81 on Earth.")},
     {"simulation.engine", TEXT("Engine"), TEXT("Hybrid learns with the quick engine and has each winner checked by the reference engine.")},
 
-    {"box.friction", TEXT("Friction ±"), TEXT("How far both coefficients of friction may be off; nobody knows that of a print to better than 0.15.")},
-    {"box.restitution", TEXT("Restitution ±"), TEXT("How far the restitution may be off; never below 0 nor above 1.")},
+    {"box.friction", TEXT("Friction ±"), TEXT("How far both coefficients of friction may be off; nobody knows that of a print to better than 0.15. A pair of materials sets it to what the library says; measurements on the feeder narrow it.")},
+    {"box.restitution", TEXT("Restitution ±"), TEXT("How far the restitution may be off; never below 0 nor above 1. A pair of materials and measurements set it, as that of friction.")},
     {"box.halfStroke_percent", TEXT("Half-stroke ±"), TEXT("How far the drive's half-stroke may be off.")},
     {"box.frequency_percent", TEXT("Frequency ±"), TEXT("How far the drive's frequency may be off.")},
     {"box.angle_deg", TEXT("Angle ±"), TEXT("How far the vibration angle may be off.")},

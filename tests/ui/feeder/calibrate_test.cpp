@@ -53,6 +53,8 @@ class CalibrateTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr && user.session()->path() != path, kPatience);
         QVERIFY(user.session()->runs().summaries().empty());
         QTRY_COMPARE(user.session()->design().settings().simulation.contact.restitution, 0.5);
+        // Readings that agree leave what a gauge is wrong by itself.
+        QCOMPARE(user.session()->design().settings().box.restitution, 0.02);
     }
 
     // Speeds of a feeder whose half-stroke is 0.9 mm at full set-point, by the study's own simulation.
