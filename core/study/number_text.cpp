@@ -30,7 +30,7 @@ Decimal shortestDecimal(double value) {
     const std::size_t mark = text.find('e');
 
     Decimal decimal;
-    decimal.negative = std::signbit(value);
+    decimal.negative = value < 0.0;  // not of -0, which the neighbours of 0 degrees hold
     for (const char c : text.substr(0, mark)) {
         if (c != '.') decimal.digits += c;
     }

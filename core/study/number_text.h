@@ -12,7 +12,7 @@ enum class FileUnit { none, millimetre, degree, millisecond, percent };
 /// The shortest decimal text of an SI value in the file's unit, such that siValue gives the value back bit
 /// for bit. Millimetres, milliseconds and per cent are exact because the decimal point is moved in the text
 /// instead of multiplying; degrees are exact for every value that is (some double) * base::kDegree. The value
-/// must be finite.
+/// must be finite; zero has no sign.
 std::string fileText(double value, FileUnit unit);
 
 /// The SI value of a decimal text in the file's unit; none if the text is not one finite number.

@@ -161,6 +161,8 @@ class SettingsJsonTest : public QObject {
         QTest::newRow("-1 mm") << -1e-3 << 1 << "-1";
         QTest::newRow("0 mm") << 0.0 << 1 << "0";
         QTest::newRow("12 degrees") << 12.0 * base::kDegree << 2 << "12";
+        QTest::newRow("0 degrees") << 0.0 << 2 << "0";
+        QTest::newRow("-0") << -0.0 << 0 << "0";
         QTest::newRow("25 degrees") << 25.0 * base::kDegree << 2 << "25";
         QTest::newRow("0.002") << 0.002 << 0 << "0.002";
         QTest::newRow("tiny") << 1.5e-9 << 0 << "1.5e-9";
