@@ -123,7 +123,7 @@ void visitFields(Visitor& v, SettingsType& s) {
 
     constexpr auto percent = FileUnit::percent;
     auto& box = s.box;
-    v.number({"box.friction", none, 0.0, 1.0}, box.friction);
+    v.number({"box.friction", none, 0.0, 2.0}, box.friction);
     v.number({"box.restitution", none, 0.0, 1.0}, box.restitution);
     v.number({"box.halfStroke_percent", percent, 0.0, 50.0}, box.halfStroke);
     v.number({"box.frequency_percent", percent, 0.0, 20.0}, box.frequency);
