@@ -30,10 +30,13 @@ struct Options {
     // Half widths of the box instead of the study's.
     std::optional<double> friction;
     std::optional<double> restitution;
-    std::optional<double> halfStroke;  // [%]
-    std::optional<double> frequency;   // [%]
-    std::optional<double> angle;       // [deg]
-    std::optional<double> size;        // [mm]
+    std::optional<double> halfStroke;   // [%]
+    std::optional<double> frequency;    // [%]
+    std::optional<double> angle;        // [deg]
+    std::optional<double> size;         // [mm]
+    std::optional<double> startOffset;  // [mm]
+    std::optional<double> startSpeed;   // [mm/s]
+    std::optional<double> roughness;    // [deg]
     std::optional<std::string> engine;
     unsigned threads = 0;
 };
@@ -54,6 +57,9 @@ void takeBox(const Options& options, trial::OperatingBox& box) {
     if (options.halfStroke) box.halfStroke = *options.halfStroke * kPercent;
     if (options.frequency) box.frequency = *options.frequency * kPercent;
     if (options.angle) box.angle = *options.angle * base::kDegree;
+    if (options.startOffset) box.startOffset = *options.startOffset * base::kMillimetre;
+    if (options.startSpeed) box.startSpeed = *options.startSpeed * base::kMillimetre;
+    if (options.roughness) box.roughness = *options.roughness * base::kDegree;
     if (options.size) box.sizeBelow = box.sizeAbove = *options.size * base::kMillimetre;
 }
 
@@ -197,12 +203,16 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
     command.addOption("--points", options->plan.sweepPoints, "Of each condition (7)");
     command.addOption("--map", options->plan.mapPoints, "Of the worst two conditions' map, each way (5)");
     command.addOption("--friction-range", options->friction,
-                      "Half of it, instead of the study's, as of the five below");
+                      "Half of it, instead of the study's, as of the eight below");
     command.addOption("--restitution-range", options->restitution, "Half of it");
     command.addOption("--half-stroke-range", options->halfStroke, "Half of it in %");
     command.addOption("--frequency-range", options->frequency, "Half of it in %");
     command.addOption("--angle-range", options->angle, "Half of it in degrees");
     command.addOption("--size-range", options->size, "How much less or more a part's extents may be, in mm");
+    command.addOption("--offset-range", options->startOffset,
+                      "How far to the sides starts may be off, in mm");
+    command.addOption("--speed-range", options->startSpeed, "How fast parts may start at most, in mm/s");
+    command.addOption("--roughness-range", options->roughness, "How far the surface may lean, in degrees");
     command
         .addOption("--expected", options->expected,
                    "The orientation that counts as success, w x y z (default: the most frequent final one "

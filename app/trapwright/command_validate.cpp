@@ -54,6 +54,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                     study::formatValidation(study::tabulate(*record, groups), options.everyPose)));
     nlohmann::ordered_json document = {{"study", options.study},
                                        {"validation", toJson(*record, *study->part, groups)}};
+    workflow::TrialsRequest request{workflow::TrialKind::validation, *individual, {}};
+    for (const study::ValidationRow& row : record->rows)
+        request.poses.push_back(row.pose);
+    if (const auto added = addSlices(*study, request, console, document); !added) return added.error();
     addRemadeTrials(*inputs, document);
     console.emit(document);
     return ExitCode::ok;

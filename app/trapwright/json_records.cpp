@@ -121,6 +121,22 @@ Json toJson(const study::SelectionRecord& record) {
     return json;
 }
 
+Json toJson(std::span<const study::SlicedCondition> conditions) {
+    Json json = Json::array();
+    for (const study::SlicedCondition& sliced : conditions) {
+        const trial::ConditionText& text =
+            trial::conditionTexts()[static_cast<std::size_t>(sliced.condition)];
+        Json slices = Json::array();
+        for (const study::ConditionSlice& slice : sliced.slices)
+            slices.push_back({{"low", text.shownAs * slice.low},
+                              {"high", text.shownAs * slice.high},
+                              {"trials", slice.tally.trials()},
+                              {"success", shareToJson(slice.tally.success, slice.tally.trials())}});
+        json.push_back({{"condition", text.key}, {"slices", std::move(slices)}});
+    }
+    return json;
+}
+
 Json toJson(const stats::WeightedRate& weighted, const char* bounds) {
     return {{"share", weighted.rate ? Json(*weighted.rate) : Json()},
             {"low", weighted.interval.low},

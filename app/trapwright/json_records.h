@@ -7,6 +7,7 @@
 #include "core/part/stable_poses.h"
 #include "core/stats/stratified.h"
 #include "core/study/records.h"
+#include "core/study/robustness.h"
 #include "core/trial/remade_trials.h"
 
 namespace trapwright::app {
@@ -30,6 +31,8 @@ nlohmann::ordered_json toJson(const trial::RemadeTrial& trial);
 /// {"share", "low", "high", "bounds"}; no share where it is not known.
 nlohmann::ordered_json toJson(const stats::WeightedRate& weighted,
                               const char* bounds = "95 % profile limits");
+/// [{"condition", "slices": [{"low", "high", "trials", "success"}]}], in the units that the keys tell.
+nlohmann::ordered_json toJson(std::span<const study::SlicedCondition> conditions);
 /// Counted from 1.
 nlohmann::ordered_json numbersToJson(std::span<const int> poses);
 /// {"count", "share", "low", "high", "bounds"} of `count` successes in `trials`; "bounds" names the interval.

@@ -5,6 +5,7 @@
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/work_display.h"
 #include "core/workflow/judging.h"
+#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -38,6 +39,18 @@ Failure toFailure(const workflow::Failure& failure, const store::StudyFile& file
 Failure describeRunFailure(const base::RunControl& control, const base::Error& error) {
     if (control.cancelled()) return {ExitCode::interrupted, "Interrupted; nothing of it was kept."};
     return {ExitCode::fault, error.message};
+}
+
+Attempt<ExitCode> addSlices(const OpenStudy& study, const workflow::TrialsRequest& request,
+                            const Console& console, nlohmann::ordered_json& document) {
+    const auto stored = workflow::findStoredTrials(study.file, study.settings, engines::registry(), request);
+    if (!stored) return Failure{ExitCode::badInput, stored.error().message};
+    const auto slices = workflow::sliceTrials(study.settings, study.part, request, *stored);
+    if (!slices) return Failure{ExitCode::badInput, slices.error().message};
+    if (slices->empty()) return ExitCode::ok;
+    console.print('\n' + study::formatSlices(*slices));
+    document["conditions"] = toJson(*slices);
+    return ExitCode::ok;
 }
 
 void noteRemadeTrials(const study::StudyInputs& inputs, const Console& console) {

@@ -5,10 +5,12 @@
 
 #include "app/trapwright/console.h"
 #include "app/trapwright/exit_codes.h"
+#include "app/trapwright/study_access.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
 #include "core/study/records.h"
 #include "core/workflow/failure.h"
+#include "core/workflow/study_trials.h"
 
 namespace trapwright::app {
 
@@ -27,6 +29,11 @@ Attempt<study::ValidationRecord> validateAndSave(store::StudyFile& file, const s
                                                  const study::Individual& individual,
                                                  const std::optional<trial::Goal>& expected,
                                                  const Console& console);
+
+/// Success by each condition that the trials of a selection or validation varied over: printed, and added to
+/// the command's document as "conditions". Nothing if they were all alike.
+Attempt<ExitCode> addSlices(const OpenStudy& study, const workflow::TrialsRequest& request,
+                            const Console& console, nlohmann::ordered_json& document);
 
 /// A line on stderr about the trials that were made again, if there are any.
 void noteRemadeTrials(const study::StudyInputs& inputs, const Console& console);

@@ -23,6 +23,7 @@ enum class Purpose : std::uint8_t {
     conditions = 12,
     specimen = 13,
     robustness = 14,
+    surface = 15,
     test = 255
 };
 

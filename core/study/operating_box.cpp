@@ -41,6 +41,12 @@ Range rangeOf(const SimulationSettings& simulation, const trial::OperatingBox& b
             return about(drive.angle, box.angle, 0.0, 0.5 * base::kPi);
         case Condition::part:
             return {-box.sizeBelow, box.sizeAbove};
+        case Condition::startOffset:
+            return {-box.startOffset, box.startOffset};
+        case Condition::startSpeed:
+            return {0.0, box.startSpeed};
+        case Condition::roughness:
+            return {0.0, box.roughness};
     }
     return {};
 }
@@ -54,6 +60,14 @@ double distribute(trial::BoxDistribution distribution, double even) {
     const double below = cdf(standard, -kCutOff);
     const double inside = 1.0 - 2.0 * below;
     return std::clamp(0.5 + quantile(standard, below + inside * even) / (2.0 * kCutOff), 0.0, 1.0);
+}
+
+/// Each trial runs over a surface of its own.
+std::uint64_t surfaceOf(base::StreamKey stream) {
+    stream.purpose = base::Purpose::surface;
+    base::Random random(stream);
+    const std::uint64_t high = random.bits32();
+    return high << 32U | random.bits32();
 }
 
 bool hasTolerances(const trial::OperatingBox& box) {
@@ -101,7 +115,7 @@ double conditionAt(const SimulationSettings& simulation, const trial::OperatingB
 }
 
 void putAt(const SimulationSettings& simulation, const trial::OperatingBox& box, const BoxPlace& place,
-           trial::TrialSpec& spec) {
+           const track::Track& track, trial::TrialSpec& spec) {
     const auto at = [&](Condition condition, double known) {
         return varies(simulation, box, condition)
                    ? conditionAt(simulation, box, condition, place[static_cast<std::size_t>(condition)])
@@ -112,10 +126,16 @@ void putAt(const SimulationSettings& simulation, const trial::OperatingBox& box,
     // What static friction is more stays.
     contact.staticFriction += contact.kineticFriction - simulation.contact.kineticFriction;
     contact.restitution = at(Condition::restitution, contact.restitution);
+    contact.roughness = at(Condition::roughness, 0.0);
+    if (contact.roughness > 0.0) contact.surface = surfaceOf(spec.stream);
     trial::Vibration drive = simulation.drive;
     drive.halfStroke = at(Condition::halfStroke, drive.halfStroke);
     drive.frequency = at(Condition::frequency, drive.frequency);
     drive.angle = at(Condition::angle, drive.angle);
+    trial::PartStart& start = spec.parts.front();
+    const base::Mat3 axes = track.shape.tangentFrame(track.start);
+    start.pose.position += at(Condition::startOffset, 0.0) * axes.col(1);
+    start.velocity += at(Condition::startSpeed, 0.0) * axes.col(0);
     spec.contact = contact;
     spec.drive = drive;
     spec.place = place;

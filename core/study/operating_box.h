@@ -28,13 +28,14 @@ std::shared_ptr<const part::Part> makeSpecimenAt(const trial::OperatingBox& box,
 bool varies(const SimulationSettings& simulation, const trial::OperatingBox& box, trial::Condition condition);
 
 /// What a condition is at this share of its range, in SI: a coefficient of kinetic friction, of restitution,
-/// m, Hz, rad; of the part what its extents are more than drawn [m].
+/// m, m/s, Hz, rad; of the part what its extents are more than drawn [m].
 double conditionAt(const SimulationSettings& simulation, const trial::OperatingBox& box,
                    trial::Condition condition, double share);
 
-/// Puts a trial there: its contact, its drive, and its place. The part is left to whoever makes its batch.
+/// Puts a trial of one part on this track there: its contact, its drive, its start, and its place. The part
+/// is left to whoever makes its batch.
 void putAt(const SimulationSettings& simulation, const trial::OperatingBox& box, const trial::BoxPlace& place,
-           trial::TrialSpec& spec);
+           const track::Track& track, trial::TrialSpec& spec);
 
 /// Places of trials that fill the box evenly (Sobol 1967, direction numbers of Joe and Kuo 2008, moved by a
 /// random digital shift: Lemieux 2009): any first n of them say more of a mean than n random ones. Trial i of

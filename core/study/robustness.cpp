@@ -24,27 +24,29 @@ double& coordinate(BoxPlace& place, Condition condition) {
     return place[static_cast<std::size_t>(condition)];
 }
 
-std::vector<Condition> listVarying(const Settings& settings) {
+std::vector<Condition> listVarying(const SimulationSettings& simulation, const trial::OperatingBox& box) {
     std::vector<Condition> varying;
     for (const trial::ConditionText& text : trial::conditionTexts()) {
         // Of the part its size: a centre of mass that is off has no ends to go from and to.
-        const bool room = text.condition == Condition::part
-                              ? settings.box.sizeBelow + settings.box.sizeAbove > 0.0
-                              : varies(settings.simulation, settings.box, text.condition);
+        const bool room = text.condition == Condition::part ? box.sizeBelow + box.sizeAbove > 0.0
+                                                            : varies(simulation, box, text.condition);
         if (room) varying.push_back(text.condition);
     }
     return varying;
 }
 
+std::vector<Condition> listVarying(const Settings& settings) {
+    return listVarying(settings.simulation, settings.box);
+}
+
 /// Where conditions are as set. Ranges that are cut off have it off their middle.
 BoxPlace placeAsSet(const Settings& settings) {
     BoxPlace place = trial::kMiddle;
-    const std::array asSet = {settings.simulation.contact.kineticFriction,
-                              settings.simulation.contact.restitution,
-                              settings.simulation.drive.halfStroke,
-                              settings.simulation.drive.frequency,
-                              settings.simulation.drive.angle,
-                              0.0};
+    // Of the part and whatever comes after it nothing.
+    const std::array<double, trial::kConditions> asSet = {
+        settings.simulation.contact.kineticFriction, settings.simulation.contact.restitution,
+        settings.simulation.drive.halfStroke, settings.simulation.drive.frequency,
+        settings.simulation.drive.angle};
     for (std::size_t c = 0; c < trial::kConditions; ++c) {
         const auto at = [&](double share) {
             return conditionAt(settings.simulation, settings.box, static_cast<Condition>(c), share);
@@ -159,21 +161,32 @@ bool isWorse(const PlaceResult& a, const PlaceResult& b) {
            b.tally.success * static_cast<double>(a.tally.trials());
 }
 
-std::string shown(const Settings& settings, Condition condition, double share) {
-    const trial::ConditionText& text = trial::conditionTexts()[static_cast<std::size_t>(condition)];
-    const double value = conditionAt(settings.simulation, settings.box, condition, share) * text.shownAs;
-    std::string number = fmt::format("{:.{}f}", value + 0.0, text.decimals);
-    if (condition == Condition::part && value >= 0.0) number.insert(0, "+");
-    return text.unit.empty() ? number : fmt::format("{} {}", number, text.unit);
+const trial::ConditionText& textOf(Condition condition) {
+    return trial::conditionTexts()[static_cast<std::size_t>(condition)];
 }
 
-std::string shareText(const PlaceResult& result) {
-    const trial::Tally& tally = result.tally;
+/// Without its unit. `value` in SI.
+std::string shownNumber(Condition condition, double value) {
+    const trial::ConditionText& text = textOf(condition);
+    value *= text.shownAs;
+    std::string number = fmt::format("{:.{}f}", value + 0.0, text.decimals);
+    const bool isDifference = condition == Condition::part || condition == Condition::startOffset;
+    if (isDifference && value >= 0.0) number.insert(0, "+");
+    return number;
+}
+
+std::string shown(const Settings& settings, Condition condition, double share) {
+    const std::string number =
+        shownNumber(condition, conditionAt(settings.simulation, settings.box, condition, share));
+    const std::string_view unit = textOf(condition).unit;
+    return unit.empty() ? number : fmt::format("{} {}", number, unit);
+}
+
+std::string shareText(const trial::Tally& tally) {
     const stats::Interval bounds = stats::calcClopperPearson(tally.success, tally.trials());
-    return fmt::format("{:5.1f}   {:5.1f} ... {:5.1f}   {:6} {:6} {:6} {:8}   {:6.1f}\n",
+    return fmt::format("{:5.1f}   {:5.1f} ... {:5.1f}   {:6} {:6} {:6} {:8}",
                        100.0 * tally.success / tally.trials(), 100.0 * bounds.low, 100.0 * bounds.high,
-                       tally.trials(), tally.wrongOrientation, tally.stuck, tally.fellOff,
-                       1e3 * result.speed);
+                       tally.trials(), tally.wrongOrientation, tally.stuck, tally.fellOff);
 }
 
 }  // namespace
@@ -219,7 +232,7 @@ trial::TrialBatch makePlaceBatch(const Settings& settings, const std::shared_ptr
     for (int i = 0; i < trials.count; ++i, ++key.trial) {
         trial::TrialSpec& spec = batch.trials.emplace_back(
             trial::drawTrial(*track, *batch.parts.front(), settings.simulation.start, key));
-        putAt(settings.simulation, settings.box, *trials.place, spec);
+        putAt(settings.simulation, settings.box, *trials.place, *track, spec);
     }
     return batch;
 }
@@ -245,8 +258,8 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
     if (varying.empty())
         return base::Error{
             "The operating box has no room: all of box.friction, box.restitution, box.halfStroke_percent, "
-            "box.frequency_percent, box.angle_deg, box.sizeBelow_mm and box.sizeAbove_mm are 0. Set what is "
-            "not known exactly."};
+            "box.frequency_percent, box.angle_deg, box.sizeBelow_mm, box.sizeAbove_mm, box.startOffset_mm, "
+            "box.startSpeed_mm_s and box.roughness_deg are 0. Set what is not known exactly."};
     Measurement measurement(inputs, track, std::move(control));
     measurement.goal = given ? given : findWanted(settings.target, *inputs.part);
     Robustness robustness;
@@ -302,6 +315,50 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
     return robustness;
 }
 
+std::vector<SlicedCondition> sliceByCondition(const SimulationSettings& simulation,
+                                              const trial::OperatingBox& box,
+                                              std::span<const BoxPlace> places,
+                                              std::span<const trial::Verdict> verdicts) {
+    constexpr int kSlices = 4;
+    std::vector<SlicedCondition> conditions;
+    for (const Condition condition : listVarying(simulation, box)) {
+        SlicedCondition& sliced = conditions.emplace_back(SlicedCondition{condition, {}});
+        for (int i = 0; i < kSlices; ++i) {
+            const auto at = [&](int end) {
+                return conditionAt(simulation, box, condition, static_cast<double>(end) / kSlices);
+            };
+            sliced.slices.push_back({at(i), at(i + 1), {}});
+        }
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const double share = places[i][static_cast<std::size_t>(condition)];
+            const int slice = std::clamp(static_cast<int>(share * kSlices), 0, kSlices - 1);
+            sliced.slices[static_cast<std::size_t>(slice)].tally.add(verdicts[i]);
+        }
+    }
+    return conditions;
+}
+
+std::string describeRange(Condition condition, const ConditionSlice& slice) {
+    const std::string_view unit = textOf(condition).unit;
+    return fmt::format("{} ... {}{}{}", shownNumber(condition, slice.low), shownNumber(condition, slice.high),
+                       unit.empty() ? "" : " ", unit);
+}
+
+std::string formatSlices(std::span<const SlicedCondition> conditions) {
+    if (conditions.empty()) return {};
+    std::string text = fmt::format("{:<34} success [%]   95 % bounds      trials  wrong  stuck fell off\n",
+                                   "By condition, all others varying");
+    for (const SlicedCondition& sliced : conditions) {
+        text += fmt::format("{}\n", textOf(sliced.condition).name);
+        for (const ConditionSlice& slice : sliced.slices) {
+            const trial::Tally& tally = slice.tally;
+            if (tally.trials() == 0) continue;
+            text += fmt::format("  {:<38} {}\n", describeRange(sliced.condition, slice), shareText(tally));
+        }
+    }
+    return text;
+}
+
 std::string describePlace(const Settings& settings, const BoxPlace& place) {
     std::string text;
     for (const Condition condition : listVarying(settings)) {
@@ -318,7 +375,7 @@ std::string formatRobustness(const StudyInputs& inputs, const Robustness& robust
     std::string text =
         fmt::format("{:<34} success [%]   95 % bounds      trials  wrong  stuck fell off   mm/s\n", "");
     const auto row = [&](const std::string& name, const PlaceResult& result) {
-        text += fmt::format("{:<40} {}", name, shareText(result));
+        text += fmt::format("{:<40} {}   {:6.1f}\n", name, shareText(result.tally), 1e3 * result.speed);
     };
     row("As set", robustness.nominal);
     row("All over the operating box", robustness.overBox);

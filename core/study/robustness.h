@@ -88,6 +88,31 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
 /// A table of all of it, for people.
 std::string formatRobustness(const StudyInputs& inputs, const Robustness& robustness);
 
+/// Trials whose condition is in this slice of its range.
+struct ConditionSlice {
+    double low = 0.0;  // in SI, as conditionAt() tells it
+    double high = 0.0;
+    trial::Tally tally;
+};
+
+/// Trials all over the box by one of its conditions.
+struct SlicedCondition {
+    trial::Condition condition = trial::Condition::friction;
+    std::vector<ConditionSlice> slices;  // equally wide, rising
+};
+
+/// The same trials by each condition that varies: success "per condition" of what was tried all over the box.
+/// places[i] and verdicts[i] are of one trial.
+std::vector<SlicedCondition> sliceByCondition(const SimulationSettings& simulation,
+                                              const trial::OperatingBox& box,
+                                              std::span<const trial::BoxPlace> places,
+                                              std::span<const trial::Verdict> verdicts);
+
+/// "0.30 ... 0.40": a slice's range, with its unit.
+std::string describeRange(trial::Condition condition, const ConditionSlice& slice);
+/// A table of them, for people; empty if there are none.
+std::string formatSlices(std::span<const SlicedCondition> conditions);
+
 /// "Friction 0.30, half-stroke 0.704 mm": what varies, as it is at a place.
 std::string describePlace(const Settings& settings, const trial::BoxPlace& place);
 

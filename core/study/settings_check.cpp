@@ -169,12 +169,15 @@ std::vector<std::string> findPartProblems(const Settings& settings, const part::
     const std::string size =
         "The part " + part.name + " reaches " + millimetres(radius) + " from its centre of mass";
     const double behind = track.leadInLength - track.startFromLeadInEnd;
-    if (radius + settings.simulation.start.lateral > track.segmentWidth / 2) {
-        problems.push_back(size + " and starts up to " + millimetres(settings.simulation.start.lateral) +
+    const double beside = settings.simulation.start.lateral + settings.box.startOffset;
+    if (radius + beside > track.segmentWidth / 2) {
+        const std::string units = ", or check the units of the part's file.";
+        const std::string less = ", or box.startOffset_mm to less.";
+        problems.push_back(size + " and starts up to " + millimetres(beside) +
                            " beside the middle: it is too large for a track " +
                            millimetres(track.segmentWidth) + " wide. Set track.segmentWidth_mm to at least " +
-                           millimetres(2 * (radius + settings.simulation.start.lateral)) +
-                           ", or check the units of the part's file.");
+                           millimetres(2 * (radius + beside)) +
+                           (settings.box.startOffset > 0.0 ? less : units));
     }
     const double thinnest = part::calcExtents(part).minCoeff();
     if (settings.box.sizeBelow > 0.5 * thinnest) {

@@ -131,6 +131,9 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"box.sizeBelow_mm", mm, 0.0, 10.0}, box.sizeBelow);
     v.number({"box.sizeAbove_mm", mm, 0.0, 10.0}, box.sizeAbove);
     v.number({"box.centre_mm", mm, 0.0, 10.0}, box.centre);
+    v.number({"box.startOffset_mm", mm, 0.0, 100.0}, box.startOffset);
+    v.number({"box.startSpeed_mm_s", mm, 0.0, 1000.0}, box.startSpeed);
+    v.number({"box.roughness_deg", degree, 0.0, 30.0}, box.roughness);
     v.choice("box.distribution", box.distribution,
              Choices<trial::BoxDistribution, 2>{
                  {{"uniform", trial::BoxDistribution::uniform}, {"normal", trial::BoxDistribution::normal}}});

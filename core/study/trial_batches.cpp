@@ -39,7 +39,7 @@ trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& p
         trial::TrialSpec& spec =
             batch.trials.emplace_back(trial::drawTrial(*scene.track, *batch.parts[specimen], policy, first));
         spec.parts.front().part = specimen;
-        putAt(*scene.simulation, *scene.box, place, spec);
+        putAt(*scene.simulation, *scene.box, place, *scene.track, spec);
         ++first.trial;
     }
     return batch;

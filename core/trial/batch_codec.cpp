@@ -73,8 +73,8 @@ void serialize(Archive& archive, T& drive) {
 
 template <class Archive, base::OrConst<ContactParameters> T>
 void serialize(Archive& archive, T& contact) {
-    auto& [staticFriction, kineticFriction, restitution] = contact;
-    archive(staticFriction, kineticFriction, restitution);
+    auto& [staticFriction, kineticFriction, restitution, roughness, surface] = contact;
+    archive(staticFriction, kineticFriction, restitution, roughness, surface);
 }
 
 template <class Archive, base::OrConst<Termination> T>
@@ -116,7 +116,7 @@ void serialize(Archive& archive, T& outcome) {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

@@ -12,6 +12,9 @@ std::span<const ConditionText> conditionTexts() {
         {Condition::frequency, "frequency_Hz", "Frequency", "Hz", 1.0, 1},
         {Condition::angle, "angle_deg", "Vibration angle", "deg", 1.0 / base::kDegree, 1},
         {Condition::part, "part_mm", "Part size", "mm", 1e3, 3},
+        {Condition::startOffset, "start_offset_mm", "Start offset", "mm", 1e3, 1},
+        {Condition::startSpeed, "start_speed_mm_s", "Start speed", "mm/s", 1e3, 0},
+        {Condition::roughness, "roughness_deg", "Roughness", "deg", 1.0 / base::kDegree, 1},
     }};
     return kTexts;
 }

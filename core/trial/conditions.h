@@ -9,8 +9,18 @@ namespace trapwright::trial {
 
 /// What may differ from trial to trial because nobody knows it exactly: the sides of a study's operating box
 /// (decisions.md#operating-box).
-enum class Condition { friction, restitution, halfStroke, frequency, angle, part };
-inline constexpr std::size_t kConditions = 6;
+enum class Condition {
+    friction,
+    restitution,
+    halfStroke,
+    frequency,
+    angle,
+    part,
+    startOffset,
+    startSpeed,
+    roughness
+};
+inline constexpr std::size_t kConditions = 9;
 
 enum class BoxDistribution { uniform, normal };
 
@@ -26,6 +36,9 @@ struct OperatingBox {
     double sizeBelow = 0.1e-3;  // what each extent of a part may be less than drawn [m]
     double sizeAbove = 0.1e-3;  // and more [m]
     double centre = 0.0;        // how far the centre of mass may be off, in each direction [m]
+    double startOffset = 0.0;   // sideways, beside what starts vary by as it is [m]
+    double startSpeed = 0.0;    // along the track at most; parts start at rest else [m/s]
+    double roughness = 0.0;     // ContactParameters::roughness at most [rad]
 
     friend bool operator==(const OperatingBox&, const OperatingBox&) = default;
 };
@@ -33,7 +46,7 @@ struct OperatingBox {
 /// Where a trial is in the box: of each condition the share of its range that lies below, in [0, 1]. Of what
 /// does not vary 0.5.
 using BoxPlace = std::array<double, kConditions>;
-inline constexpr BoxPlace kMiddle = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+inline constexpr BoxPlace kMiddle = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
 
 /// A condition as people read it.
 struct ConditionText {

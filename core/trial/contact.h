@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/math.h"
 
 // Simbody's headers are no C++20: what they are compiled with keeps to C++17, as this does.
@@ -11,6 +13,10 @@ struct ContactParameters {
     double staticFriction = 0.5;
     double kineticFriction = 0.5;
     double restitution = 0.2;
+    /// A rough surface presses each grain of it in a direction of its own, up to so far off the normal of
+    /// what is drawn (decisions.md#roughness). [rad]
+    double roughness = 0.0;
+    std::uint64_t surface = 0;  // names the rough surface: equal ones are alike in all grains
 };
 
 /// A body of a trial: the part of this place in TrialSpec::parts, or the track.

@@ -178,6 +178,22 @@ base::Result<std::optional<trial::MadeOutcomes>> unpackTrials(const StoredTrials
     return made;
 }
 
+base::Result<std::vector<study::SlicedCondition>> sliceTrials(const study::Settings& settings,
+                                                              const std::shared_ptr<const part::Part>& part,
+                                                              const TrialsRequest& request,
+                                                              const StoredTrials& stored) {
+    const std::vector<study::SlicedCondition> none;
+    if (!stored.box || stored.kept.empty()) return none;
+    const auto batch = makeTrials(settings, part, request, stored);
+    if (!batch) return batch.error();
+    const auto made = unpackTrials(stored, *batch);
+    if (!made) return made.error();
+    if (!*made) return none;
+    const JudgedTrials judged = judgeTrials((*made)->outcomes, part->symmetry, stored.goal, stored.tolerance);
+    return study::sliceByCondition(settings.simulation, *stored.box, study::listPlaces(*batch),
+                                   judged.verdicts);
+}
+
 std::optional<OutcomeDifference> findDifference(const trial::Outcome& stored,
                                                 const trial::OutcomeMaker& storedBy,
                                                 const trial::Outcome& replayed,

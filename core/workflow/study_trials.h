@@ -69,6 +69,13 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
 base::Result<std::optional<trial::MadeOutcomes>> unpackTrials(const StoredTrials& stored,
                                                               const trial::TrialBatch& batch);
 
+/// These trials of a selection or validation by each condition that they varied over; none if they were all
+/// alike or their outcomes are not stored. An error if these are damaged.
+base::Result<std::vector<study::SlicedCondition>> sliceTrials(const study::Settings& settings,
+                                                              const std::shared_ptr<const part::Part>& part,
+                                                              const TrialsRequest& request,
+                                                              const StoredTrials& stored);
+
 /// A trial that ended otherwise when it was simulated again.
 struct OutcomeDifference {
     trial::PartOutcome stored;  // of the first part that ended otherwise

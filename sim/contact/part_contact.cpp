@@ -1,6 +1,9 @@
 #include "sim/contact/part_contact.h"
 
+#include <array>
 #include <cmath>
+
+#include "sim/contact/roughness.h"
 
 namespace trapwright::contact {
 
@@ -32,6 +35,7 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
     const double reach =
         (free.velocity * dt_ - trackStep).norm() + free.angularVelocity.norm() * dt_ * body_->radius + turn;
     detector_.findContacts(now_.toTrack(pose), lastReach_, 1.1 * reach + kMargin, points_);
+    if (law_.roughness > 0.0) roughen();
     laps.end(&trial::Costs::detection);
 
     StepResult result{free, free, 0};
@@ -58,6 +62,22 @@ StepResult PartContact::step(long step, const base::Pose& pose, double inverseMa
     now_ = next_;
     next_ = drive_.placement(static_cast<double>(step + 2) * dt_);
     return result;
+}
+
+void PartContact::roughen() {
+    // Grains hide which contacts lie in one plane: the solver could not thin them out any more.
+    manifold_.clear();
+    for (const Contact& contact : points_)
+        manifold_.push_back({contact.point, contact.normal, contact.gap});
+    std::array<int, ImpulseSolver::kMaxContacts> kept{};
+    const int count = reduceManifold(manifold_, kept);
+    for (int i = 0; i < count; ++i) {
+        Contact& contact = points_[static_cast<std::size_t>(i)];
+        contact =
+            points_[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])];  // in order: kept[i] >= i
+        contact.normal = tiltNormal(law_, contact.point, contact.normal);
+    }
+    points_.resize(static_cast<std::size_t>(count));
 }
 
 std::vector<trial::ContactForce> PartContact::forces() const {

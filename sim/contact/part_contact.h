@@ -7,6 +7,7 @@
 #include "sim/contact/detector.h"
 #include "sim/contact/drive_motion.h"
 #include "sim/contact/impulse_solver.h"
+#include "sim/contact/manifold.h"
 
 namespace trapwright::contact {
 
@@ -31,6 +32,9 @@ class PartContact {
     [[nodiscard]] const std::vector<Contact>& contacts() const { return points_; }
 
  private:
+    /// Of a rough track those contacts that stand for all, each pressed its grain's way.
+    void roughen();
+
     const ContactBody* body_;
     DriveMotion drive_;
     trial::ContactParameters law_;
@@ -41,6 +45,7 @@ class PartContact {
     double lastReach_ =
         0.0;  // how far any point of the part may have moved relative to the track in the last step [m]
     std::vector<Contact> points_;
+    std::vector<ManifoldPoint> manifold_;
     std::vector<MovingContact> stepContacts_;
 };
 

@@ -57,6 +57,7 @@ void finishStepOf(TrialLanes& group) {
             }
             found.sort();
             if (found.size() > kFew) reduceContacts(found);
+            roughen(group, lane);
             beginSolving(group, lane);
         }
     }

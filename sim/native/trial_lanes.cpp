@@ -5,6 +5,7 @@
 
 #include "sim/contact/drive_motion.h"
 #include "sim/contact/manifold.h"
+#include "sim/contact/roughness.h"
 
 namespace trapwright::native {
 
@@ -77,6 +78,7 @@ TrialLanes::TrialLanes(const LaneModel& model, int capacity)
     : phase(padToVectors(capacity)),
       cycle(padToVectors(capacity)),
       track(capacity),
+      law(capacity),
       warmStarts(capacity),
       found(capacity),
       plastic(capacity),
@@ -145,6 +147,7 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     set(kStaticFriction, contact.staticFriction);
     set(kKineticFriction, contact.kineticFriction);
     set(kRestitution, contact.restitution);
+    law[lane] = contact;
 
     set(kNextLook, -1.0);
     set(kReach, -1.0);
@@ -169,6 +172,7 @@ void TrialLanes::remove(int lane) {
     phase[lane] = phase[last];
     cycle[lane] = cycle[last];
     track[lane] = track[last];
+    law[lane] = law[last];
     NearPairs& left = pairsOf(last);
     pairsOf(lane).copy(lane % kWidestVector, left, last % kWidestVector);
     left.clear(last % kWidestVector);
@@ -190,6 +194,21 @@ base::Pose TrialLanes::poseInTrack(int lane) const {
                           .toTrack(poseInRoom(lane));
     pose.rotation.normalize();
     return pose;
+}
+
+void roughen(TrialLanes& group, int lane) {
+    const trial::ContactParameters& law = group.law[static_cast<std::size_t>(lane)];
+    if (!(law.roughness > 0.0)) return;
+    const Vec3 centre = group.poseInTrack(lane).position;
+    ContactList& found = group.found[static_cast<std::size_t>(lane)];
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        auto& f = found[i].values;
+        const Vec3 normal = contact::tiltNormal(law, centre + Vec3(f[kArmX], f[kArmY], f[kArmZ]),
+                                                Vec3(f[kNormalX], f[kNormalY], f[kNormalZ]));
+        f[kNormalX] = static_cast<float>(normal.x());
+        f[kNormalY] = static_cast<float>(normal.y());
+        f[kNormalZ] = static_cast<float>(normal.z());
+    }
 }
 
 void reduceContacts(ContactList& found) {

@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/part/part.h"
 #include "core/trial/batch.h"
+#include "core/trial/contact.h"
 #include "core/trial/costs.h"
 #include "sim/contact/impulse_solver.h"
 #include "sim/native/aligned.h"
@@ -236,6 +237,7 @@ class TrialLanes {
     AlignedVector<std::uint32_t> phase,
         cycle;  // of the drive at the step after the next, per step: [turn / 2^32]
     std::vector<const PackedTrack*> track;
+    std::vector<trial::ContactParameters> law;  // of the part with its track
     std::vector<NearPair> collected;
     StagedContacts staged;
     /// Room for the numbers of so many rows.
@@ -265,6 +267,9 @@ class TrialLanes {
     std::vector<NearPairs> pairs_;
     std::vector<int> rows_;
 };
+
+/// Presses the contacts of a lane on a rough track each its grain's way.
+void roughen(TrialLanes& group, int lane);
 
 /// More contacts than this are looked through for those that say the same.
 inline constexpr std::size_t kFew = 3;

@@ -9,6 +9,7 @@
 
 #include "sim/contact/detector.h"
 #include "sim/contact/law.h"
+#include "sim/contact/roughness.h"
 
 namespace trapwright::simbody {
 
@@ -117,6 +118,8 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
                              pose.rotation.angularDistance(lastPose_.rotation) * bodyRadius_;
         lastPose_ = pose;
         detector_.findContacts(pose, moved, kWatch, points_);
+        for (contact::Contact& point : points_)
+            point.normal = contact::tiltNormal(law_, point.point, point.normal);
         return points_;
     }
 

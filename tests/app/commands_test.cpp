@@ -314,6 +314,35 @@ class CommandsTest : public QObject {
         QVERIFY(std::abs(answer["throw_number"].toDouble() - 0.8 / 0.478) < 2e-3);
     }
 
+    // Judged over the box, each trial counts once in each condition; of trials that are all alike nothing is
+    // told.
+    void judgedByCondition() {
+        QVERIFY(QFile::copy(folder_.filePath("study.trap"), folder_.filePath("sliced.trap")));
+        const auto sumOf = [](const QJsonValue& condition) {
+            int trials = 0;
+            for (const QJsonValue slice : condition["slices"].toArray())
+                trials += slice["trials"].toInt();
+            return trials;
+        };
+        const Ran validated = ask({"validate", "sliced.trap", "--trials", "8", "--conditions", "varied",
+                                   "--engine", "native", "--json"});
+        QVERIFY2(validated.code == 0, validated.all());
+        const QJsonArray conditions = validated.json()["conditions"].toArray();
+        QCOMPARE(conditions.size(), 4);
+        for (const QJsonValue condition : conditions)
+            QCOMPARE(sumOf(condition), 8 * 6);
+        QCOMPARE(conditions[0]["condition"].toString(), QString("friction"));
+        const Ran selected = ask({"select", "sliced.trap", "--trials", "8", "--winners", "2", "--conditions",
+                                  "varied", "--engine", "native", "--json"});
+        QCOMPARE(sumOf(selected.json()["conditions"][0]), 8);
+        const Ran text =
+            ask({"validate", "sliced.trap", "--trials", "8", "--conditions", "varied", "--engine", "native"});
+        QVERIFY2(text.output.contains("By condition"), text.all());
+        QVERIFY(!ask({"validate", "sliced.trap", "--trials", "1", "--engine", "native", "--json"})
+                     .json()
+                     .contains("conditions"));
+    }
+
     void robustness() {
         const QStringList few = {"--trials", "10", "--box-trials", "16",     "--points", "3",
                                  "--map",    "2",  "--engine",     "native", "--json"};

@@ -40,7 +40,7 @@ QString fromText(std::string_view text) {
 /// "Half-stroke [mm]".
 QString titleOf(Condition condition) {
     const trial::ConditionText& text = textOf(condition);
-    const QString unit = text.condition == Condition::angle ? QStringLiteral("°") : fromText(text.unit);
+    const QString unit = text.unit == "deg" ? QStringLiteral("°") : fromText(text.unit);
     return unit.isEmpty() ? fromText(text.name) : QStringLiteral("%1 [%2]").arg(fromText(text.name), unit);
 }
 

@@ -2,6 +2,7 @@
 
 #include <QFont>
 #include <QPixmap>
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -41,6 +42,10 @@ QString nameOf(const Row& row) {
             return ValidationModel::tr("All alike");
         case Row::Kind::pose:
             return QStringLiteral("    ") + poseNumbers(row.poses);
+        case Row::Kind::condition:
+            return row.name;
+        case Row::Kind::slice:
+            return QStringLiteral("    ") + row.name;
         case Row::Kind::group:
             break;
     }
@@ -60,6 +65,13 @@ QString helpOf(const Row& row) {
         case Row::Kind::total:
             return ValidationModel::tr(
                 "All trials alike, however often parts land so. Bounds: Clopper and Pearson.");
+        case Row::Kind::condition:
+            return ValidationModel::tr(
+                "The quarter of this condition's range in which most fails, all others varying; opens to all "
+                "four.");
+        case Row::Kind::slice:
+            return ValidationModel::tr(
+                "The trials in this quarter of the range, all other conditions varying.");
         case Row::Kind::pose:
             return {};
         case Row::Kind::group:
@@ -68,6 +80,10 @@ QString helpOf(const Row& row) {
     return row.opens ? ValidationModel::tr("%n poses that look the same: the part is symmetric", nullptr,
                                            static_cast<int>(row.poses.size()))
                      : QString();
+}
+
+bool isOfCondition(const Row& row) {
+    return row.kind == Row::Kind::condition || row.kind == Row::Kind::slice;
 }
 
 /// Of totals that are weighted no trials are counted.
@@ -113,7 +129,8 @@ std::vector<Column<ValidationTableRow>> ValidationModel::makeColumns() {
     using trial::Tally;
     return {
         {tr("Pose"),
-         tr("Stable poses near which the parts began, counted from 1; those that look the same are one row."),
+         tr("Stable poses near which the parts began, counted from 1; those that look the same are one row. "
+            "Below them the same trials by the conditions that they varied over."),
          [](const Row& r) { return QVariant(nameOf(r).trimmed()); }, &nameOf},
         {tr("Share [%]"), tr("How often parts land in this pose."),
          [](const Row& r) { return percentValue(r.weight); },
@@ -155,6 +172,8 @@ void ValidationModel::refill() {
         for (const study::ValidationRow& one : group.rows)
             rows.push_back(makeRow(Row::Kind::pose, {one.pose}, one));
     }
+    addConditions(rows);
+    anyOpens_ = anyOpens_ || !conditions_.empty();
     totals_ = 1;
     const auto addWeighted = [&](Row::Kind kind, const stats::WeightedRate& weighted) {
         if (!weighted.rate) return;
@@ -169,24 +188,66 @@ void ValidationModel::refill() {
     reset(std::move(rows));
 }
 
+void ValidationModel::addConditions(std::vector<Row>& rows) const {
+    const auto makeSlice = [](Row::Kind kind, const QString& name, const study::ConditionSlice& slice) {
+        Row row = makeRow(kind, {}, {-1, slice.tally});
+        row.name = name;
+        return row;
+    };
+    for (const study::SlicedCondition& sliced : conditions_) {
+        const auto rateOf = [](const study::ConditionSlice& slice) {
+            return slice.tally.success / std::max(1.0, static_cast<double>(slice.tally.trials()));
+        };
+        const study::ConditionSlice& worst = *std::ranges::min_element(sliced.slices, {}, rateOf);
+        const auto nameOf = [&](const study::ConditionSlice& slice) {
+            QString name = QString::fromStdString(study::describeRange(sliced.condition, slice));
+            return name.replace(" ... ", " … ");
+        };
+        const std::string_view title =
+            trial::conditionTexts()[static_cast<std::size_t>(sliced.condition)].name;
+        const QString name = QString::fromUtf8(title.data(), static_cast<qsizetype>(title.size()));
+        const bool open = openConditions_.contains(name);
+        Row& row = rows.emplace_back(makeSlice(Row::Kind::condition, name, worst));
+        row.opens = true;
+        row.open = open;
+        if (!open) continue;
+        for (const study::ConditionSlice& slice : sliced.slices)
+            rows.push_back(makeSlice(Row::Kind::slice, nameOf(slice), slice));
+    }
+}
+
+void ValidationModel::setConditions(std::vector<study::SlicedCondition> conditions) {
+    conditions_ = std::move(conditions);
+    if (!table_.groups.empty()) refill();
+}
+
 void ValidationModel::toggle(int row) {
     if (row < 0 || row >= rowCount() || !rows()[static_cast<std::size_t>(row)].opens) return;
-    const std::vector<int> poses = rows()[static_cast<std::size_t>(row)].poses;
+    const Row& chosen = rows()[static_cast<std::size_t>(row)];
+    if (chosen.kind == Row::Kind::condition) {
+        const QString name = chosen.name;
+        if (openConditions_.erase(name) == 0) openConditions_.insert(name);
+        return refill();
+    }
+    const std::vector<int> poses = chosen.poses;
     if (open_.erase(poses) == 0) open_.insert(poses);
     refill();
 }
 
 void ValidationModel::clear() {
     table_ = {};
+    conditions_.clear();
     totals_ = 0;
     reset({});
 }
 
 QVariant ValidationModel::more(const ValidationTableRow& row, int column, int role) const {
-    const bool total = row.poses.empty();
+    const bool total = row.poses.empty() && !isOfCondition(row);
     switch (role) {
         case VerdictRole:
             return isWeighted(row) ? -1 : verdictOf(column);
+        case PlainRole:
+            return isOfCondition(row);
         case Qt::ToolTipRole:
             return column == Pose ? helpOf(row) : QString();
         case Qt::DecorationRole:

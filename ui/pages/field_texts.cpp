@@ -97,6 +97,9 @@ const RawText kTexts[] = {
     {"box.sizeBelow_mm", TEXT("Part smaller by"), TEXT("How much less each extent of a part may be than drawn.")},
     {"box.sizeAbove_mm", TEXT("Part larger by"), TEXT("How much more each extent of a part may be than drawn.")},
     {"box.centre_mm", TEXT("Centre of mass ±"), TEXT("How far a part's centre of mass may be off in each direction.")},
+    {"box.startOffset_mm", TEXT("Start offset ±"), TEXT("How far to the sides the middle of where parts start may be off the track's, beside what Start offset says of each part.")},
+    {"box.startSpeed_mm_s", TEXT("Start speed to"), TEXT("How fast along the track parts may come onto it; they start at rest else.")},
+    {"box.roughness_deg", TEXT("Roughness to"), TEXT("How far the surface may lean from what is drawn, in grains of 0.4 mm, as the lines of a print do: each presses in a direction of its own. 0: smooth.")},
     {"box.distribution", TEXT("Spread"), TEXT("How conditions are drawn: all of the range alike, or most in its middle, with twice the standard deviation at its ends."), {TEXT("Even"), TEXT("Normal, cut off")}},
 
     {"target.poses", TEXT("Wanted poses"), TEXT("The stable poses in which parts shall leave the track, by their numbers on the Part page, as in 3, 5-6; each is as good as the others, alike ones are one. Empty: any one way will do, as in the paper.")},
@@ -204,8 +207,8 @@ std::vector<Choice> engineChoices(const trial::EngineRegistry& engines) {
 
 QString unitOf(std::string_view key) {
     static const std::pair<std::string_view, const char*> kUnits[] = {
-        {"_kg_m3", "kg/m³"}, {"_m_s2", "m/s²"}, {"_mm", "mm"}, {"_deg", "°"},
-        {"_Hz", "Hz"},       {"_ms", "ms"},     {"_s", "s"},   {"_percent", "%"}};
+        {"_kg_m3", "kg/m³"}, {"_m_s2", "m/s²"}, {"_mm_s", "mm/s"}, {"_mm", "mm"},    {"_deg", "°"},
+        {"_Hz", "Hz"},       {"_ms", "ms"},     {"_s", "s"},       {"_percent", "%"}};
     for (const auto& [ending, unit] : kUnits)
         if (key.ends_with(ending)) return QString::fromUtf8(unit);
     return {};
@@ -236,7 +239,8 @@ std::vector<FieldGroup> trackGroups() {
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Operating box")),
          {"evolution.conditions", "validation.conditions", "box.friction", "box.restitution",
           "box.halfStroke_percent", "box.frequency_percent", "box.angle_deg", "box.sizeBelow_mm",
-          "box.sizeAbove_mm", "box.centre_mm", "box.distribution"}},
+          "box.sizeAbove_mm", "box.centre_mm", "box.startOffset_mm", "box.startSpeed_mm_s",
+          "box.roughness_deg", "box.distribution"}},
         {"learning",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
          {"evolution.search", "evolution.objectives", "evolution.generations", "evolution.populationSize",

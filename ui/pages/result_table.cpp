@@ -25,7 +25,8 @@ namespace trapwright::pages {
 namespace {
 
 bool isLink(const QModelIndex& index, const QSet<int>& columns) {
-    return columns.contains(index.column()) && index.data(models::ValueRole).toInt() > 0;
+    return columns.contains(index.column()) && index.data(models::ValueRole).toInt() > 0 &&
+           !index.data(models::PlainRole).toBool();
 }
 
 class LinkDelegate : public QStyledItemDelegate {

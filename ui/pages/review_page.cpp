@@ -117,6 +117,8 @@ QWidget* ReviewPage::sceneBar() {
 void ReviewPage::setSession(StudySession* session) {
     if (session_) session_->leave(this);
     session_ = session;
+    replays_ = session != nullptr ? &session->replays() : nullptr;
+    sliced_ = -1;
     review_.setReplays(session != nullptr ? &session->replays() : nullptr);
     judging_->setRuns(session != nullptr ? &session->runs() : nullptr);
     choice_->setRuns(session != nullptr ? &session->runs() : nullptr);
@@ -143,6 +145,14 @@ void ReviewPage::setSession(StudySession* session) {
         review_.refreshSources();
         emit panelWanted("validation");
     });
+    connect(&session_->replays(), &session::StudyReplays::sliced, this,
+            [this](const workflow::TrialsRequest& request,
+                   const std::vector<study::SlicedCondition>& conditions) {
+                const bool shown = choice_->winner() && isSameIndividual(*choice_->winner(), request.winner);
+                if (!shown || sliced_ < 0) return;
+                validation_.setConditions(conditions);
+                shownValidation_->setPinned(validation_.totals());
+            });
     connect(&session_->runs(), &StudyRuns::robustnessMeasured, this, [this] {
         showRobustness();
         emit panelWanted("robustness");
@@ -211,11 +221,18 @@ void ReviewPage::showValidation() {
         winner ? tr("This track was not validated yet. Validate it to see how often it fails.")
                : tr("Learn a track first: then it can be validated."));
     const study::ValidationRecord* found = nullptr;
+    int number = -1;
     if (session_ && winner) {
-        for (const study::ValidationRecord& record : session_->runs().validations())
-            if (isSameIndividual(record, *winner)) found = &record;
+        const std::vector<study::ValidationRecord>& all = session_->runs().validations();
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (!isSameIndividual(all[i], *winner)) continue;
+            found = &all[i];
+            number = static_cast<int>(i);
+        }
     }
+    if (number != sliced_) validation_.setConditions({});
     if (found == nullptr) {
+        sliced_ = -1;
         shownValidation_->setHead({});
         return validation_.clear();
     }
@@ -226,12 +243,22 @@ void ReviewPage::showValidation() {
     const study::ValidationTable table = study::tabulate(
         *found, study::weighPoseGroups(*session_->design().part(), session_->design().settings()));
     validation_.setValidation(table);
+    if (number != sliced_) askForSlices(*found, number);
     shownValidation_->setPinned(validation_.totals());
+}
+
+void ReviewPage::askForSlices(const study::ValidationRecord& record, int number) {
+    sliced_ = number;
+    if (!record.box) return;
+    workflow::TrialsRequest request{workflow::TrialKind::validation, *choice_->winner(), {}};
+    for (const study::ValidationRow& row : record.rows)
+        request.poses.push_back(row.pose);
+    replays_->requestSlices(request);
 }
 
 void ReviewPage::goToFailures(const QModelIndex& cell) {
     if (cell.column() == ValidationModel::Pose) return validation_.toggle(cell.row());
-    if (cell.data(models::ValueRole).toInt() == 0) return;
+    if (cell.data(models::ValueRole).toInt() == 0 || cell.data(models::PlainRole).toBool()) return;
     std::set<trial::Verdict> verdicts;
     if (cell.data(models::VerdictRole).toInt() >= 0) {
         verdicts = {static_cast<trial::Verdict>(cell.data(models::VerdictRole).toInt())};

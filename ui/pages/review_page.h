@@ -41,12 +41,15 @@ class ReviewPage : public Page {
     void showSelection();
     void showValidation();
     void showRobustness();
+    void askForSlices(const study::ValidationRecord& record, int number);
     void goToFailures(const QModelIndex& cell);
 
     QPointer<const session::StudySession> session_;
+    QPointer<session::StudyReplays> replays_;  // of the session
     TrialReview review_;
     models::SelectionModel selection_;
     models::ValidationModel validation_;
+    int sliced_ = -1;  // the validation whose trials were asked for by their conditions
     TrackChoice* choice_;
     JudgingCard* judging_;
     ReplayFiles* files_;

@@ -107,6 +107,30 @@ void StudyReplays::requestTrials(const workflow::TrialsRequest& request) {
               });
 }
 
+void StudyReplays::requestSlices(const workflow::TrialsRequest& request) {
+    const QString what = tr("The trials could not be told by their conditions");
+    if (!state_->reader) {
+        state_->fail(what, QString::fromStdString(state_->cannotRead().message));
+        return;
+    }
+    auto stored =
+        workflow::findStoredTrials(*state_->reader, state_->settings, state_->environment.engines, request);
+    if (!stored) {
+        state_->fail(what, QString::fromStdString(stored.error().message));
+        return;
+    }
+    // Whoever goes on to other trials still wants these.
+    state_->postSimulation(what, base::RunControl(),
+                           [this, request, stored = std::move(*stored), settings = state_->settings,
+                            part = state_->part.part]() -> Deliver {
+                               auto conditions = workflow::sliceTrials(settings, part, request, stored);
+                               if (!conditions) return conditions.error();
+                               return std::function([this, request, conditions = std::move(*conditions)] {
+                                   emit sliced(request, conditions);
+                               });
+                           });
+}
+
 StudyReplays::Deliver StudyReplays::listStored(const Simulation& simulation, ListedTrials trials) {
     trials.outcomes = simulation.kept->outcomes;
     trials.maker = simulation.kept->maker;

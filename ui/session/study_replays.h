@@ -39,6 +39,8 @@ class StudyReplays : public QObject {
     /// The trials as the study holds them; if it does not, they are simulated again. Ends with trialsListed()
     /// or failed(); until then trialsArrived() tells the first ones. A replay need not wait for the last one.
     void requestTrials(const workflow::TrialsRequest& request);
+    /// These trials by the conditions that they varied over. Ends with sliced() or failed().
+    void requestSlices(const workflow::TrialsRequest& request);
     /// Simulates one of these trials again: its poses every `interval` seconds. Ends with replayed() or
     /// failed().
     void replay(const workflow::TrialsRequest& request, int trial, double interval);
@@ -49,6 +51,9 @@ class StudyReplays : public QObject {
     /// The first trials of those that are being simulated, and what they count as by what is known so far.
     void trialsArrived(const trapwright::session::ListedTrials& trials);
     void trialsListed(const trapwright::session::ListedTrials& trials);
+    /// No conditions: all trials were alike, or the study does not hold how they ended.
+    void sliced(const trapwright::workflow::TrialsRequest& request,
+                const std::vector<trapwright::study::SlicedCondition>& conditions);
     /// `difference`: the trial is stored, and ended otherwise.
     void replayed(const trapwright::workflow::TrialsRequest& request, int trial,
                   const std::shared_ptr<const trapwright::trial::Trajectory>& trajectory,

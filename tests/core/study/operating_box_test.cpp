@@ -7,6 +7,7 @@
 #include "core/part/specimen.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
+#include "core/trial/start.h"
 #include "tests/core/study/fake_engine.h"
 
 using namespace trapwright;
@@ -124,6 +125,9 @@ class OperatingBoxTest : public QObject {
         QTest::newRow("half-stroke") << int(Condition::halfStroke) << 0.704e-3 << 0.896e-3;
         QTest::newRow("frequency") << int(Condition::frequency) << 50.0 << 50.0;
         QTest::newRow("part") << int(Condition::part) << -0.1e-3 << 0.1e-3;
+        QTest::newRow("start offset") << int(Condition::startOffset) << -3e-3 << 3e-3;
+        QTest::newRow("start speed") << int(Condition::startSpeed) << 0.0 << 0.2;
+        QTest::newRow("roughness") << int(Condition::roughness) << 0.0 << 0.1;
     }
     void conditionsStayPhysical() {
         QFETCH(const int, condition);
@@ -132,7 +136,11 @@ class OperatingBoxTest : public QObject {
         study::SimulationSettings simulation;
         simulation.contact.restitution = 0.1;
         const auto at = [&](double share) {
-            return study::conditionAt(simulation, {}, static_cast<Condition>(condition), share);
+            trial::OperatingBox box;
+            box.startOffset = 3e-3;
+            box.startSpeed = 0.2;
+            box.roughness = 0.1;
+            return study::conditionAt(simulation, box, static_cast<Condition>(condition), share);
         };
         QVERIFY(std::abs(at(0.0) - low) < 1e-12);
         QVERIFY(std::abs(at(1.0) - high) < 1e-12);
@@ -142,8 +150,12 @@ class OperatingBoxTest : public QObject {
     void aTrialGetsWhatItsPlaceIs() {
         study::SimulationSettings simulation;
         simulation.contact = {0.6, 0.5, 0.2};
-        trial::TrialSpec spec;
-        study::putAt(simulation, {}, {0.0, 1.0, 0.25, 0.9, 0.9, 0.5}, spec);
+        const study::StudyInputs inputs = fake::waveInputs();
+        const search::Design design(study::designSpace(inputs.settings.track).dimensions.size(), 0.5);
+        const track::Track track = study::decodeTrack(inputs.settings.track, design).value();
+        const trial::TrialSpec drawn = trial::drawTrial(track, *inputs.part, simulation.start, {5, 0, 0, 3});
+        trial::TrialSpec spec = drawn;
+        study::putAt(simulation, {}, {0.0, 1.0, 0.25, 0.9, 0.9, 0.5, 0.9, 0.9, 0.9}, track, spec);
         QVERIFY(std::abs(spec.contact->kineticFriction - 0.3) < 1e-12);
         QVERIFY(std::abs(spec.contact->staticFriction - 0.4) < 1e-12);  // as much more as it is known to be
         QVERIFY(std::abs(spec.contact->restitution - 0.4) < 1e-12);
@@ -151,6 +163,37 @@ class OperatingBoxTest : public QObject {
         // Known: bit for bit.
         QCOMPARE(spec.drive->frequency, simulation.drive.frequency);
         QCOMPARE(spec.drive->angle, simulation.drive.angle);
+        QCOMPARE(spec.parts.front().pose.position, drawn.parts.front().pose.position);
+        QCOMPARE(spec.parts.front().velocity, base::Vec3(base::Vec3::Zero()));
+        QCOMPARE(spec.contact->roughness, 0.0);
+    }
+
+    // Beside the middle and on its way in the track's own directions, on a surface of its own.
+    void aTrialStartsAsItsPlaceSays() {
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.track.shape.type = track::FeederType::bowl;
+        trial::OperatingBox box;
+        box.startOffset = 3e-3;
+        box.startSpeed = 0.2;
+        box.roughness = 0.1;
+        const search::Design design(study::designSpace(inputs.settings.track).dimensions.size(), 0.5);
+        const track::Track track = study::decodeTrack(inputs.settings.track, design).value();
+        const study::SimulationSettings& simulation = inputs.settings.simulation;
+        const auto putAt = [&](std::uint32_t trial) {
+            trial::TrialSpec spec = trial::drawTrial(track, *inputs.part, simulation.start, {5, 0, 0, trial});
+            study::putAt(simulation, box, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 1.0, 0.25, 0.5}, track, spec);
+            return spec;
+        };
+        const trial::PartStart drawn =
+            trial::drawTrial(track, *inputs.part, simulation.start, {5, 0, 0, 3}).parts.front();
+        const trial::TrialSpec spec = putAt(3);
+        const base::Mat3 axes = track.shape.tangentFrame(track.start);
+        const base::Vec3 moved = axes.transpose() * (spec.parts.front().pose.position - drawn.pose.position);
+        QVERIFY((moved - base::Vec3(0.0, 3e-3, 0.0)).norm() < 1e-12);
+        QVERIFY((axes.transpose() * spec.parts.front().velocity - base::Vec3(0.05, 0.0, 0.0)).norm() < 1e-12);
+        QVERIFY(std::abs(spec.contact->roughness - 0.05) < 1e-12);
+        QVERIFY(spec.contact->surface != putAt(4).contact->surface);
+        QCOMPARE(spec.contact->surface, putAt(3).contact->surface);
     }
 
     void specimensStandForTheRange() {

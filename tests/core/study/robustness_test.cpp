@@ -85,6 +85,32 @@ class RobustnessTest : public QObject {
             text.c_str());
     }
 
+    // Each trial counts once in each condition that varies, in the quarter that it lies in.
+    void trialsAreSlicedByCondition() {
+        const study::Settings settings = cornerInputs().settings;
+        std::vector<trial::BoxPlace> places(8, trial::kMiddle);
+        std::vector<trial::Verdict> verdicts(8, trial::Verdict::success);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i][static_cast<std::size_t>(Condition::friction)] =
+                i < 7 ? 0.125 * static_cast<double>(i) : 1.0;
+        verdicts[6] = trial::Verdict::stuck;
+        const auto conditions = study::sliceByCondition(settings.simulation, settings.box, places, verdicts);
+        QCOMPARE(conditions.size(), std::size_t{3});
+        QVERIFY(conditions[0].condition == Condition::friction);
+        const auto& slices = conditions[0].slices;
+        QCOMPARE(slices.size(), std::size_t{4});
+        for (const study::ConditionSlice& slice : slices)
+            QCOMPARE(slice.tally.trials(), 2);
+        QCOMPARE(slices[3].tally.stuck, 1);
+        QVERIFY(std::abs(slices[3].low - 0.6) < 1e-12 && std::abs(slices[3].high - 0.7) < 1e-12);
+        QCOMPARE(conditions[1].slices[2].tally.trials(), 8);
+        QCOMPARE(study::describeRange(Condition::halfStroke, conditions[2].slices[0]),
+                 std::string("0.704 ... 0.752 mm"));
+        const std::string text = study::formatSlices(conditions);
+        QVERIFY2(text.find("0.60 ... 0.70") != std::string::npos, text.c_str());
+        QVERIFY(study::formatSlices({}).empty());
+    }
+
     void sizesAreTried() {
         study::StudyInputs inputs = cornerInputs();
         inputs.settings.box = {trial::BoxDistribution::uniform, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1e-3, 0.1e-3, 0.0};

@@ -76,7 +76,10 @@ Settings unusualSettings() {
              1.3 * base::kDegree,
              0.7e-4,
              0.13e-3,
-             1e-4 / 3.0};
+             1e-4 / 3.0,
+             1.5e-3,
+             0.05,
+             5.0 * base::kDegree};
     s.target = {"3, 5-6", "12.5", base::Quaternion(0.1 + 0.2, 0.5, -1.0 / 3.0, 0.5)};
     s.validation = {30, 2000, 500, 24.9 * base::kDegree, study::TrialConditions::varied};
     s.feeder = {1.0 / 7.0, 2.5};

@@ -120,7 +120,7 @@ trial::TrialBatch makeBatch() {
     Numbers next;
     trial::TrialBatch batch;
     batch.drive = {next(), next(), next()};
-    batch.contact = {next(), next(), next()};
+    batch.contact = {next(), next(), next(), next(), 0x123456789ABCDEFU};
     batch.partsContact = {next(), next(), next()};
     batch.termination = {next(), next(), next()};
     batch.gravity = next();
@@ -131,7 +131,7 @@ trial::TrialBatch makeBatch() {
         spec.phase = next();
         for (std::uint32_t k = 0; k < i; ++k)
             spec.parts.push_back({4 + k, next.pose(), next.vector(), next.vector(), next()});
-        if (i > 0) spec.contact = {next(), next(), next()};
+        if (i > 0) spec.contact = {next(), next(), next(), next(), 77};
         if (i > 1) spec.drive = {next(), next(), next()};
         if (i > 1) spec.place = {next(), next(), next(), next(), next(), next()};
         batch.trials.push_back(spec);
@@ -234,7 +234,7 @@ bool same(const trial::PartStart& a, const trial::PartStart& b) {
 
 bool same(const trial::ContactParameters& a, const trial::ContactParameters& b) {
     return same(a.staticFriction, b.staticFriction) && same(a.kineticFriction, b.kineticFriction) &&
-           same(a.restitution, b.restitution);
+           same(a.restitution, b.restitution) && same(a.roughness, b.roughness) && a.surface == b.surface;
 }
 
 bool same(const trial::Vibration& a, const trial::Vibration& b) {
@@ -395,8 +395,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 516, and this program "
-                         "knows version 4; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 517, and this program "
+                         "knows version 5; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

@@ -230,6 +230,35 @@ class RecordModelsTest : public QObject {
     }
 
     // The cuboid's opposite faces look the same.
+    // A condition shows its worst quarter, and opens to all four; its numbers are no links, and totals stay
+    // last.
+    void validationsTellConditions() {
+        ValidationModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setConditions({{trial::Condition::halfStroke,
+                              {{0.7e-3, 0.75e-3, {99, 1, 0, 0}},
+                               {0.75e-3, 0.8e-3, {100, 0, 0, 0}},
+                               {0.8e-3, 0.85e-3, {90, 4, 6, 0}},
+                               {0.85e-3, 0.9e-3, {95, 5, 0, 0}}}}});
+        QCOMPARE(model.rowCount(), 0);  // of what?
+        model.setValidation(paperTable());
+        QCOMPARE(model.rowCount(), 8);
+        QCOMPARE(textAt(model, 6, ValidationModel::Pose), QString("Half-stroke"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Success), QString("90.0"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Stuck), QString("6"));
+        QVERIFY(model.index(6, ValidationModel::Stuck).data(models::PlainRole).toBool());
+        QVERIFY(!model.index(5, ValidationModel::Stuck).data(models::PlainRole).toBool());
+        model.toggle(6);
+        QCOMPARE(model.rowCount(), 12);
+        QCOMPARE(textAt(model, 7, ValidationModel::Pose).trimmed(), QString("0.700 … 0.750 mm"));
+        QCOMPARE(textAt(model, 10, ValidationModel::Success), QString("95.0"));
+        QCOMPARE(textAt(model, 11, ValidationModel::Pose), QString("All alike"));
+        QVERIFY(!model.index(7, 0).data(Qt::FontRole).value<QFont>().bold());
+        model.toggle(6);
+        model.setConditions({});
+        QCOMPARE(model.rowCount(), 7);
+    }
+
     void alikePosesAreOneRowThatOpens() {
         ValidationModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
