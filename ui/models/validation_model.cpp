@@ -43,9 +43,9 @@ QString nameOf(const Row& row) {
         case Row::Kind::pose:
             return QStringLiteral("    ") + poseNumbers(row.poses);
         case Row::Kind::condition:
-            return row.name;
+            return QString("%1 %2").arg(row.condition, row.range);
         case Row::Kind::slice:
-            return QStringLiteral("    ") + row.name;
+            return QStringLiteral("    ") + row.range;
         case Row::Kind::group:
             break;
     }
@@ -189,30 +189,28 @@ void ValidationModel::refill() {
 }
 
 void ValidationModel::addConditions(std::vector<Row>& rows) const {
-    const auto makeSlice = [](Row::Kind kind, const QString& name, const study::ConditionSlice& slice) {
-        Row row = makeRow(kind, {}, {-1, slice.tally});
-        row.name = name;
-        return row;
-    };
     for (const study::SlicedCondition& sliced : conditions_) {
-        const auto rateOf = [](const study::ConditionSlice& slice) {
-            return slice.tally.success / std::max(1.0, static_cast<double>(slice.tally.trials()));
-        };
-        const study::ConditionSlice& worst = *std::ranges::min_element(sliced.slices, {}, rateOf);
-        const auto nameOf = [&](const study::ConditionSlice& slice) {
-            QString name = QString::fromStdString(study::describeRange(sliced.condition, slice));
-            return name.replace(" ... ", " … ");
-        };
         const std::string_view title =
             trial::conditionTexts()[static_cast<std::size_t>(sliced.condition)].name;
         const QString name = QString::fromUtf8(title.data(), static_cast<qsizetype>(title.size()));
+        const auto makeSlice = [&](Row::Kind kind, const study::ConditionSlice& slice) {
+            Row row = makeRow(kind, {}, {-1, slice.tally});
+            row.condition = name;
+            row.range = QString::fromStdString(study::describeRange(sliced.condition, slice));
+            row.range.replace(" ... ", "…");
+            return row;
+        };
+        const auto rateOf = [](const study::ConditionSlice& slice) {
+            return slice.tally.success / std::max(1.0, static_cast<double>(slice.tally.trials()));
+        };
         const bool open = openConditions_.contains(name);
-        Row& row = rows.emplace_back(makeSlice(Row::Kind::condition, name, worst));
+        Row& row = rows.emplace_back(
+            makeSlice(Row::Kind::condition, *std::ranges::min_element(sliced.slices, {}, rateOf)));
         row.opens = true;
         row.open = open;
         if (!open) continue;
         for (const study::ConditionSlice& slice : sliced.slices)
-            rows.push_back(makeSlice(Row::Kind::slice, nameOf(slice), slice));
+            rows.push_back(makeSlice(Row::Kind::slice, slice));
     }
 }
 
@@ -225,7 +223,7 @@ void ValidationModel::toggle(int row) {
     if (row < 0 || row >= rowCount() || !rows()[static_cast<std::size_t>(row)].opens) return;
     const Row& chosen = rows()[static_cast<std::size_t>(row)];
     if (chosen.kind == Row::Kind::condition) {
-        const QString name = chosen.name;
+        const QString name = chosen.condition;
         if (openConditions_.erase(name) == 0) openConditions_.insert(name);
         return refill();
     }

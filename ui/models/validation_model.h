@@ -14,7 +14,8 @@ struct ValidationTableRow {
 
     Kind kind = Kind::group;
     std::vector<int> poses;        // of the row; none: a total, or of a condition
-    QString name = {};             // of a condition or a slice of its range
+    QString condition = {};        // its name, of a row of it
+    QString range = {};            // of it
     std::optional<double> weight;  // how often parts land so
     study::ValidationRow row;
     std::optional<double> rate;  // of success

@@ -236,10 +236,15 @@ void ReviewPage::showValidation() {
         shownValidation_->setHead({});
         return validation_.clear();
     }
+    const QString what =
+        found->box
+            ? tr("Simulated by %1 over the operating box, success within %2°. Choose a number of failures to "
+                 "see them. Alike poses open to each of them, a condition's worst quarter to all four.")
+            : tr("Simulated by %1, success within %2°. Choose a number of failures to see them; a row of "
+                 "several "
+                 "poses that look the same opens to each of them.");
     shownValidation_->setHead(
-        tr("Simulated by %1, success within %2°. Choose a number of failures to see them; a row of several "
-           "poses that look the same opens to each of them.")
-            .arg(fromText(found->engine), look::numberText(found->tolerance / base::kDegree)));
+        what.arg(fromText(found->engine), look::numberText(found->tolerance / base::kDegree)));
     const study::ValidationTable table = study::tabulate(
         *found, study::weighPoseGroups(*session_->design().part(), session_->design().settings()));
     validation_.setValidation(table);

@@ -243,14 +243,14 @@ class RecordModelsTest : public QObject {
         QCOMPARE(model.rowCount(), 0);  // of what?
         model.setValidation(paperTable());
         QCOMPARE(model.rowCount(), 8);
-        QCOMPARE(textAt(model, 6, ValidationModel::Pose), QString("Half-stroke"));
+        QCOMPARE(textAt(model, 6, ValidationModel::Pose), QString("Half-stroke 0.800…0.850 mm"));
         QCOMPARE(textAt(model, 6, ValidationModel::Success), QString("90.0"));
         QCOMPARE(textAt(model, 6, ValidationModel::Stuck), QString("6"));
         QVERIFY(model.index(6, ValidationModel::Stuck).data(models::PlainRole).toBool());
         QVERIFY(!model.index(5, ValidationModel::Stuck).data(models::PlainRole).toBool());
         model.toggle(6);
         QCOMPARE(model.rowCount(), 12);
-        QCOMPARE(textAt(model, 7, ValidationModel::Pose).trimmed(), QString("0.700 … 0.750 mm"));
+        QCOMPARE(textAt(model, 7, ValidationModel::Pose).trimmed(), QString("0.700…0.750 mm"));
         QCOMPARE(textAt(model, 10, ValidationModel::Success), QString("95.0"));
         QCOMPARE(textAt(model, 11, ValidationModel::Pose), QString("All alike"));
         QVERIFY(!model.index(7, 0).data(Qt::FontRole).value<QFont>().bold());
