@@ -39,14 +39,17 @@ struct Options {
     std::optional<double> roughness;    // [deg]
     std::optional<std::string> engine;
     unsigned threads = 0;
+    bool save = false;
 };
 
 /// A track, and what it is measured with.
 struct Subject {
     study::StudyInputs inputs;
     std::shared_ptr<const track::Track> track;
-    std::optional<trial::Goal> goal;  // of a track that tells it
-    std::string name;                 // for people
+    std::optional<trial::Goal> goal;       // of a track that tells it
+    std::string name;                      // for people
+    std::optional<store::StudyFile> file;  // the study that it is of
+    study::IndividualId individual;        // of that
     Json json;
 };
 
@@ -134,11 +137,13 @@ Attempt<Subject> loadTrackSubject(const Options& options, const Console& console
                    loaded->track,
                    loaded->expected ? std::optional(trial::makeGoal(*loaded->expected)) : std::nullopt,
                    name,
+                   std::nullopt,
+                   {},
                    std::move(json)};
 }
 
 Attempt<Subject> loadStudySubject(const Options& options) {
-    auto study = openStudy(options.track.file, Access::read);
+    auto study = openStudy(options.track.file, options.save ? Access::write : Access::read);
     if (!study) return study.error();
     auto individual = findIndividual(study->file, options.choice);
     if (!individual) return individual.error();
@@ -151,15 +156,19 @@ Attempt<Subject> loadStudySubject(const Options& options) {
     Json json = {{"study", options.track.file},
                  {"generation", individual->generation},
                  {"individual", individual->individual}};
-    return Subject{std::move(*inputs), std::make_shared<const track::Track>(std::move(*built)), std::nullopt,
-                   name, std::move(json)};
+    return Subject{
+        std::move(*inputs),     std::make_shared<const track::Track>(std::move(*built)), std::nullopt,   name,
+        std::move(study->file), {individual->generation, individual->individual},        std::move(json)};
 }
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (const auto checked = options.plan.check(); !checked)
         return Failure{ExitCode::usage, checked.error().message};
-    auto subject =
-        isTrackFile(options.track.file) ? loadTrackSubject(options, console) : loadStudySubject(options);
+    const bool isTrack = isTrackFile(options.track.file);
+    if (isTrack && options.save)
+        return Failure{ExitCode::usage, "--save keeps the result in a study, and " + options.track.file +
+                                            " is a track; --json prints it for a file of your own."};
+    auto subject = isTrack ? loadTrackSubject(options, console) : loadStudySubject(options);
     if (!subject) return subject.error();
     const auto expected = readExpected(options.expected);
     if (!expected) return expected.error();
@@ -176,6 +185,11 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         return study::measureRobustness(inputs, subject->track, subject->goal, options.plan, control);
     }();
     if (!robustness) return describeRunFailure(control, robustness.error());
+    if (options.save) {
+        const auto saved = subject->file->saveRobustness(
+            {subject->individual, inputs.engine->name(), inputs.settings.box, *robustness});
+        if (!saved) return Failure{ExitCode::cannotWrite, saved.error().message};
+    }
     console.print(fmt::format("{}\n{}", subject->name, study::formatRobustness(inputs, *robustness)));
     noteRemadeTrials(inputs, console);
     subject->json["engine"] = inputs.engine->name();
@@ -192,7 +206,7 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
     Command command = addCommand(
         program, invocation, "robustness",
         "Success of one track where the physics is not quite what was set: over the operating box, over each "
-        "condition, in its worst corners, and the map of the worst two conditions. Nothing is stored.",
+        "condition, in its worst corners, and the map of the worst two conditions.",
         "trapwright robustness cuboid.trap --engine native",
         [options](const Console& console) { return run(*options, console); });
     command.addOption("FILE", options->track.file, "A study, or a track as JSON in mm").required();
@@ -218,6 +232,8 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
                    "The orientation that counts as success, w x y z (default: the most frequent final one "
                    "as set)")
         .values(4);
+    command.addFlag("--save", options->save,
+                    "Keep it in the study, for the Review page; replaces what it held");
     command.addOption("--engine", options->engine, "What simulates (default: what the study learns with)");
     command.addOption("--threads", options->threads, "Threads (default: all processors)");
 }

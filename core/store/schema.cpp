@@ -360,7 +360,18 @@ ALTER TABLE selection_entry ADD COLUMN goal TEXT;   -- JSON; NULL: the one orien
 ALTER TABLE validation ADD COLUMN goal TEXT;
 )sql";
 
-constexpr std::array<Migration, 16> kMigrations = {{{1, kVersion1},
+// How robust tracks are.
+constexpr const char* kVersion17 = R"sql(
+CREATE TABLE robustness (           -- of an individual, the newest
+    generation INTEGER NOT NULL, individual INTEGER NOT NULL,
+    program TEXT NOT NULL, engine TEXT NOT NULL,
+    box TEXT NOT NULL,              -- that it was measured in: settings of the operating box as JSON
+    result TEXT NOT NULL,           -- JSON
+    PRIMARY KEY (generation, individual)
+);
+)sql";
+
+constexpr std::array<Migration, 17> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -375,7 +386,8 @@ constexpr std::array<Migration, 16> kMigrations = {{{1, kVersion1},
                                                     {13, kVersion13},
                                                     {14, kVersion14},
                                                     {15, kVersion15},
-                                                    {16, kVersion16}}};
+                                                    {16, kVersion16},
+                                                    {17, kVersion17}}};
 
 }  // namespace
 

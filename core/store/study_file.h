@@ -15,6 +15,7 @@
 #include "core/study/physical_validation.h"
 #include "core/study/pose_drops.h"
 #include "core/study/records.h"
+#include "core/study/robustness.h"
 #include "core/study/settings.h"
 
 namespace trapwright::store {
@@ -119,6 +120,11 @@ class StudyFile {
     base::Status saveValidation(const study::ValidationRecord& record);
     /// All validations, oldest first.
     [[nodiscard]] base::Result<std::vector<study::ValidationRecord>> loadValidations() const;
+
+    /// How robust an individual's track is; replaces what was known of it.
+    base::Status saveRobustness(const study::RobustnessRecord& record);
+    /// Of all individuals, by their numbers.
+    [[nodiscard]] base::Result<std::vector<study::RobustnessRecord>> loadRobustness() const;
 
     /// The trials that an individual was learned by; none if they were not stored, as by programs up to
     /// schema version 9.

@@ -216,4 +216,40 @@ base::Result<std::vector<study::ValidationRecord>> StudyFile::loadValidations() 
                    });
 }
 
+base::Status StudyFile::saveRobustness(const study::RobustnessRecord& record) {
+    return state_->save("The robustness could not be saved", [&]() -> base::Status {
+        SQLite::Database& database = *state_->database;
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        SQLite::Statement row(database, "INSERT OR REPLACE INTO robustness VALUES (?, ?, ?, ?, ?, ?)");
+        SQLite::bind(row, record.generation, record.individual, state_->program, record.engine,
+                     study::boxToJson(record.box), study::robustnessToJson(record.robustness));
+        row.exec();
+        transaction.commit();
+        return base::success();
+    });
+}
+
+base::Result<std::vector<study::RobustnessRecord>> StudyFile::loadRobustness() const {
+    return guarded(path(), "The robustness of the tracks could not be read",
+                   [&]() -> base::Result<std::vector<study::RobustnessRecord>> {
+                       SQLite::Statement rows(*state_->database,
+                                              "SELECT generation, individual, engine, box, result "
+                                              "FROM robustness ORDER BY generation, individual");
+                       std::vector<study::RobustnessRecord> records;
+                       while (rows.executeStep()) {
+                           study::RobustnessRecord record;
+                           record.generation = rows.getColumn(0).getInt();
+                           record.individual = rows.getColumn(1).getInt();
+                           record.engine = rows.getColumn(2).getString();
+                           const auto box = study::boxFromJson(rows.getColumn(3).getString());
+                           auto robustness = study::robustnessFromJson(rows.getColumn(4).getString());
+                           if (!box || !robustness) return damagedValue(path(), "the robustness of a track");
+                           record.box = *box;
+                           record.robustness = std::move(*robustness);
+                           records.push_back(std::move(record));
+                       }
+                       return records;
+                   });
+}
+
 }  // namespace trapwright::store

@@ -69,6 +69,18 @@ struct Robustness {
     std::optional<PairMap> worstPair;  // the two conditions whose common corners are worst; none of fewer
 };
 
+/// The same of an individual of a study.
+struct RobustnessRecord : IndividualId {
+    std::string engine;
+    trial::OperatingBox box;  // that it was measured in
+    Robustness robustness;
+};
+
+/// As studies keep it.
+std::string robustnessToJson(const Robustness& robustness);
+/// An error if it is none.
+base::Result<Robustness> robustnessFromJson(const std::string& text);
+
 trial::TrialBatch makePlaceBatch(const Settings& settings, const std::shared_ptr<const part::Part>& part,
                                  const std::shared_ptr<const track::Track>& track, const PlaceTrials& trials);
 

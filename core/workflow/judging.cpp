@@ -4,6 +4,7 @@
 
 #include "core/study/planning.h"
 #include "core/study/selection.h"
+#include "core/study/track_design.h"
 #include "core/study/validation.h"
 
 namespace trapwright::workflow {
@@ -69,6 +70,24 @@ Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const st
     if (const auto saved = file.saveValidation(*record); !saved) return describeSaving(saved.error());
     record->made = {};
     return std::move(*record);
+}
+
+Result<study::RobustnessRecord> measureAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                               const study::Individual& individual,
+                                               const std::optional<trial::Goal>& goal,
+                                               const study::RobustnessPlan& plan,
+                                               const base::RunControl& control) {
+    auto track = study::decodeTrack(inputs.settings.track, individual.record.design);
+    if (!track) return Failure{FailureKind::settings, track.error().message};
+    auto robustness = study::measureRobustness(
+        inputs, std::make_shared<const track::Track>(std::move(*track)), goal, plan, control);
+    if (!robustness) return describeFailure(control, robustness.error());
+    study::RobustnessRecord record{{individual.generation, individual.individual},
+                                   inputs.engine->name(),
+                                   inputs.settings.box,
+                                   std::move(*robustness)};
+    if (const auto saved = file.saveRobustness(record); !saved) return describeSaving(saved.error());
+    return record;
 }
 
 }  // namespace trapwright::workflow

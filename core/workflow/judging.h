@@ -7,6 +7,7 @@
 #include "core/base/run_control.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
+#include "core/study/robustness.h"
 #include "core/workflow/failure.h"
 
 namespace trapwright::workflow {
@@ -32,5 +33,13 @@ Result<study::ValidationRecord> validateAndSave(store::StudyFile& file, const st
                                                 const study::Individual& individual,
                                                 const std::optional<trial::Goal>& expected,
                                                 const base::RunControl& control);
+
+/// Measures how robust an individual's track is, and saves the result in the file. `goal`: as
+/// study::measureRobustness takes it.
+Result<study::RobustnessRecord> measureAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                               const study::Individual& individual,
+                                               const std::optional<trial::Goal>& goal,
+                                               const study::RobustnessPlan& plan,
+                                               const base::RunControl& control);
 
 }  // namespace trapwright::workflow

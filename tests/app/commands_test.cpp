@@ -3,6 +3,7 @@
 #include <QTest>
 #include <cmath>
 
+#include "core/store/study_file.h"
 #include "tests/app/program.h"
 
 using namespace trapwright::test;
@@ -360,6 +361,16 @@ class CommandsTest : public QObject {
         // The same study and numbers give the same, whatever there was before.
         QCOMPARE(ask(QStringList{"robustness", "study.trap"} + few).output, ran.output);
 
+        QVERIFY(QFile::copy(folder_.filePath("study.trap"), folder_.filePath("robust.trap")));
+        const Ran saved = ask(QStringList{"robustness", "robust.trap", "--save"} + few);
+        QVERIFY2(saved.code == 0, saved.all());
+        const auto kept =
+            trapwright::store::StudyFile::openReadOnly(folder_.filePath("robust.trap").toStdString());
+        QVERIFY(kept.ok());
+        QCOMPARE(kept->loadRobustness()->size(), std::size_t{1});
+        QCOMPARE(kept->loadRobustness()->front().robustness.overBox.tally.success,
+                 ofStudy["over_box"]["success"]["count"].toInt());
+
         // A track of no study, with a box of its own about other values.
         const QString file = QStringLiteral(TRAPWRIGHT_SOURCE_DIR "/resources/tracks/cuboid_track.json");
         const Ran onTrack =
@@ -372,6 +383,7 @@ class CommandsTest : public QObject {
         QVERIFY(std::abs(ofTrack["sweeps"][0]["points"][0]["friction"].toDouble() - 0.5) < 1e-9);
         QVERIFY(std::abs(ofTrack["sweeps"][0]["points"][2]["friction"].toDouble() - 0.7) < 1e-9);
         QVERIFY(!ofTrack.contains("worst_pair"));
+        QCOMPARE(ask({"robustness", file, "--save"}).code, 2);
 
         const Ran none = ask({"robustness", "study.trap", "--friction-range", "0", "--restitution-range", "0",
                               "--half-stroke-range", "0", "--size-range", "0"});

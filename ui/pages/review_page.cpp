@@ -194,8 +194,9 @@ void ReviewPage::showWinner() {
 
 void ReviewPage::showRobustness() {
     if (!shownRobustness_) return;
-    shownRobustness_->setMeasured(
-        session_ && choice_->winner() ? session_->runs().findRobustness(*choice_->winner()) : nullptr);
+    const bool isOpen = session_ && choice_->winner();
+    shownRobustness_->setMeasured(isOpen ? session_->runs().findRobustness(*choice_->winner()) : nullptr,
+                                  isOpen ? session_->design().settings() : study::Settings());
 }
 
 void ReviewPage::showSelection() {

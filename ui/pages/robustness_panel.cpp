@@ -49,15 +49,19 @@ RobustnessPanel::RobustnessPanel() : head_(new QLabel(this)), chart_(new charts:
             [this](const QString& link) { goTo(links_[link.toUInt()].trials); });
     connect(chart_, &charts::RobustnessChart::picked, this, &RobustnessPanel::goTo);
     connect(chart_, &charts::ChartPanel::failed, this, &RobustnessPanel::failed);
-    setMeasured(nullptr);
+    setMeasured(nullptr, {});
 }
 
-void RobustnessPanel::setMeasured(const session::MeasuredRobustness* measured) {
+void RobustnessPanel::setMeasured(const study::RobustnessRecord* measured, const study::Settings& settings) {
     measured_.reset();
-    if (measured != nullptr) measured_ = *measured;
+    settings_ = settings;
+    if (measured != nullptr) {
+        measured_ = *measured;
+        settings_.box = measured->box;
+    }
     head_->setVisible(measured_.has_value());
     if (measured_) {
-        chart_->setRobustness(measured_->settings, measured_->robustness);
+        chart_->setRobustness(settings_, measured_->robustness);
         showHead();
     } else {
         chart_->clear();
@@ -83,7 +87,7 @@ void RobustnessPanel::showHead() {
 }
 
 QString RobustnessPanel::nameOf(const study::PlaceTrials& trials) const {
-    return trials.place ? QString::fromStdString(study::describePlace(measured_->settings, *trials.place))
+    return trials.place ? QString::fromStdString(study::describePlace(settings_, *trials.place))
                         : tr("All over the operating box");
 }
 
@@ -104,8 +108,7 @@ void RobustnessPanel::goTo(const study::PlaceTrials& trials) {
     std::set<trial::Verdict> verdicts = {trial::Verdict::wrongOrientation, trial::Verdict::stuck,
                                          trial::Verdict::fellOff};
     if (!fails) verdicts.insert(trial::Verdict::success);
-    emit trialsWanted({trials, measured_->settings.box, robustness.goal, measured_->engine}, nameOf(trials),
-                      verdicts);
+    emit trialsWanted({trials, measured_->box, robustness.goal, measured_->engine}, nameOf(trials), verdicts);
 }
 
 }  // namespace trapwright::pages

@@ -25,7 +25,7 @@ class RobustnessPanel : public QWidget {
     RobustnessPanel();
 
     /// Null: it was not measured.
-    void setMeasured(const session::MeasuredRobustness* measured);
+    void setMeasured(const study::RobustnessRecord* measured, const study::Settings& settings);
 
  signals:
     /// Someone wants to see them: all, or where there are any only those that ended so.
@@ -38,7 +38,8 @@ class RobustnessPanel : public QWidget {
     void goTo(const study::PlaceTrials& trials);
     [[nodiscard]] QString nameOf(const study::PlaceTrials& trials) const;
 
-    std::optional<session::MeasuredRobustness> measured_;
+    std::optional<study::RobustnessRecord> measured_;
+    study::Settings settings_;               // with the box that it was measured in
     std::vector<study::PlaceResult> links_;  // of the head, in their order
     QLabel* head_;
     charts::RobustnessChart* chart_;

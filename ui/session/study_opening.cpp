@@ -38,11 +38,14 @@ base::Result<OpenedStudy> readStudy(store::StudyFile file) {
     if (!dropTests) return dropTests.error();
     auto chosen = readChosen(file);
     if (!chosen) return chosen.error();
+    auto robustness = file.loadRobustness();
+    if (!robustness) return robustness.error();
     auto study = readNewStudy(std::move(file), std::move(*design));
     if (!study) return study;
     study->records = {std::move(*summaries),    std::move(*winners),     std::move(*checks),
                       std::move(*selections),   std::move(*validations), std::move(*physical),
-                      std::move(*calibrations), std::move(*dropTests),   std::move(*chosen)};
+                      std::move(*calibrations), std::move(*dropTests),   std::move(*chosen),
+                      std::move(*robustness)};
     return study;
 }
 

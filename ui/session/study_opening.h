@@ -27,6 +27,7 @@ struct StudyRecords {
     std::vector<calibration::Calibration> calibrations;
     std::vector<study::DropRecord> dropTests;
     std::optional<study::Individual> chosen;  // by the user
+    std::vector<study::RobustnessRecord> robustness;
 };
 
 struct OpenedStudy {

@@ -65,11 +65,11 @@ const std::vector<study::ValidationRecord>& StudyRuns::validations() const {
     return state_->validations;
 }
 
-const MeasuredRobustness* StudyRuns::findRobustness(const study::IndividualId& individual) const {
-    const auto found = std::find_if(
-        measured_.begin(), measured_.end(),
-        [&](const MeasuredRobustness& measured) { return isSameIndividual(measured, individual); });
-    return found == measured_.end() ? nullptr : &*found;
+const study::RobustnessRecord* StudyRuns::findRobustness(const study::IndividualId& individual) const {
+    const auto found = std::ranges::find_if(state_->robustness, [&](const study::RobustnessRecord& record) {
+        return isSameIndividual(record, individual);
+    });
+    return found == state_->robustness.end() ? nullptr : &*found;
 }
 
 const study::Individual* StudyRuns::bestWinner() const {
@@ -312,24 +312,15 @@ void StudyRuns::startRobustness(const study::Individual& individual, const study
         const auto inputs =
             makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads, run.remade);
         if (!inputs) return settingsFailure(inputs.error());
-        auto track = study::decodeTrack(settings.track, individual.record.design);
-        if (!track) return settingsFailure(track.error());
         state_->tell(
             [this, total = study::countRobustnessTrials(settings, plan)] { state_->run->total = total; });
-        auto robustness = study::measureRobustness(
-            *inputs, std::make_shared<const track::Track>(std::move(*track)), goal, plan, run.trials);
-        if (!robustness) {
-            const auto kind =
-                run.trials.cancelled() ? workflow::FailureKind::cancelled : workflow::FailureKind::settings;
-            return workflow::Failure{kind, robustness.error().message};
-        }
-        state_->tell([this, measured = MeasuredRobustness{{individual.generation, individual.individual},
-                                                          inputs->engine->name(),
-                                                          settings,
-                                                          std::move(*robustness)}] {
-            std::erase_if(measured_,
-                          [&](const MeasuredRobustness& one) { return isSameIndividual(one, measured); });
-            measured_.push_back(measured);
+        auto record =
+            workflow::measureAndSave(state_->writer.file(), *inputs, individual, goal, plan, run.trials);
+        if (!record) return record.error();
+        state_->tell([this, record = std::move(*record)] {
+            std::erase_if(state_->robustness,
+                          [&](const study::RobustnessRecord& one) { return isSameIndividual(one, record); });
+            state_->robustness.push_back(record);
             emit robustnessMeasured();
         });
         return std::nullopt;

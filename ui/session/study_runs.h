@@ -55,13 +55,6 @@ struct LearningDraft {
     double seconds = 0.0;  // of learning, estimated
 };
 
-/// How robust a track is. Known as long as the study is open.
-struct MeasuredRobustness : study::IndividualId {
-    std::string engine;
-    study::Settings settings;  // that it was measured with
-    study::Robustness robustness;
-};
-
 /// Learning, selection and validation of the open study and measurements of robustness, one at a time, and
 /// what they find out. What cannot be done is told by StudySession::failed().
 class StudyRuns : public QObject {
@@ -82,7 +75,7 @@ class StudyRuns : public QObject {
     [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
     [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
     /// The last one of this individual; null: it was not measured since the study was opened.
-    [[nodiscard]] const MeasuredRobustness* findRobustness(const study::IndividualId& individual) const;
+    [[nodiscard]] const study::RobustnessRecord* findRobustness(const study::IndividualId& individual) const;
     /// Of the winners (study::findBestWinner); null if there are none.
     [[nodiscard]] const study::Individual* bestWinner() const;
     /// What is known of the success of an individual (study::findSuccess).
@@ -166,7 +159,6 @@ class StudyRuns : public QObject {
 
     StudyState* const state_;
     const StudyDesign& design_;
-    std::vector<MeasuredRobustness> measured_;
     RunState activity_ = RunState::idle;                     // of the thread that writes
     RunState told_ = RunState::idle;                         // by stateChanged()
     std::shared_ptr<const study::GenerationRecord> newest_;  // that was saved since the study was opened

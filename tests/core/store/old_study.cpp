@@ -106,6 +106,7 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 17) database.exec("DROP TABLE robustness");
     if (version < 16)
         database.exec(
             "ALTER TABLE selection_entry DROP COLUMN goal; ALTER TABLE validation DROP COLUMN goal; "

@@ -128,6 +128,53 @@ class StudyFileTest : public QObject {
         QVERIFY(sample::messageOf(study->loadIndividual({1, 6})).contains("no individual 6 of generation 1"));
     }
 
+    // The newest of each individual, with every number, and nothing for one that is damaged.
+    void keepsRobustness() {
+        const auto resultOf = [](std::optional<trial::BoxPlace> place, int first, trial::Tally tally) {
+            return study::PlaceResult{{place, first, tally.trials()}, tally, 0.1 / 3.0};
+        };
+        trial::BoxPlace corner = trial::kMiddle;
+        corner[0] = 1.0 / 3.0;
+        study::RobustnessRecord record{{3, 5}, "native", {}, {}};
+        record.box.friction = 0.15;
+        study::Robustness& robustness = record.robustness;
+        robustness.nominal = resultOf(trial::kMiddle, 0, {99, 1, 0, 0});
+        robustness.overBox = resultOf(std::nullopt, 0, {90, 4, 5, 1});
+        robustness.sweeps = {
+            {trial::Condition::halfStroke, {robustness.nominal, resultOf(corner, 0, {10, 0, 0, 0})}}};
+        robustness.corners = {resultOf(corner, 100, {1, 2, 3, 4})};
+        robustness.worstPair =
+            study::PairMap{trial::Condition::friction, trial::Condition::halfStroke, 1, {robustness.nominal}};
+        auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+        VERIFY_OK(study);
+        QVERIFY(study->loadRobustness().value().empty());
+        study::RobustnessRecord older = record;
+        older.engine = "simbody";
+        older.robustness.worstPair.reset();
+        VERIFY_OK(study->saveRobustness(older));
+        older.individual = 6;
+        VERIFY_OK(study->saveRobustness(older));
+        VERIFY_OK(study->saveRobustness(record));
+        const auto all = study->loadRobustness();
+        VERIFY_OK(all);
+        QCOMPARE(all->size(), std::size_t{2});
+        const study::RobustnessRecord& back = all->front();
+        QCOMPARE(back.generation, 3);
+        QCOMPARE(back.individual, 5);
+        QCOMPARE(back.engine, std::string("native"));
+        QVERIFY(back.box == record.box);
+        QCOMPARE(study::robustnessToJson(back.robustness), study::robustnessToJson(robustness));
+        QVERIFY(back.robustness.corners.front().trials == robustness.corners.front().trials);
+        QVERIFY(back.robustness.goal == robustness.goal);
+        QVERIFY(!all->back().robustness.worstPair);
+        for (const char* damaged : {"", "{}", "[1]", R"({"goal": 1})"})
+            QVERIFY(!study::robustnessFromJson(damaged).ok());
+        QVERIFY(study::robustnessFromJson(study::robustnessToJson(robustness)).ok());
+        std::string negative = study::robustnessToJson(robustness);
+        negative.replace(negative.find("[99,1,0,0]"), 10, "[99,-1,0,0]");
+        QVERIFY(!study::robustnessFromJson(negative).ok());
+    }
+
     void keepsSelectionsAndValidations() {
         {
             auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);

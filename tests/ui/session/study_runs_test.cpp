@@ -301,7 +301,7 @@ class StudyRunsTest : public QObject {
         QVERIFY(session->runs().validations().empty());
     }
 
-    void robustnessIsMeasuredAndKnownWhileTheStudyIsOpen() {
+    void robustnessIsMeasuredAndKept() {
         auto session = fixture_->create("a.trap", smallSettings(1));
         QVERIFY(session && learnToTheEnd(*session));
         const study::Individual winner = session->runs().winners().front();
@@ -312,7 +312,7 @@ class StudyRunsTest : public QObject {
         QCOMPARE(session->runs().state(), RunState::measuring);
         QVERIFY(waitUntil([&] { return measured.count() == 1; }));
         QVERIFY(waitForState(*session, RunState::idle));
-        const session::MeasuredRobustness* known = session->runs().findRobustness(winner);
+        const study::RobustnessRecord* known = session->runs().findRobustness(winner);
         QVERIFY(known != nullptr);
         QCOMPARE(known->robustness.nominal.tally.trials(), 10);
         QCOMPARE(known->robustness.overBox.tally.trials(), 20);
@@ -325,12 +325,16 @@ class StudyRunsTest : public QObject {
         fixture_->trialTime = std::chrono::milliseconds(10);
         session.reset();
         session = fixture_->open("a.trap");
-        QVERIFY(session->runs().findRobustness(winner) == nullptr);
+        const auto kept = [&] {
+            const study::RobustnessRecord* record = session->runs().findRobustness(winner);
+            return record == nullptr ? -1 : record->robustness.nominal.tally.trials();
+        };
+        QCOMPARE(kept(), 12);
         QSignalSpy failed(session.get(), &StudySession::failed);
         session->runs().startRobustness(winner);
         session->runs().stopNow();
         QVERIFY(waitForState(*session, RunState::idle));
-        QVERIFY(session->runs().findRobustness(winner) == nullptr);
+        QCOMPARE(kept(), 12);
         QCOMPARE(failed.count(), 0);
     }
 
