@@ -65,7 +65,7 @@ struct OdeConvex {
 };
 
 struct OdeScene : PeerScene {
-    OdeScene(const trial::TrialBatch& b, double step);
+    OdeScene(const trial::TrialBatch& b, const part::Part& p, double step);
     OdeScene(const OdeScene&) = delete;
     OdeScene& operator=(const OdeScene&) = delete;
     ~OdeScene() override { dGeomTriMeshDataDestroy(mesh); }
@@ -73,6 +73,7 @@ struct OdeScene : PeerScene {
     [[nodiscard]] std::unique_ptr<PeerTrial> start(std::size_t trial) const override;
 
     const trial::TrialBatch& batch;
+    const part::Part& part;
     double dt;
     std::vector<double> vertices;
     std::vector<dTriIndex> indices;
@@ -81,7 +82,8 @@ struct OdeScene : PeerScene {
     std::vector<OdeConvex> pieces;
 };
 
-OdeScene::OdeScene(const trial::TrialBatch& b, double step) : batch(b), dt(step) {
+OdeScene::OdeScene(const trial::TrialBatch& b, const part::Part& p, double step)
+    : batch(b), part(p), dt(step) {
     initOde();
     const geometry::TriangleMesh& solid = batch.track->solid;
     for (const Vec3& vertex : solid.vertices)
@@ -97,9 +99,9 @@ OdeScene::OdeScene(const trial::TrialBatch& b, double step) : batch(b), dt(step)
     dGeomTriMeshDataPreprocess2(
         mesh, 1U << dTRIDATAPREPROCESS_BUILD_CONCAVE_EDGES | 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES,
         nullptr);
-    box = findBox(*batch.parts.front());
+    box = findBox(part);
     if (box) return;
-    for (const geometry::ConvexPolytope& piece : batch.parts.front()->pieces)
+    for (const geometry::ConvexPolytope& piece : part.pieces)
         pieces.emplace_back(piece);
 }
 
@@ -191,7 +193,7 @@ OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
 }
 
 void OdeTrial::makePart(const trial::PartStart& start) {
-    const part::Part& part = *scene_.batch.parts.front();
+    const part::Part& part = scene_.part;
     part_ = dBodyCreate(world_);
     const base::Mat3 inertia = kMass * kLength * kLength * part.massProperties.inertia;
     dMass mass;
@@ -299,10 +301,9 @@ std::unique_ptr<PeerTrial> OdeScene::start(std::size_t trial) const {
 
 }  // namespace
 
-base::Result<std::unique_ptr<PeerScene>> OdeEngine::prepare(const trial::TrialBatch& batch) const {
-    if (batch.contact.staticFriction != batch.contact.kineticFriction)
-        return base::Error{"ODE has one coefficient of friction; this batch has two that differ."};
-    return std::unique_ptr<PeerScene>(std::make_unique<OdeScene>(batch, batch.stepOf(step(), step())));
+base::Result<std::unique_ptr<PeerScene>> OdeEngine::prepare(const trial::TrialBatch& batch,
+                                                            const part::Part& part) const {
+    return std::unique_ptr<PeerScene>(std::make_unique<OdeScene>(batch, part, batch.stepOf(step(), step())));
 }
 
 }  // namespace trapwright::peers
