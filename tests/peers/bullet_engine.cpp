@@ -57,10 +57,11 @@ void initBullet() {
 }
 
 struct BulletScene : PeerScene {
-    BulletScene(const trial::TrialBatch& b, double step);
+    BulletScene(const trial::TrialBatch& b, const part::Part& p, double step);
     [[nodiscard]] std::unique_ptr<PeerTrial> start(std::size_t trial) const override;
 
     const trial::TrialBatch& batch;
+    const part::Part& part;
     double dt;
     btTriangleMesh triangles;
     std::unique_ptr<btBvhTriangleMeshShape> track;
@@ -69,10 +70,11 @@ struct BulletScene : PeerScene {
     base::Quaternion principal;  // body -> part
     btVector3 inertia;           // [g mm^2]
     std::vector<std::unique_ptr<btPolyhedralConvexShape>> solids;
-    btCompoundShape part;
+    btCompoundShape whole;  // all solids
 };
 
-BulletScene::BulletScene(const trial::TrialBatch& b, double step) : batch(b), dt(step) {
+BulletScene::BulletScene(const trial::TrialBatch& b, const part::Part& p, double step)
+    : batch(b), part(p), dt(step) {
     initBullet();
     const geometry::TriangleMesh& solid = batch.track->solid;
     const auto corner = [&](int index) {
@@ -84,7 +86,7 @@ BulletScene::BulletScene(const trial::TrialBatch& b, double step) : batch(b), dt
     track->setMargin(0.0F);
     btGenerateInternalEdgeInfo(track.get(), &edges);
 
-    const Eigen::SelfAdjointEigenSolver<base::Mat3> axes(batch.parts.front()->massProperties.inertia);
+    const Eigen::SelfAdjointEigenSolver<base::Mat3> axes(part.massProperties.inertia);
     base::Mat3 rotation = axes.eigenvectors();
     if (rotation.determinant() < 0.0) rotation.col(2) *= -1.0;
     principal = base::Quaternion(rotation);
@@ -92,14 +94,14 @@ BulletScene::BulletScene(const trial::TrialBatch& b, double step) : batch(b), dt
     const auto add = [&](std::unique_ptr<btPolyhedralConvexShape> shape) {
         shape->setMargin(kMargin);
         shape->initializePolyhedralFeatures();
-        part.addChildShape(btTransform(toBullet(principal.conjugate())), shape.get());
+        whole.addChildShape(btTransform(toBullet(principal.conjugate())), shape.get());
         solids.push_back(std::move(shape));
     };
-    if (const auto box = findBox(*batch.parts.front())) {
+    if (const auto box = findBox(part)) {
         add(std::make_unique<btBoxShape>(toBullet(kLength * *box)));
         return;
     }
-    for (const geometry::ConvexPolytope& piece : batch.parts.front()->pieces) {
+    for (const geometry::ConvexPolytope& piece : part.pieces) {
         auto hull = std::make_unique<btConvexHullShape>();
         for (const Vec3& vertex : piece.vertices)
             hull->addPoint(toBullet(kLength * vertex), false);
@@ -166,8 +168,8 @@ BulletTrial::BulletTrial(const BulletScene& scene, std::size_t index)
     const trial::TrialSpec& spec = scene.batch.trials[index];
     const trial::PartStart& start = spec.parts.front();
     btRigidBody::btRigidBodyConstructionInfo made(
-        static_cast<btScalar>(kMass * scene.batch.parts.front()->massProperties.mass), nullptr,
-        const_cast<btCompoundShape*>(&scene.part), scene.inertia);
+        static_cast<btScalar>(kMass * scene.part.massProperties.mass), nullptr,
+        const_cast<btCompoundShape*>(&scene.whole), scene.inertia);
     // Of two bodies the product counts.
     made.m_friction = static_cast<btScalar>(scene.batch.contactOf(spec).kineticFriction);
     made.m_restitution = static_cast<btScalar>(scene.batch.contactOf(spec).restitution);
@@ -202,7 +204,7 @@ int BulletTrial::contacts() const {
 }
 
 void BulletTrial::applyForces() {
-    const geometry::MassProperties& mass = scene_.batch.parts.front()->massProperties;
+    const geometry::MassProperties& mass = scene_.part.massProperties;
     const base::Pose pose = poseInTrack();
     const base::Mat3 rotation = pose.rotation.toRotationMatrix();
     const Wrench wrench = frame_.calcInertialForces(mass.mass, rotation * mass.inertia * rotation.transpose(),
@@ -225,10 +227,10 @@ std::unique_ptr<PeerTrial> BulletScene::start(std::size_t trial) const {
 
 }  // namespace
 
-base::Result<std::unique_ptr<PeerScene>> BulletEngine::prepare(const trial::TrialBatch& batch) const {
-    if (batch.contact.staticFriction != batch.contact.kineticFriction)
-        return base::Error{"Bullet has one coefficient of friction; this batch has two that differ."};
-    return std::unique_ptr<PeerScene>(std::make_unique<BulletScene>(batch, batch.stepOf(step(), step())));
+base::Result<std::unique_ptr<PeerScene>> BulletEngine::prepare(const trial::TrialBatch& batch,
+                                                               const part::Part& part) const {
+    return std::unique_ptr<PeerScene>(
+        std::make_unique<BulletScene>(batch, part, batch.stepOf(step(), step())));
 }
 
 }  // namespace trapwright::peers

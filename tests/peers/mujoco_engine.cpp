@@ -52,10 +52,12 @@ double calcDampingRatio(double restitution) {
 }
 
 struct MujocoScene : PeerScene {
-    MujocoScene(const trial::TrialBatch& b, ModelPointer m) : batch(b), model(std::move(m)) {}
+    MujocoScene(const trial::TrialBatch& b, const part::Part& p, ModelPointer m)
+        : batch(b), part(p), model(std::move(m)) {}
     [[nodiscard]] std::unique_ptr<PeerTrial> start(std::size_t trial) const override;
 
     const trial::TrialBatch& batch;
+    const part::Part& part;
     ModelPointer model;
 };
 
@@ -77,6 +79,7 @@ class MujocoTrial : public PeerTrial {
     void setContactLaw();
 
     const trial::TrialBatch& batch_;
+    const part::Part& part_;
     const mjModel* model_;
     std::unique_ptr<mjData, DeleteData> data_;
     VibratingFrame frame_;
@@ -86,6 +89,7 @@ class MujocoTrial : public PeerTrial {
 
 MujocoTrial::MujocoTrial(const MujocoScene& scene, std::size_t index)
     : batch_(scene.batch),
+      part_(scene.part),
       model_(scene.model.get()),
       data_(mj_makeData(model_)),
       frame_(batch_, index, model_->opt.timestep) {
@@ -116,7 +120,7 @@ contact::BodyMotion MujocoTrial::motionInTrack() const {
 }
 
 void MujocoTrial::applyInertialForces() {
-    const geometry::MassProperties& mass = batch_.parts.front()->massProperties;
+    const geometry::MassProperties& mass = part_.massProperties;
     const base::Pose pose = poseInTrack();
     const base::Mat3 rotation = pose.rotation.toRotationMatrix();
     const Wrench wrench = frame_.calcInertialForces(mass.mass, rotation * mass.inertia * rotation.transpose(),
@@ -166,14 +170,13 @@ std::unique_ptr<PeerTrial> MujocoScene::start(std::size_t trial) const {
 
 }  // namespace
 
-base::Result<std::unique_ptr<PeerScene>> MujocoEngine::prepare(const trial::TrialBatch& batch) const {
-    if (batch.contact.staticFriction != batch.contact.kineticFriction)
-        return base::Error{"MuJoCo has one coefficient of friction; this batch has two that differ."};
-    const auto xml = writeMujocoModel(batch, batch.stepOf(step(), step()));
+base::Result<std::unique_ptr<PeerScene>> MujocoEngine::prepare(const trial::TrialBatch& batch,
+                                                               const part::Part& part) const {
+    const auto xml = writeMujocoModel(batch, part, batch.stepOf(step(), step()));
     if (!xml) return xml.error();
     auto model = compileModel(*xml);
     if (!model) return model.error();
-    return std::unique_ptr<PeerScene>(std::make_unique<MujocoScene>(batch, std::move(model).value()));
+    return std::unique_ptr<PeerScene>(std::make_unique<MujocoScene>(batch, part, std::move(model).value()));
 }
 
 }  // namespace trapwright::peers

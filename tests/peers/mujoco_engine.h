@@ -14,8 +14,8 @@ class MujocoEngine : public PeerEngine {
     [[nodiscard]] std::string name() const override { return "mujoco"; }
 
  private:
-    [[nodiscard]] base::Result<std::unique_ptr<PeerScene>> prepare(
-        const trial::TrialBatch& batch) const override;
+    [[nodiscard]] base::Result<std::unique_ptr<PeerScene>> prepare(const trial::TrialBatch& batch,
+                                                                   const part::Part& part) const override;
 };
 
 }  // namespace trapwright::peers

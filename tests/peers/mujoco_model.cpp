@@ -24,9 +24,9 @@ void writeMesh(std::string& xml, const std::string& name, const std::vector<Vec3
 
 }  // namespace
 
-base::Result<std::string> writeMujocoModel(const trial::TrialBatch& batch, double step) {
+base::Result<std::string> writeMujocoModel(const trial::TrialBatch& batch, const part::Part& part,
+                                           double step) {
     const track::Track& track = *batch.track;
-    const part::Part& part = *batch.parts.front();
     std::string assets;
     std::string trackGeoms;
     const double base = geometry::calcBoundingBox(track.solid).low.z();

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <mutex>
+#include <stdexcept>
 
 #include "sim/contact/drive_motion.h"
 #include "tests/peers/box_shape.h"
@@ -34,9 +37,24 @@ constexpr double kSameNormal = 0.999;  // cosine
 // Debian builds ODE without collision caches of each thread's own (no ODE_EXT_mt_collisions).
 std::mutex collisionMutex;
 
+/// An assertion of ODE's that failed.
+struct InternalError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// In place of ending the program. Whoever catches it shall not step that world again.
+[[noreturn]] void throwInternalError(int /*number*/, const char* message, va_list arguments) {
+    std::array<char, 300> text{};
+    std::vsnprintf(text.data(), text.size(), message, arguments);
+    throw InternalError(text.data());
+}
+
 void initOde() {
     static std::once_flag once;
-    std::call_once(once, [] { dInitODE2(0); });
+    std::call_once(once, [] {
+        dInitODE2(0);
+        dSetDebugHandler(throwInternalError);
+    });
     thread_local const int ready = dAllocateODEDataForThread(dAllocateMaskAll);
     (void)ready;
 }
@@ -65,7 +83,7 @@ struct OdeConvex {
 };
 
 struct OdeScene : PeerScene {
-    OdeScene(const trial::TrialBatch& b, double step);
+    OdeScene(const trial::TrialBatch& b, const part::Part& p, double step);
     OdeScene(const OdeScene&) = delete;
     OdeScene& operator=(const OdeScene&) = delete;
     ~OdeScene() override { dGeomTriMeshDataDestroy(mesh); }
@@ -73,6 +91,7 @@ struct OdeScene : PeerScene {
     [[nodiscard]] std::unique_ptr<PeerTrial> start(std::size_t trial) const override;
 
     const trial::TrialBatch& batch;
+    const part::Part& part;
     double dt;
     std::vector<double> vertices;
     std::vector<dTriIndex> indices;
@@ -81,7 +100,8 @@ struct OdeScene : PeerScene {
     std::vector<OdeConvex> pieces;
 };
 
-OdeScene::OdeScene(const trial::TrialBatch& b, double step) : batch(b), dt(step) {
+OdeScene::OdeScene(const trial::TrialBatch& b, const part::Part& p, double step)
+    : batch(b), part(p), dt(step) {
     initOde();
     const geometry::TriangleMesh& solid = batch.track->solid;
     for (const Vec3& vertex : solid.vertices)
@@ -97,9 +117,9 @@ OdeScene::OdeScene(const trial::TrialBatch& b, double step) : batch(b), dt(step)
     dGeomTriMeshDataPreprocess2(
         mesh, 1U << dTRIDATAPREPROCESS_BUILD_CONCAVE_EDGES | 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES,
         nullptr);
-    box = findBox(*batch.parts.front());
+    box = findBox(part);
     if (box) return;
-    for (const geometry::ConvexPolytope& piece : batch.parts.front()->pieces)
+    for (const geometry::ConvexPolytope& piece : part.pieces)
         pieces.emplace_back(piece);
 }
 
@@ -133,7 +153,8 @@ class OdeTrial : public PeerTrial {
             dGeomDestroy(geom);
         dGeomDestroy(trackGeom_);
         dWorldDestroy(world_);
-        dThreadingFreeImplementation(threading_);
+        // One that was broken off still has work to do, and would not be freed.
+        if (!broken_) dThreadingFreeImplementation(threading_);
     }
 
     void step(trial::CostLaps& laps) override;
@@ -161,6 +182,7 @@ class OdeTrial : public PeerTrial {
     contact::TrackPlacement now_;
     long steps_ = 0;
     int contacts_ = 0;
+    bool broken_ = false;  // ODE could not go on: the part stays where it is
 };
 
 OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
@@ -191,7 +213,7 @@ OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
 }
 
 void OdeTrial::makePart(const trial::PartStart& start) {
-    const part::Part& part = *scene_.batch.parts.front();
+    const part::Part& part = scene_.part;
     part_ = dBodyCreate(world_);
     const base::Mat3 inertia = kMass * kLength * kLength * part.massProperties.inertia;
     dMass mass;
@@ -268,6 +290,7 @@ void OdeTrial::touch(dGeomID geom) {
 }
 
 void OdeTrial::step(trial::CostLaps& laps) {
+    if (broken_) return;
     moveTrack();
     laps.end(&trial::Costs::integration);
     contacts_ = 0;
@@ -275,7 +298,12 @@ void OdeTrial::step(trial::CostLaps& laps) {
         touch(geom);
     laps.end(&trial::Costs::detection);
     // The law and the integration are one call.
-    dWorldStep(world_, scene_.dt);
+    try {
+        dWorldStep(world_, scene_.dt);
+    } catch (const InternalError& error) {
+        broken_ = true;
+        std::fprintf(stderr, "ODE breaks a trial off, which ends as stuck: %s\n", error.what());
+    }
     dJointGroupEmpty(joints_);
     laps.end(&trial::Costs::law);
     ++steps_;
@@ -299,10 +327,9 @@ std::unique_ptr<PeerTrial> OdeScene::start(std::size_t trial) const {
 
 }  // namespace
 
-base::Result<std::unique_ptr<PeerScene>> OdeEngine::prepare(const trial::TrialBatch& batch) const {
-    if (batch.contact.staticFriction != batch.contact.kineticFriction)
-        return base::Error{"ODE has one coefficient of friction; this batch has two that differ."};
-    return std::unique_ptr<PeerScene>(std::make_unique<OdeScene>(batch, batch.stepOf(step(), step())));
+base::Result<std::unique_ptr<PeerScene>> OdeEngine::prepare(const trial::TrialBatch& batch,
+                                                            const part::Part& part) const {
+    return std::unique_ptr<PeerScene>(std::make_unique<OdeScene>(batch, part, batch.stepOf(step(), step())));
 }
 
 }  // namespace trapwright::peers

@@ -1,8 +1,12 @@
 #include "tests/peers/peer_engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/trial/termination_monitor.h"
@@ -17,7 +21,7 @@ constexpr double kCheckInterval = 2e-3;
 
 struct Running {
     const trial::TrialBatch& batch;
-    const PeerScene& scene;
+    const std::vector<std::unique_ptr<PeerScene>>& scenes;  // of the batch's parts
     double dt;
     base::RunControl control;
 };
@@ -25,10 +29,10 @@ struct Running {
 /// Simulates one trial, taking a sample every `interval` (none where it is 0). Nothing if cancelled.
 std::optional<trial::Trajectory> simulate(const Running& running, std::size_t index, double interval,
                                           trial::CostLaps& laps) {
-    const auto trial = running.scene.start(index);
+    const trial::TrialSpec& spec = running.batch.trials[index];
+    const auto trial = running.scenes[spec.parts.front().part]->start(index);
     trial::TerminationMonitor progress(*running.batch.track, running.batch.termination, 1);
-    const contact::DriveMotion drive(running.batch.drive, running.batch.track->shape,
-                                     running.batch.trials[index].phase);
+    const contact::DriveMotion drive(running.batch.driveOf(spec), running.batch.track->shape, spec.phase);
     const long stepsPerCheck = std::max(1L, std::lround(kCheckInterval / running.dt));
     trial::Trajectory trajectory;
     for (long step = 0;; ++step) {
@@ -53,6 +57,18 @@ std::optional<trial::Trajectory> simulate(const Running& running, std::size_t in
     return trajectory;
 }
 
+/// No peer has more than one coefficient of friction.
+std::optional<base::Error> findFrictionProblem(const trial::TrialBatch& batch, const std::string& engine) {
+    const bool differ = std::ranges::any_of(batch.trials, [&](const trial::TrialSpec& spec) {
+        const trial::ContactParameters& contact = batch.contactOf(spec);
+        return contact.staticFriction != contact.kineticFriction;
+    });
+    if (!differ) return std::nullopt;
+    return base::Error{fmt::format(
+        "The engine '{}' has one coefficient of friction; this batch has trials with two that differ.",
+        engine)};
+}
+
 }  // namespace
 
 PeerEngine::PeerEngine(const trial::EngineOptions& options, double defaultStep)
@@ -60,18 +76,30 @@ PeerEngine::PeerEngine(const trial::EngineOptions& options, double defaultStep)
       step_(options.step > 0.0 ? options.step : defaultStep),
       costs_(options.costs) {}
 
+base::Result<std::vector<std::unique_ptr<PeerScene>>> PeerEngine::prepareAll(
+    const trial::TrialBatch& batch) const {
+    if (auto problem = findFrictionProblem(batch, name())) return *std::move(problem);
+    std::vector<std::unique_ptr<PeerScene>> scenes;
+    for (const auto& part : batch.parts) {
+        auto scene = prepare(batch, *part);
+        if (!scene) return scene.error();
+        scenes.push_back(std::move(scene).value());
+    }
+    return scenes;
+}
+
 base::Result<std::vector<std::vector<trial::Outcome>>> PeerEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;
     for (const trial::TrialBatch& batch : batches) {
         if (const auto problem = findSinglePartProblem(batch, name())) return *problem;
-        const auto scene = prepare(batch);
-        if (!scene) return scene.error();
+        const auto scenes = prepareAll(batch);
+        if (!scenes) return scenes.error();
         std::vector<trial::Outcome>& slots = outcomes.emplace_back(batch.trials.size());
         base::parallelFor(slots.size(), threads_, [&](std::size_t i, unsigned) {
             trial::CostLaps laps(costs_.get());
             if (const auto done =
-                    simulate({batch, **scene, batch.stepOf(step_, step_), control}, i, 0.0, laps)) {
+                    simulate({batch, *scenes, batch.stepOf(step_, step_), control}, i, 0.0, laps)) {
                 slots[i] = done->outcome;
                 control.advance(1);
             }
@@ -84,10 +112,10 @@ base::Result<std::vector<std::vector<trial::Outcome>>> PeerEngine::run(
 base::Result<trial::Trajectory> PeerEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                    double interval, base::RunControl control) const {
     if (const auto problem = findSinglePartProblem(batch, index, name())) return *problem;
-    const auto scene = prepare(batch);
-    if (!scene) return scene.error();
+    const auto scenes = prepareAll(batch);
+    if (!scenes) return scenes.error();
     trial::CostLaps laps(nullptr);
-    auto trajectory = simulate({batch, **scene, batch.stepOf(step_, step_), control}, index, interval, laps);
+    auto trajectory = simulate({batch, *scenes, batch.stepOf(step_, step_), control}, index, interval, laps);
     if (!trajectory) return base::Error{"The replay was cancelled."};
     control.advance(1);
     return *std::move(trajectory);

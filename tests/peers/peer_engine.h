@@ -27,7 +27,7 @@ class PeerTrial {
     [[nodiscard]] virtual int contacts() const = 0;  // of the last step
 };
 
-/// What all trials of a batch share: its track and part as the simulator wants them.
+/// What all trials of a batch with the same part share: its track and that part as the simulator wants them.
 class PeerScene {
  public:
     PeerScene() = default;
@@ -54,9 +54,13 @@ class PeerEngine : public trial::Engine {
     PeerEngine(const trial::EngineOptions& options, double defaultStep);
 
  private:
-    /// An error that says why the simulator cannot do this batch, which must outlive the scene.
-    [[nodiscard]] virtual base::Result<std::unique_ptr<PeerScene>> prepare(
-        const trial::TrialBatch& batch) const = 0;
+    /// Of one of the batch's parts. An error that says why the simulator cannot do this batch, which must
+    /// outlive the scene.
+    [[nodiscard]] virtual base::Result<std::unique_ptr<PeerScene>> prepare(const trial::TrialBatch& batch,
+                                                                           const part::Part& part) const = 0;
+    /// Of each of the batch's parts.
+    [[nodiscard]] base::Result<std::vector<std::unique_ptr<PeerScene>>> prepareAll(
+        const trial::TrialBatch& batch) const;
 
     unsigned threads_;
     double step_;

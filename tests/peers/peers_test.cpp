@@ -1,6 +1,7 @@
 #include <QtTest>
 #include <cmath>
 
+#include "core/part/specimen.h"
 #include "core/track/track_solid.h"
 #include "core/verify/scenes.h"
 #include "core/verify/verify.h"
@@ -132,6 +133,34 @@ class PeersTest : public QObject {
         const auto outcomes = makeEngine(engine, {1, 0.0})->run(std::vector{batch}, {});
         QVERIFY(!outcomes.ok());
         QVERIFY(outcomes.error().message.find("friction") != std::string::npos);
+    }
+
+    /// What a trial has of its own counts, and nothing else of its batch does.
+    void trialsHaveTheirOwnContactDriveAndPart_data() { addEngines(); }
+    void trialsHaveTheirOwnContactDriveAndPart() {
+        QFETCH(QString, engine);
+        const trial::TrialBatch batch = testing::makeLyingOn({}, 0.3, 0.3);
+        const auto larger = std::make_shared<const part::Part>(
+            part::makeSpecimen(*batch.parts.front(), {0.2e-3, Vec3::Zero()}));
+        trial::TrialBatch varied = batch;
+        varied.parts.push_back(larger);
+        varied.trials.resize(4, batch.trials.front());
+        varied.trials[1].contact = {0.3, 0.3, 0.3};
+        varied.trials[2].drive = batch.drive;
+        varied.trials[2].drive->halfStroke *= 1.1;
+        varied.trials[3].parts.front().part = 1;
+        // The same trials, each in a batch that has for all what they have of their own.
+        std::vector<trial::TrialBatch> alone(4, batch);
+        alone[1].contact = *varied.trials[1].contact;
+        alone[2].drive = *varied.trials[2].drive;
+        alone[3].parts = {larger};
+        const auto outcomes = makeEngine(engine, {1, 0.0})->run(std::vector{varied}, {});
+        const auto expected = makeEngine(engine, {1, 0.0})->run(alone, {});
+        QVERIFY2(outcomes.ok() && expected.ok(), outcomes.ok() ? "" : outcomes.error().message.c_str());
+        for (std::size_t i = 0; i < alone.size(); ++i) {
+            QVERIFY(outcomes->front()[i] == (*expected)[i].front());
+            QVERIFY(i == 0 || outcomes->front()[i] != outcomes->front()[0]);
+        }
     }
 
     void mujocoRefusesOverhangs() {
