@@ -32,7 +32,7 @@ void addTrackOptions(Command command, TrackRequest& request) {
     command.addOption("--seed", request.seed, "Of the random starts (1)");
     command.addOption("--half-stroke", request.halfStroke, "Amplitude along the vibration line in mm (0.8)");
     command.addOption("--friction", request.friction, "Static and kinetic (0.5)");
-    command.addOption("--restitution", request.restitution, "From 0 to 1 (0.3)");
+    command.addOption("--restitution", request.restitution, "From 0 to 1 (0.2)");
     command.addOption("--tolerance", request.tolerance, "Of the orientation in degrees (25)");
 }
 

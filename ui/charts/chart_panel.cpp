@@ -97,8 +97,9 @@ void ChartPanel::setEmptyText(const QString& text) {
     empty_->setText(text);
 }
 
-void ChartPanel::setBody(QWidget* body) {
+void ChartPanel::setBody(QWidget* body, QWidget* content) {
     body_ = body;
+    content_ = content != nullptr ? content : body;
     stack_->addWidget(body);
     showEmpty(true);
 }
@@ -127,6 +128,10 @@ void ChartPanel::changeEvent(QEvent* event) {
     applyTheme(theme_);
 }
 
+QSize ChartPanel::pictureSize() const {
+    return size().expandedTo({content_ != nullptr ? content_->minimumSizeHint().width() : 0, 0});
+}
+
 QImage ChartPanel::picture(QSize size, double devicePixelRatio) {
     QImage image(size * devicePixelRatio, QImage::Format_RGB32);
     image.setDevicePixelRatio(devicePixelRatio);
@@ -137,7 +142,7 @@ QImage ChartPanel::picture(QSize size, double devicePixelRatio) {
 
 void ChartPanel::paintPicture(QPainter& painter, QSize size) {
     const ChartTheme paper = ChartTheme::paper();
-    const QRect shown = body_->geometry();
+    const QRect shown = content_->geometry();
     legend_->setTheme(paper);
     applyTheme(paper);
     painter.setRenderHint(QPainter::Antialiasing);
@@ -152,19 +157,19 @@ void ChartPanel::paintPicture(QPainter& painter, QSize size) {
     const int top =
         line.bottom() + kMargin / 2 + legend_->paint(painter, line.translated(0, titleHeight + kMargin / 2));
 
-    body_->resize(size.width(), size.height() - top);
-    body_->layout()->activate();
+    content_->resize(size.width(), size.height() - top);
+    content_->layout()->activate();
     // Lays out what was never shown, too.
-    body_->grab();
-    for (QGraphicsView* view : body_->findChildren<QGraphicsView*>()) {
-        if (!view->isVisibleTo(body_)) continue;
+    content_->grab();
+    for (QGraphicsView* view : content_->findChildren<QGraphicsView*>()) {
+        if (!view->isVisibleTo(content_)) continue;
         auto* const plot = qobject_cast<Plot*>(view);
         if (plot != nullptr) plot->setPicturing(true);
         view->render(&painter, QRectF(view->geometry().translated(0, top)), view->viewport()->rect());
         if (plot != nullptr) plot->setPicturing(false);
     }
 
-    body_->setGeometry(shown);
+    content_->setGeometry(shown);
     legend_->setTheme(theme_);
     applyTheme(theme_);
 }
@@ -173,7 +178,7 @@ base::Status ChartPanel::savePicture(const std::filesystem::path& path) {
     QByteArray bytes;
     QBuffer buffer(&bytes);
     buffer.open(QIODevice::WriteOnly);
-    const QSize area = size();
+    const QSize area = pictureSize();
     if (path.extension() == ".svg") {
         QSvgGenerator generator;
         generator.setOutputDevice(&buffer);
@@ -213,7 +218,7 @@ void ChartPanel::askAndSaveCsv() {
 }
 
 void ChartPanel::copyPicture() {
-    QApplication::clipboard()->setImage(picture(size(), kPictureRatio));
+    QApplication::clipboard()->setImage(picture(pictureSize(), kPictureRatio));
 }
 
 void ChartPanel::report(const QString& what, const base::Status& status, const std::filesystem::path& path) {

@@ -52,8 +52,9 @@ class ChartPanel : public QWidget {
  protected:
     void changeEvent(QEvent* event) override;
 
-    /// The widget that holds the chart. Called once by the subclass; the panel owns it from then on.
-    void setBody(QWidget* body);
+    /// The widget that holds the chart, and what of it is on pictures, if that is not all (where it scrolls).
+    /// Called once by the subclass; the panel owns it from then on.
+    void setBody(QWidget* body, QWidget* content = nullptr);
     void showEmpty(bool empty);
     [[nodiscard]] Legend* legend() { return legend_; }
     [[nodiscard]] const ChartTheme& theme() const { return theme_; }
@@ -63,6 +64,8 @@ class ChartPanel : public QWidget {
     void setFitAction(QAction* action);
 
  private:
+    /// As large as the panel, and as wide as all that scrolls.
+    [[nodiscard]] QSize pictureSize() const;
     QAction* addPanelAction(const QString& text, const QKeySequence& key, void (ChartPanel::*act)());
     void paintPicture(QPainter& painter, QSize size);
     void report(const QString& what, const base::Status& status, const std::filesystem::path& path);
@@ -78,6 +81,7 @@ class ChartPanel : public QWidget {
     QToolButton* fitButton_;
     QToolButton* more_;
     QWidget* body_ = nullptr;
+    QWidget* content_ = nullptr;  // with a layout
     QAction* savePicture_;
     QAction* saveCsv_;
     QAction* copyPicture_;

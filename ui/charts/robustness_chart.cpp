@@ -1,6 +1,7 @@
 #include "ui/charts/robustness_chart.h"
 
 #include <QHBoxLayout>
+#include <QScrollArea>
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +23,8 @@ using trial::Condition;
 constexpr double kPercent = 100.0;
 constexpr double kMillimetres = 1e3;
 constexpr double kLeastHeight = 4.0;  // of the success plots [%]
-constexpr int kLeastPlot = 60;        // many side by side must not widen the window [px]
-constexpr int kLeastMap = 150;
+constexpr int kLeastPlot = 152;       // for its title; more than fit are scrolled to [px]
+constexpr int kLeastMap = 170;
 
 const CurveStyle kSuccess{SeriesColour::first, Qt::SolidLine, Marker::circle};
 const CurveStyle kSpeed{SeriesColour::third, Qt::SolidLine, Marker::square};
@@ -56,12 +57,22 @@ stats::Interval boundsOf(const PlaceResult& result) {
 }  // namespace
 
 RobustnessChart::RobustnessChart(QWidget* parent)
-    : ChartPanel("robustness", tr("Robustness"), parent), row_(new QWidget), map_(new PairMap(row_)) {
+    : ChartPanel("robustness", tr("Robustness"), parent),
+      scroll_(new QScrollArea),
+      row_(new QWidget),
+      map_(new PairMap(row_)) {
     layout_ = new QHBoxLayout(row_);
     layout_->setContentsMargins(0, 0, 0, 0);
     layout_->setSpacing(4);
     layout_->addWidget(map_, 2);
-    setBody(row_);
+    // Many side by side must not widen the window.
+    scroll_->setWidget(row_);
+    scroll_->setWidgetResizable(true);
+    scroll_->setFrameShape(QFrame::NoFrame);
+    scroll_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll_->viewport()->setAutoFillBackground(false);
+    row_->setAutoFillBackground(false);
+    setBody(scroll_, row_);
     map_->setMinimumWidth(kLeastMap);
     map_->setTheme(theme());
     connect(legend(), &Legend::switched, this, &RobustnessChart::updateShown);

@@ -8,6 +8,7 @@
 #include "ui/charts/chart_panel.h"
 
 class QHBoxLayout;
+class QScrollArea;
 
 namespace trapwright::charts {
 
@@ -50,6 +51,7 @@ class RobustnessChart : public ChartPanel {
 
     study::Settings settings_;
     std::optional<study::Robustness> robustness_;
+    QScrollArea* scroll_;
     QWidget* row_;
     QHBoxLayout* layout_;
     std::vector<Sweep> sweeps_;

@@ -10,7 +10,9 @@ namespace trapwright::pages {
 
 namespace {
 
-constexpr qsizetype kShownCorners = 2;
+constexpr std::size_t kShownCorners = 2;
+/// Of a corner of more conditions only one has room.
+constexpr std::size_t kFewConditions = 4;
 
 /// "<a>95.2 %</a> (94.5 … 95.8)".
 QString linkOf(std::size_t link, const study::PlaceResult& result) {
@@ -76,7 +78,8 @@ void RobustnessPanel::showHead() {
     QStringList corners;
     for (const study::PlaceResult& corner : robustness.corners) {
         // The saved numbers have all of them; more would take the room of the curves.
-        if (corners.size() == kShownCorners) break;
+        const std::size_t shown = robustness.sweeps.size() > kFewConditions ? 1 : kShownCorners;
+        if (static_cast<std::size_t>(corners.size()) == shown) break;
         corners << linkOf(links_.size(), corner) + u' ' + nameOf(corner.trials).toHtmlEscaped();
         links_.push_back(corner);
     }
