@@ -57,16 +57,20 @@ std::optional<trial::Trajectory> simulate(const Running& running, std::size_t in
     return trajectory;
 }
 
-/// No peer has more than one coefficient of friction.
-std::optional<base::Error> findFrictionProblem(const trial::TrialBatch& batch, const std::string& engine) {
-    const bool differ = std::ranges::any_of(batch.trials, [&](const trial::TrialSpec& spec) {
+/// No peer has more than one coefficient of friction, nor our rough surfaces.
+std::optional<base::Error> findContactProblem(const trial::TrialBatch& batch, const std::string& engine) {
+    for (const trial::TrialSpec& spec : batch.trials) {
         const trial::ContactParameters& contact = batch.contactOf(spec);
-        return contact.staticFriction != contact.kineticFriction;
-    });
-    if (!differ) return std::nullopt;
-    return base::Error{fmt::format(
-        "The engine '{}' has one coefficient of friction; this batch has trials with two that differ.",
-        engine)};
+        if (contact.staticFriction != contact.kineticFriction)
+            return base::Error{
+                fmt::format("The engine '{}' has one coefficient of friction; this batch has trials with two "
+                            "that differ.",
+                            engine)};
+        if (contact.roughness > 0.0)
+            return base::Error{
+                fmt::format("The engine '{}' has no rough surfaces; this batch has trials on one.", engine)};
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -78,7 +82,7 @@ PeerEngine::PeerEngine(const trial::EngineOptions& options, double defaultStep)
 
 base::Result<std::vector<std::unique_ptr<PeerScene>>> PeerEngine::prepareAll(
     const trial::TrialBatch& batch) const {
-    if (auto problem = findFrictionProblem(batch, name())) return *std::move(problem);
+    if (auto problem = findContactProblem(batch, name())) return *std::move(problem);
     std::vector<std::unique_ptr<PeerScene>> scenes;
     for (const auto& part : batch.parts) {
         auto scene = prepare(batch, *part);
