@@ -43,12 +43,13 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (record->box) console.print("Conditions vary over the operating box.\n");
     console.print(study::formatSelection(*record));
     nlohmann::ordered_json document = {{"study", options.study}, {"selection", toJson(*record)}};
-    // Of the best one.
-    const study::SelectionEntry& best = record->entries.front();
-    auto individual = study->file.loadIndividual(best);
-    if (!individual) return Failure{ExitCode::badInput, individual.error().message};
-    const workflow::TrialsRequest request{workflow::TrialKind::selection, {best, std::move(*individual)}};
-    if (const auto added = addSlices(*study, request, console, document); !added) return added.error();
+    if (record->box) {
+        const study::SelectionEntry& best = record->entries.front();
+        auto individual = study->file.loadIndividual(best);
+        if (!individual) return Failure{ExitCode::badInput, individual.error().message};
+        const workflow::TrialsRequest request{workflow::TrialKind::selection, {best, std::move(*individual)}};
+        if (const auto added = addSlices(*study, request, console, document); !added) return added.error();
+    }
     addRemadeTrials(*inputs, document);
     console.emit(document);
     return ExitCode::ok;

@@ -57,14 +57,15 @@ PlaceResult readResult(const Json& json) {
         }
     }
     const Json& counts = json.at("counts");
+    if (counts.size() != 4) throw Damaged();
     result.tally = {readCount(counts.at(0)), readCount(counts.at(1)), readCount(counts.at(2)),
                     readCount(counts.at(3))};
-    std::int64_t sum = 0;
-    for (const Json& count : counts)
-        sum += count.get<std::int64_t>();
+    const trial::Tally& tally = result.tally;
+    const std::int64_t trials =
+        std::int64_t{tally.success} + tally.wrongOrientation + tally.stuck + tally.fellOff;
+    if (trials < 1 || trials > std::numeric_limits<int>::max()) throw Damaged();
     result.trials.first = readCount(json.at("first"));
-    result.trials.count = readCount(sum);
-    if (result.trials.count == 0) throw Damaged();
+    result.trials.count = static_cast<int>(trials);
     result.speed = json.at("speed").get<double>();
     return result;
 }

@@ -77,6 +77,8 @@ Result<study::RobustnessRecord> measureAndSave(store::StudyFile& file, const stu
                                                const std::optional<trial::Goal>& goal,
                                                const study::RobustnessPlan& plan,
                                                const base::RunControl& control) {
+    if (const auto checked = study::checkInputs(inputs); !checked)
+        return Failure{FailureKind::settings, checked.error().message};
     auto track = study::decodeTrack(inputs.settings.track, individual.record.design);
     if (!track) return Failure{FailureKind::settings, track.error().message};
     auto robustness = study::measureRobustness(

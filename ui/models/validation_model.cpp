@@ -197,7 +197,7 @@ void ValidationModel::addConditions(std::vector<Row>& rows) const {
             Row row = makeRow(kind, {}, {-1, slice.tally});
             row.condition = name;
             row.range = QString::fromStdString(study::describeRange(sliced.condition, slice));
-            row.range.replace(" ... ", "…");
+            row.range.replace(" ... ", "…").replace(" deg", "°");
             return row;
         };
         const auto rateOf = [](const study::ConditionSlice& slice) {

@@ -149,7 +149,10 @@ void ReviewPage::setSession(StudySession* session) {
             [this](const workflow::TrialsRequest& request,
                    const std::vector<study::SlicedCondition>& conditions) {
                 const bool shown = choice_->winner() && isSameIndividual(*choice_->winner(), request.winner);
-                if (!shown || sliced_ < 0) return;
+                // It may have been validated anew since, as set.
+                if (!shown || sliced_ < 0 ||
+                    !session_->runs().validations()[static_cast<std::size_t>(sliced_)].box)
+                    return;
                 validation_.setConditions(conditions);
                 shownValidation_->setPinned(validation_.totals());
             });

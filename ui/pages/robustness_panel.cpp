@@ -73,7 +73,7 @@ void RobustnessPanel::setMeasured(const study::RobustnessRecord* measured, const
 void RobustnessPanel::showHead() {
     const study::Robustness& robustness = measured_->robustness;
     links_ = {robustness.nominal, robustness.overBox};
-    QString text = tr("Success as set %1, all over the operating box %2. Worst corners: ")
+    QString text = tr("Success as set %1, all over the operating box %2. ")
                        .arg(linkOf(0, links_[0]), linkOf(1, links_[1]));
     QStringList corners;
     for (const study::PlaceResult& corner : robustness.corners) {
@@ -83,15 +83,15 @@ void RobustnessPanel::showHead() {
         corners << linkOf(links_.size(), corner) + u' ' + nameOf(corner.trials).toHtmlEscaped();
         links_.push_back(corner);
     }
-    text +=
-        corners.join("; ") + tr(". Simulated by %1; choose a number, a point or a cell to see its trials.")
-                                 .arg(QString::fromStdString(measured_->engine));
+    text += (corners.size() > 1 ? tr("Worst corners: ") : tr("Worst corner: ")) + corners.join("; ") +
+            tr(". Simulated by %1; choose a number, a point or a cell to see its trials.")
+                .arg(QString::fromStdString(measured_->engine));
     head_->setText(text);
 }
 
 QString RobustnessPanel::nameOf(const study::PlaceTrials& trials) const {
-    return trials.place ? QString::fromStdString(study::describePlace(settings_, *trials.place))
-                        : tr("All over the operating box");
+    if (!trials.place) return tr("All over the operating box");
+    return QString::fromStdString(study::describePlace(settings_, *trials.place)).replace(" deg", "°");
 }
 
 void RobustnessPanel::goTo(const study::PlaceTrials& trials) {
