@@ -1,5 +1,6 @@
 #include "ui/charts/robustness_chart.h"
 
+#include <QScrollArea>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -152,6 +153,24 @@ class RobustnessChartTest : public QObject {
         chart.clear();
         QVERIFY(!chart.saveCsvAction()->isEnabled());
         QVERIFY(chart.findChild<charts::Plot*>() == nullptr);
+    }
+
+    // In a panel that is too narrow for all of them they scroll; a picture has all.
+    void picturesHoldWhatScrolls() {
+        charts::RobustnessChart chart;
+        chart.setRobustness(someSettings(), someRobustness());
+        chart.resize(300, 260);
+        chart.show();
+        QVERIFY(QTest::qWaitForWindowExposed(&chart));
+        QCOMPARE(chart.width(), 300);
+        const QTemporaryDir folder;
+        const QString file = folder.filePath("robustness.png");
+        QVERIFY(chart.savePicture(file.toStdString()).ok());
+        const QSize shown = chart.findChild<QScrollArea*>()->widget()->size();
+        QVERIFY(shown.width() > 300);
+        const QImage picture(file);
+        // As wide as all of it, at whole pixels per point.
+        QVERIFY(picture.width() >= shown.width() && picture.width() % shown.width() == 0);
     }
 };
 
