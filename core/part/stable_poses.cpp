@@ -278,6 +278,22 @@ NearestPose findStablePose(const Part& part, const Quaternion& orientation) {
     return nearest;
 }
 
+Quaternion layDown(const Part& part, const Quaternion& orientation) {
+    const SymmetryGroup& symmetry = part.symmetry;
+    if (symmetry.sphere) return orientation;
+    const Quaternion& pose = part.stablePoses[findStablePose(part, orientation).index].rotation;
+    Vec3 down = pose.conjugate() * -Vec3::UnitZ();
+    if (symmetry.continuous) {
+        // Of all the ways to lie around the axis, the one in which it is already turned.
+        const double along = down.dot(symmetry.axis);
+        const Vec3 now = orientation.conjugate() * -Vec3::UnitZ();
+        const Vec3 aside = now - now.dot(symmetry.axis) * symmetry.axis;
+        if (aside.norm() > 1e-9)
+            down = along * symmetry.axis + std::sqrt(std::max(0.0, 1.0 - along * along)) * aside.normalized();
+    }
+    return (Quaternion::FromTwoVectors(orientation * down, -Vec3::UnitZ()) * orientation).normalized();
+}
+
 LengthInPose findLength(const Part& part, const StablePose& pose) {
     constexpr int kDirections = 720;  // of half a turn
     LengthInPose found;

@@ -53,6 +53,9 @@ struct NearestPose {
 /// them.
 NearestPose findStablePose(const Part& part, const base::Quaternion& orientation);
 
+/// The orientation, turned no farther than it takes to rest in that nearest pose.
+base::Quaternion layDown(const Part& part, const base::Quaternion& orientation);
+
 /// How a part in a pose lies in a groove: along the direction in which it is narrowest across.
 struct LengthInPose {
     double length = 0.0;  // [m]

@@ -176,6 +176,7 @@ void PartPage::addForm() {
     form_->addToGroup("part.poses", poses_, true);
     target_ = new TargetCard(form_);
     connect(target_, &TargetCard::edited, this, &PartPage::edit);
+    connect(target_, &TargetCard::sceneFreed, this, &PartPage::showScene);
     form_->addToGroup("part.wanted", target_);
     drop_ = new DropCard(form_);
     form_->addToGroup("part.drops", drop_);
@@ -263,6 +264,7 @@ void PartPage::setSession(session::StudySession* session) {
 
 void PartPage::activate(scene::SceneView& scene) {
     scene_ = &scene;
+    target_->setScene(scene_);
     // Other pages change the library, too.
     readMaterials();
     if (design_) refresh();
@@ -271,6 +273,7 @@ void PartPage::activate(scene::SceneView& scene) {
 
 void PartPage::deactivate() {
     scene_ = nullptr;
+    target_->setScene(nullptr);
 }
 
 bool PartPage::takeFile(const std::filesystem::path& file) {
@@ -507,7 +510,7 @@ void PartPage::edit(const study::Settings& settings, const QString& what) {
 }
 
 void PartPage::showScene() {
-    if (scene_ == nullptr) return;
+    if (scene_ == nullptr || target_->hasScene()) return;
     if (design_) {
         std::vector<double> shares;
         for (const part::PoseGroup& group : study::weighPoseGroups(*design_->part(), design_->settings()))

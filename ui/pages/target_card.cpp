@@ -16,6 +16,7 @@
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/models/numbers.h"
+#include "ui/pages/orientation_editor.h"
 #include "ui/scene/when_ready.h"
 
 namespace trapwright::pages {
@@ -49,7 +50,7 @@ bool isCounted(const study::EvolutionSettings& evolution) {
 
 QString wantedText(const study::TargetSettings& target, const part::Part& part) {
     if (!target.isSet()) return TargetCard::tr("Any one way");
-    if (target.orientation) return TargetCard::tr("An orientation that was set");
+    if (target.orientation) return TargetCard::tr("An orientation set by hand");
     const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
     QStringList names;
     for (const int group : study::findWantedGroups(target, groups))
@@ -66,6 +67,7 @@ QString wantedText(const study::TargetSettings& target, const part::Part& part) 
 TargetCard::TargetCard(QWidget* parent)
     : QWidget(parent),
       grid_(new QGridLayout),
+      editor_(new OrientationEditor(this)),
       headingRow_(new QWidget(this)),
       anyHeading_(new QCheckBox(tr("Any heading"), headingRow_)),
       heading_(new QDoubleSpinBox(headingRow_)),
@@ -97,6 +99,14 @@ TargetCard::TargetCard(QWidget* parent)
     connect(anyHeading_, &QCheckBox::clicked, this, &TargetCard::chooseHeading);
     connect(heading_, &QDoubleSpinBox::valueChanged, this, &TargetCard::chooseHeading);
 
+    connect(editor_, &OrientationEditor::chosen, this, [this](const base::Quaternion& orientation) {
+        choose({{}, settings_.target.heading, orientation}, tr("Wanted: by hand"));
+    });
+    connect(editor_, &OrientationEditor::ended, this, [this] {
+        refresh();
+        emit sceneFreed();
+    });
+
     told_->setObjectName("target.told");
     told_->setWordWrap(true);
     proposal_->setObjectName("target.proposal");
@@ -117,6 +127,7 @@ TargetCard::TargetCard(QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addLayout(grid_);
+    layout->addWidget(editor_);
     layout->addWidget(headingRow_);
     layout->addWidget(told_);
     layout->addWidget(proposal_);
@@ -125,6 +136,7 @@ TargetCard::TargetCard(QWidget* parent)
 void TargetCard::show(std::shared_ptr<const part::Part> part, const study::Settings& settings) {
     settings_ = settings;
     if (part != part_) {
+        editor_->end();
         part_ = std::move(part);
         groups_ = part_ ? part::findPoseGroups(*part_) : std::vector<part::PoseGroup>();
         rebuild();
@@ -133,7 +145,17 @@ void TargetCard::show(std::shared_ptr<const part::Part> part, const study::Setti
 }
 
 void TargetCard::setLocked(bool locked) {
+    if (locked) editor_->end();
     setEnabled(!locked);
+}
+
+void TargetCard::setScene(scene::SceneView* scene) {
+    editor_->end();
+    scene_ = scene;
+}
+
+bool TargetCard::hasScene() const {
+    return editor_->hasBegun();
 }
 
 void TargetCard::changeEvent(QEvent* event) {
@@ -159,6 +181,9 @@ void TargetCard::rebuild() {
     any_ = nullptr;
     qDeleteAll(poses_);
     poses_.clear();
+    delete byHand_;
+    byHand_ = nullptr;
+    drawnByHand_.reset();
     if (!part_) return;
     const bool dark = look::schemeOf(palette()) == look::Scheme::dark;
     pictures_.setTheme(dark ? scene::SceneTheme::dark() : scene::SceneTheme::light());
@@ -171,15 +196,21 @@ void TargetCard::rebuild() {
             addButton(QString("target.pose%1").arg(poses.front() + 1), models::poseName(poses));
         button->setToolTip(tr("Parts that leave the track like this are right. Several can be chosen."));
         button->setAccessibleName(tr("Wanted: stable %1").arg(models::poseName(poses)));
-        button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
-        button->setIconSize(kPicture);
         poses_.push_back(button);
         connect(button, &QToolButton::clicked, this, [this, g] { toggle(g); });
-        const base::Quaternion& rotation =
-            part_->stablePoses[static_cast<std::size_t>(poses.front())].rotation;
-        scene::whenReady(pictures_.partPicture(part_, rotation, kPicture, devicePixelRatioF()), button,
-                         [button](const QImage& drawn) { button->setIcon(QPixmap::fromImage(drawn)); });
+        drawPicture(*button, part_->stablePoses[static_cast<std::size_t>(poses.front())].rotation);
     }
+    byHand_ = addButton("target.byHand", tr("By hand..."));
+    byHand_->setToolTip(
+        tr("Turn the part in the scene until it lies as it shall leave the track, heading included."));
+    connect(byHand_, &QToolButton::clicked, this, &TargetCard::turnByHand);
+}
+
+void TargetCard::drawPicture(QToolButton& button, const base::Quaternion& rotation) {
+    button.setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
+    button.setIconSize(kPicture);
+    scene::whenReady(pictures_.partPicture(part_, rotation, kPicture, devicePixelRatioF()), &button,
+                     [&button](const QImage& drawn) { button.setIcon(QPixmap::fromImage(drawn)); });
 }
 
 QToolButton* TargetCard::addButton(const QString& name, const QString& text) {
@@ -188,7 +219,7 @@ QToolButton* TargetCard::addButton(const QString& name, const QString& text) {
     button->setText(text);
     button->setCheckable(true);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    const int place = any_ == nullptr ? 0 : 1 + static_cast<int>(poses_.size());
+    const int place = grid_->count();
     grid_->addWidget(button, place / kColumns, place % kColumns);
     return button;
 }
@@ -200,6 +231,16 @@ void TargetCard::refresh() {
     if (any_ != nullptr) any_->setChecked(!target.isSet());
     for (std::size_t g = 0; g < poses_.size(); ++g)
         poses_[g]->setChecked(std::ranges::find(wanted, static_cast<int>(g)) != wanted.end());
+    if (byHand_ != nullptr) {
+        byHand_->setChecked(target.orientation.has_value() || editor_->hasBegun());
+        if (!target.orientation) {
+            byHand_->setIcon({});
+            byHand_->setToolButtonStyle(Qt::ToolButtonTextOnly);
+        } else if (!drawnByHand_ || drawnByHand_->coeffs() != target.orientation->coeffs()) {
+            drawPicture(*byHand_, *target.orientation);
+        }
+        drawnByHand_ = target.orientation;
+    }
     const auto heading = study::readHeading(target.heading);
     const bool isAny = !heading || !*heading;
     headingRow_->setVisible(!target.poses.empty());
@@ -219,11 +260,27 @@ void TargetCard::refresh() {
     if (!problems.empty())
         told = tr("The part has no such pose: %1.").arg(QString::fromStdString(target.poses));
     told_->setText(told);
+    told_->setVisible(!editor_->hasBegun());
     proposal_->setVisible(target.isSet() && !isCounted(settings_.evolution));
 }
 
 void TargetCard::chooseAny() {
     choose({{}, settings_.target.heading, {}}, tr("Wanted: any one way"));
+}
+
+void TargetCard::turnByHand() {
+    if (scene_ == nullptr || !part_ || part_->stablePoses.empty()) return refresh();
+    const std::vector<int> wanted = study::findWantedGroups(settings_.target, groups_);
+    base::Quaternion first = part_->stablePoses.front().rotation;
+    if (settings_.target.orientation)
+        first = *settings_.target.orientation;
+    else if (!wanted.empty())
+        first = part_
+                    ->stablePoses[static_cast<std::size_t>(
+                        groups_[static_cast<std::size_t>(wanted.front())].poses.front())]
+                    .rotation;
+    editor_->begin(*scene_, part_, first, settings_.validation.tolerance);
+    refresh();
 }
 
 void TargetCard::toggle(std::size_t group) {

@@ -15,14 +15,21 @@ class QLabel;
 class QPushButton;
 class QToolButton;
 
+namespace trapwright::scene {
+class SceneView;
+}
+
 namespace trapwright::pages {
+
+class OrientationEditor;
 
 /// How parts shall end, in a line: "Any one way", "Poses 3-4, any heading". Problems of the settings are not
 /// told.
 QString wantedText(const study::TargetSettings& target, const part::Part& part);
 
 /// Of the Part page: how parts shall end. The stable poses to choose from, alike ones as one, with the
-/// heading in which they shall lie; and what learning makes of the choice.
+/// heading in which they shall lie, or an orientation made by hand in the scene; and what learning makes of
+/// the choice.
 class TargetCard : public QWidget {
     Q_OBJECT
  public:
@@ -30,8 +37,14 @@ class TargetCard : public QWidget {
 
     void show(std::shared_ptr<const part::Part> part, const study::Settings& settings);
     void setLocked(bool locked);
+    /// The scene to turn the part in, while there is one.
+    void setScene(scene::SceneView* scene);
+    /// Whether the scene shows the part that is turned by hand.
+    [[nodiscard]] bool hasScene() const;
 
  signals:
+    /// The scene is free again.
+    void sceneFreed();
     /// The settings with the user's choice, and its name for undo.
     void edited(const trapwright::study::Settings& settings, const QString& what);
 
@@ -42,10 +55,13 @@ class TargetCard : public QWidget {
  private:
     void rebuild();
     QToolButton* addButton(const QString& name, const QString& text);
+    /// What a button that chooses this orientation shows.
+    void drawPicture(QToolButton& button, const base::Quaternion& rotation);
     void refresh();
     void chooseAny();
     void toggle(std::size_t group);
     void chooseHeading();
+    void turnByHand();
     void countIt();
     void choose(study::TargetSettings target, const QString& what);
 
@@ -56,6 +72,10 @@ class TargetCard : public QWidget {
     QGridLayout* grid_;
     QToolButton* any_ = nullptr;
     std::vector<QToolButton*> poses_;  // one for each group
+    QToolButton* byHand_ = nullptr;
+    std::optional<base::Quaternion> drawnByHand_;  // the orientation that byHand_ shows
+    OrientationEditor* editor_;
+    scene::SceneView* scene_ = nullptr;  // while there is one
     QWidget* headingRow_;
     QCheckBox* anyHeading_;
     QDoubleSpinBox* heading_;

@@ -76,6 +76,12 @@ Camera orbited(Camera camera, const QPointF& drag) {
     return camera;
 }
 
+base::Quaternion turnedAlong(const Camera& camera, const QPointF& drag) {
+    const Eigen::AngleAxisd sideways(drag.x() * kTurnPerPixel, Vec3::UnitZ());
+    const Eigen::AngleAxisd upright(drag.y() * kTurnPerPixel, camera.right());
+    return base::Quaternion(sideways * upright);
+}
+
 Camera panned(Camera camera, const QPointF& drag, const QSizeF& screen) {
     const double scale = camera.metresPerPixel(screen);
     camera.focus += -drag.x() * scale * camera.right() + drag.y() * scale * camera.up();

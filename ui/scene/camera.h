@@ -35,6 +35,8 @@ struct Camera {
 
 /// The camera turned by a drag of this many pixels; in perspective from then on.
 Camera orbited(Camera camera, const QPointF& drag);
+/// The turn of a thing at the focus that lets the side of it which is seen follow the drag.
+base::Quaternion turnedAlong(const Camera& camera, const QPointF& drag);
 /// The camera moved so that what lies at the focus follows the drag.
 Camera panned(Camera camera, const QPointF& drag, const QSizeF& screen);
 /// The camera nearer by `factor`, with the point under `place` kept there.

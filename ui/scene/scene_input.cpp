@@ -54,6 +54,17 @@ void SceneView::State::makeActions() {
         addSwitch(SceneView::tr("Follow the part"), Qt::Key_C, [this](bool on) { view.setFollow(on); });
 }
 
+void SceneView::State::drag(const QPointF& by, Qt::MouseButtons buttons, Qt::KeyboardModifiers modifiers) {
+    const bool right = buttons.testFlag(Qt::RightButton);
+    if (buttons.testFlag(Qt::MiddleButton) || modifiers.testFlag(Qt::ShiftModifier) || (right && !turnable))
+        return moveTo(panned(camera, by, screen()));
+    if (turnable && !right && !contents.parts.empty()) {
+        emit view.partTurned(turnedAlong(camera, by));
+        return;
+    }
+    moveTo(orbited(camera, by));
+}
+
 void SceneView::mousePressEvent(QMouseEvent* event) {
     state_->pressedAt = event->position();
     state_->lastMouse = event->position();
@@ -74,9 +85,7 @@ void SceneView::mouseMoveEvent(QMouseEvent* event) {
     if (!state.dragged && (event->position() - state.pressedAt).manhattanLength() < kClickReach) return;
     state.dragged = true;
     state.lastMouse = event->position();
-    const bool moves = event->buttons().testAnyFlags(Qt::MiddleButton | Qt::RightButton) ||
-                       event->modifiers().testFlag(Qt::ShiftModifier);
-    state.moveTo(moves ? panned(state.camera, drag, state.screen()) : orbited(state.camera, drag));
+    state.drag(drag, event->buttons(), event->modifiers());
 }
 
 void SceneView::mouseReleaseEvent(QMouseEvent* event) {
@@ -123,8 +132,7 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
             QWidget::keyPressEvent(event);
             return;
     }
-    const bool moves = event->modifiers().testFlag(Qt::ShiftModifier);
-    state.moveTo(moves ? panned(state.camera, drag, state.screen()) : orbited(state.camera, drag));
+    state.drag(drag, Qt::LeftButton, event->modifiers());
 }
 
 void SceneView::leaveEvent(QEvent* /*event*/) {

@@ -98,6 +98,7 @@ void SceneView::clear() {
     empty.edges = state_->contents.edges;
     state_->contents = empty;
     state_->closeUp.reset();
+    setTurnable(false);
     state_->moved = false;
     state_->change();
 }
@@ -130,7 +131,8 @@ void SceneView::setParts(std::vector<PartInScene> parts) {
         camera.focus = same ? camera.focus + to - contents.parts.front().pose.position : to;
     }
     contents.parts = std::move(parts);
-    if (!same || state_->closeUp) state_->fitUnlessMoved();
+    // What is turned by hand stays on a ground that stays.
+    if (!same || (state_->closeUp && !state_->turnable)) state_->fitUnlessMoved();
     state_->change();
 }
 
@@ -181,6 +183,11 @@ void SceneView::setCloseUp(std::optional<double> radius) {
     state_->closeUp = radius;
     state_->camera = homeCamera(state_->contents);
     state_->fit();
+}
+
+void SceneView::setTurnable(bool on) {
+    state_->turnable = on;
+    setCursor(on ? Qt::OpenHandCursor : Qt::ArrowCursor);
 }
 
 void SceneView::setView(StandardView view) {

@@ -18,7 +18,8 @@ namespace trapwright::scene {
 /// The 3D scene: tracks, parts and what is known of their motion. Everything in it is a value set from
 /// outside; VTK stays behind it. Pictures are drawn in the background (SceneRenderer): the newest contents
 /// are seen as soon as they are drawn, and nothing waits for them. GUI thread only. Left drag turns, right or
-/// middle drag moves, the wheel zooms at the cursor.
+/// middle drag moves, the wheel zooms at the cursor; with a part that can be turned, left drag turns that,
+/// right drag the view.
 class SceneView : public QWidget {
     Q_OBJECT
 
@@ -52,6 +53,8 @@ class SceneView : public QWidget {
     void setFollow(bool on);         // the camera goes with the first part
     /// The view is fitted to the first part and this much around its centre [m], instead of to the subject.
     void setCloseUp(std::optional<double> radius);
+    /// Left drag and arrow keys turn the first part instead of the view: whoever set it is asked to.
+    void setTurnable(bool on);
     void setView(StandardView view);
     void fitView();
 
@@ -66,6 +69,8 @@ class SceneView : public QWidget {
 
  signals:
     void failed(const QString& message);  // no OpenGL to draw with
+    /// The user has turned the first part so, about its centre, in the axes of the room.
+    void partTurned(const trapwright::base::Quaternion& turn);
 
  protected:
     void showEvent(QShowEvent* event) override;

@@ -25,6 +25,7 @@ struct SceneView::State {
     Camera camera = turnedTo(Camera(), StandardView::home);
     bool moved = false;  // by the user, since the view was last fitted
     bool follow = false;
+    bool turnable = false;
     std::optional<double> closeUp;  // radius about the first part [m]
     SceneFrames frames;
 
@@ -46,6 +47,7 @@ struct SceneView::State {
     void change();
     /// A camera that the user chose.
     void moveTo(const Camera& wanted);
+    void drag(const QPointF& by, Qt::MouseButtons buttons, Qt::KeyboardModifiers modifiers);
     void makeActions();
 };
 

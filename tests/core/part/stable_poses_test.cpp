@@ -188,6 +188,11 @@ class StablePosesTest : public QObject {
                 const part::NearestPose near = part::findStablePose(part, tilt * exact);
                 QCOMPARE(near.index, i);
                 QVERIFY(near.angle < 5.1 * base::kDegree);
+                // Laid down it is turned back by as much as it was tilted, and rests.
+                const Quaternion laid = part::layDown(part, tilt * exact);
+                QVERIFY(part::findStablePose(part, laid).angle < 1e-6);
+                QVERIFY(std::abs(laid.angularDistance(tilt * exact) - near.angle) < 1e-6);
+                QVERIFY(part.symmetry.continuous || laid.angularDistance(exact) < 1e-6);
             }
         }
     }

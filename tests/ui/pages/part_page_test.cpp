@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "core/part/stable_poses.h"
 #include "core/study/presets.h"
 #include "core/workflow/part_source.h"
 #include "sim/native/native_engine.h"
@@ -28,6 +29,7 @@
 #include "ui/pages/materials_dialog.h"
 #include "ui/pages/run_actions.h"
 #include "ui/pages/track_page.h"
+#include "ui/scene/scene_view.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_session.h"
 
@@ -279,6 +281,84 @@ class PartPageTest : public QObject {
         QCOMPARE(settings().target.poses, std::string());
         user.session()->design().undoStack()->undo();
         QCOMPARE(settings().target.poses, std::string("5-6"));
+    }
+
+    /// The part is turned in the scene with the mouse, the keys and the buttons, laid down and chosen.
+    void wantedOrientationIsTurnedByHand() {
+        Designer user(create());
+        scene::SceneView scene;
+        scene.resize(600, 400);
+        scene.show();
+        user.part.activate(scene);
+        const auto wanted = [&] { return user.session()->design().settings().target.orientation; };
+        const auto press = [&](const QString& name) {
+            QTest::mouseClick(user.find<QAbstractButton>(name), Qt::LeftButton);
+        };
+        const auto shown = [&] { return scene.contents().parts.front().pose; };
+        QTRY_VERIFY(user.find<QToolButton>("target.byHand") != nullptr);
+        QVERIFY(scene.contents().stablePoses != nullptr);
+
+        press("target.byHand");
+        QVERIFY(scene.contents().stablePoses == nullptr);
+        QCOMPARE(scene.contents().parts.size(), 1U);
+        const std::shared_ptr<const part::Part> part = user.session()->design().part();
+        const base::Quaternion resting = part->stablePoses.front().rotation;
+        QVERIFY(shown().rotation.angularDistance(resting) < 1e-9);
+        QVERIFY(user.text("orientation.told").contains("lies in pose"));
+        QVERIFY(!user.find<QPushButton>("orientation.layDown")->isEnabled());
+
+        // A drag turns the part, not the view; it stays on the flat.
+        const scene::Camera camera = scene.camera();
+        QTest::mousePress(&scene, Qt::LeftButton, {}, {300, 200});
+        QMouseEvent move(QEvent::MouseMove, {300, 300}, scene.mapToGlobal(QPoint(300, 300)), Qt::NoButton,
+                         Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(&scene, &move);
+        QTest::mouseRelease(&scene, Qt::LeftButton, {}, {300, 300});
+        QCOMPARE(scene.camera(), camera);
+        QCOMPARE(qRound(shown().rotation.angularDistance(resting) / base::kDegree), 35);
+        double lowest = 1.0;
+        for (const base::Vec3& vertex : part->hull.vertices)
+            lowest = std::min(lowest, shown().apply(vertex).z());
+        QVERIFY(std::abs(lowest) < 1e-9);
+        QVERIFY2(user.text("orientation.told").contains("parts do not rest like this"),
+                 qPrintable(user.text("orientation.told")));
+        // The right button turns the view.
+        QTest::mousePress(&scene, Qt::RightButton, {}, {300, 200});
+        QMouseEvent orbit(QEvent::MouseMove, {330, 200}, scene.mapToGlobal(QPoint(330, 200)), Qt::NoButton,
+                          Qt::RightButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(&scene, &orbit);
+        QTest::mouseRelease(&scene, Qt::RightButton, {}, {330, 200});
+        QVERIFY(scene.camera().azimuth != camera.azimuth);
+
+        // Cancelled, nothing is wanted and the poses are there again.
+        press("orientation.cancel");
+        QVERIFY(!wanted());
+        QVERIFY(scene.contents().stablePoses != nullptr);
+        QVERIFY(user.find<QToolButton>("target.any")->isChecked());
+        QVERIFY(!user.find<QToolButton>("target.byHand")->isChecked());
+
+        press("target.byHand");
+        press("orientation.tip");
+        QTest::keyClick(&scene, Qt::Key_Right);
+        press("orientation.layDown");
+        const base::Quaternion made = shown().rotation;
+        press("orientation.want");
+        QVERIFY(wanted() && wanted()->angularDistance(made) < 1e-9);
+        QVERIFY(part::findStablePose(*part, *wanted()).angle < 1e-6);
+        QVERIFY(wanted()->angularDistance(resting) > 80.0 * base::kDegree);
+        QVERIFY(user.text("target.told").startsWith("An orientation set by hand"));
+        QVERIFY(user.find<QToolButton>("target.byHand")->isChecked());
+        QTRY_VERIFY(!user.find<QToolButton>("target.byHand")->icon().isNull());
+        QVERIFY(user.session()->design().problems().empty());
+
+        // Another page takes the scene: what was not chosen is gone.
+        press("target.byHand");
+        press("orientation.turn");
+        user.part.deactivate();
+        QVERIFY(wanted()->angularDistance(made) < 1e-9);
+        QVERIFY(!user.find<QWidget>("orientationEditor")->isVisible());
+        user.session()->design().undoStack()->undo();
+        QVERIFY(!wanted());
     }
 
     // Dropped, cancelled, dropped again, chosen to count, and the same when it is opened again.

@@ -134,6 +134,25 @@ class CameraTest : public QObject {
         }
     }
 
+    void aTurnedThingFollowsTheDrag() {
+        std::mt19937 random(11);
+        for (int i = 0; i < 50; ++i) {
+            const Camera camera = anyCamera(random);
+            // The side that is seen, near the focus.
+            const base::Vec3 seen = camera.focus - 1e-3 * camera.forward();
+            const auto moved = [&](const QPointF& drag) {
+                const base::Vec3 there =
+                    camera.focus + scene::turnedAlong(camera, drag) * (seen - camera.focus);
+                return *camera.project(there, screen_) - *camera.project(seen, screen_);
+            };
+            const QPointF right = moved({20.0, 0.0});
+            const QPointF down = moved({0.0, 20.0});
+            // Sideways is about the vertical: from straight above that goes nowhere.
+            if (std::abs(camera.forward().z()) < 0.95) QVERIFY(right.x() > 2.0 * std::abs(right.y()));
+            QVERIFY(down.y() > 0.0 && std::abs(down.x()) < 0.1 * down.y());
+        }
+    }
+
     void emptyBoxLeavesTheCamera() { QCOMPARE(fitted(Camera(), geometry::Box(), screen_), Camera()); }
 };
 
