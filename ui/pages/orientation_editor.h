@@ -6,6 +6,7 @@
 #include "core/part/part.h"
 #include "core/track/track.h"
 
+class QHBoxLayout;
 class QLabel;
 class QPushButton;
 
@@ -39,7 +40,7 @@ class OrientationEditor : public QWidget {
 
  private:
     void addQuarter(const QString& name, const QString& text, const QString& tip, const base::Vec3& axis,
-                    class QHBoxLayout& row);
+                    QHBoxLayout& row);
     void turn(const base::Quaternion& turn);
     void layDown();
     void showPart();
