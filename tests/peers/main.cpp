@@ -14,6 +14,7 @@
 #include "tests/peers/bullet_engine.h"
 #include "tests/peers/mujoco_engine.h"
 #include "tests/peers/ode_engine.h"
+#include "tests/peers/points_engine.h"
 #include "tests/peers/transfer.h"
 #include "tests/peers/work_precision.h"
 
@@ -164,6 +165,7 @@ int main(int argc, char** argv) {
     known.push_back(makePeer<peers::OdeEngine>("ode"));
     known.push_back(makePeer<peers::MujocoEngine>("mujoco"));
     known.push_back(makePeer<peers::BulletEngine>("bullet"));
+    known.push_back(makePeer<peers::PointsEngine>("points"));
     const app::Console console(json);
     auto result = !folder.empty()                ? runWorkPrecision(folder, options, known, console)
                   : !transfer.track.file.empty() ? runTransfer(transfer, options, known, console)

@@ -8,6 +8,7 @@
 #include "tests/peers/bullet_engine.h"
 #include "tests/peers/mujoco_engine.h"
 #include "tests/peers/ode_engine.h"
+#include "tests/peers/points_engine.h"
 #include "tests/sim/engines/engine_scenes.h"
 
 using namespace trapwright;
@@ -18,6 +19,7 @@ namespace {
 std::unique_ptr<trial::Engine> makeEngine(const QString& name, const trial::EngineOptions& options) {
     if (name == "ode") return std::make_unique<peers::OdeEngine>(options);
     if (name == "bullet") return std::make_unique<peers::BulletEngine>(options);
+    if (name == "points") return std::make_unique<peers::PointsEngine>(options);
     return std::make_unique<peers::MujocoEngine>(options);
 }
 
@@ -41,6 +43,7 @@ void addEngines() {
     QTest::newRow("ode") << "ode";
     QTest::newRow("mujoco") << "mujoco";
     QTest::newRow("bullet") << "bullet";
+    QTest::newRow("points") << "points";
 }
 
 }  // namespace
@@ -54,7 +57,7 @@ class PeersTest : public QObject {
     void flightIsAParabola_data() {
         QTest::addColumn<QString>("engine");
         QTest::addColumn<bool>("bowl");
-        for (const char* engine : {"ode", "mujoco", "bullet"})
+        for (const char* engine : {"ode", "mujoco", "bullet", "points"})
             for (const bool bowl : {false, true})
                 QTest::addRow("%s, %s", engine, bowl ? "bowl" : "linear") << engine << bowl;
     }
@@ -110,8 +113,8 @@ class PeersTest : public QObject {
         const auto meter = std::make_shared<trial::CostMeter>();
         const auto batch = testing::makeLyingOn({}, 0.0, 0.3);
         QVERIFY(makeEngine(engine, {1, 0.0, meter})->run(std::vector{batch}, {}).ok());
-        // Bullet does all in one call.
-        QVERIFY(engine == "bullet" || meter->read().detection > 0.0);
+        // Bullet does all in one call, and points do without contacts.
+        QVERIFY(engine == "bullet" || engine == "points" || meter->read().detection > 0.0);
         QVERIFY(meter->read().law > 0.0);
     }
 
@@ -121,6 +124,10 @@ class PeersTest : public QObject {
         QVERIFY(agrees("ode", 1e-3, "slope"));
         QVERIFY(agrees("ode", 1e-3, "sliding"));
         QVERIFY(agrees("ode", 1e-3, "plastic-hop"));
+    }
+    void pointsSlideAndHop() {
+        QVERIFY(agrees("points", 2e-6, "sliding"));
+        QVERIFY(agrees("points", 2e-6, "plastic-hop"));
     }
     void bulletHops() { QVERIFY(agrees("bullet", 2.5e-4, "plastic-hop")); }
     void mujocoHops() { QVERIFY(agrees("mujoco", 2.5e-4, "plastic-hop")); }
