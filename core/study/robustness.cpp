@@ -324,15 +324,13 @@ std::vector<SlicedCondition> sliceByCondition(const SimulationSettings& simulati
     for (const Condition condition : listVarying(simulation, box)) {
         SlicedCondition& sliced = conditions.emplace_back(SlicedCondition{condition, {}});
         for (int i = 0; i < kSlices; ++i) {
-            const auto at = [&](int end) {
-                return conditionAt(simulation, box, condition, static_cast<double>(end) / kSlices);
-            };
-            sliced.slices.push_back({at(i), at(i + 1), {}});
-        }
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const double share = places[i][static_cast<std::size_t>(condition)];
-            const int slice = std::clamp(static_cast<int>(share * kSlices), 0, kSlices - 1);
-            sliced.slices[static_cast<std::size_t>(slice)].tally.add(verdicts[i]);
+            const BoxSlice slice{condition, static_cast<double>(i) / kSlices,
+                                 static_cast<double>(i + 1) / kSlices};
+            const auto at = [&](double share) { return conditionAt(simulation, box, condition, share); };
+            ConditionSlice& counted =
+                sliced.slices.emplace_back(ConditionSlice{slice, at(slice.low), at(slice.high), {}});
+            for (std::size_t k = 0; k < places.size(); ++k)
+                if (slice.holds(places[k])) counted.tally.add(verdicts[k]);
         }
     }
     return conditions;

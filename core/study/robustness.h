@@ -100,8 +100,22 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
 /// A table of all of it, for people.
 std::string formatRobustness(const StudyInputs& inputs, const Robustness& robustness);
 
+/// The places of the box with one condition between two shares of its range, all others anywhere.
+struct BoxSlice {
+    trial::Condition condition = trial::Condition::friction;
+    double low = 0.0;   // belongs to it
+    double high = 1.0;  // belongs to the next one; 1 to this
+
+    [[nodiscard]] bool holds(const trial::BoxPlace& place) const {
+        const double share = place[static_cast<std::size_t>(condition)];
+        return share >= low && (share < high || high >= 1.0);
+    }
+    friend bool operator==(const BoxSlice&, const BoxSlice&) = default;
+};
+
 /// Trials whose condition is in this slice of its range.
 struct ConditionSlice {
+    BoxSlice places;
     double low = 0.0;  // in SI, as conditionAt() tells it
     double high = 0.0;
     trial::Tally tally;

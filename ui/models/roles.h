@@ -13,7 +13,6 @@ enum Role {
     PoseRole,     // index into the part's stable poses; -1 for a total
     VerdictRole,  // trial::Verdict as int: of the trial, or that the column counts; -1 otherwise
     IsWinnerRole,
-    PlainRole,    // true: a number in a column of links that leads nowhere
     SuccessRole,  // "95 %", or a dash where it is not known
     CsvRole       // a list: what a cell, or a heading, is in CSV; without it the ValueRole, or the title
 };

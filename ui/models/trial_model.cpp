@@ -46,6 +46,11 @@ int TrialModel::count(trial::Verdict verdict) const {
                                           [&](const TrialRow& row) { return row.verdict == verdict; }));
 }
 
+int TrialModel::rowOf(int trial) const {
+    const auto row = std::ranges::lower_bound(rows(), trial, {}, &TrialRow::trial);
+    return row != rows().end() && row->trial == trial ? static_cast<int>(row - rows().begin()) : -1;
+}
+
 QVariant TrialModel::more(const TrialRow& row, int column, int role) const {
     switch (role) {
         case TrialRole:

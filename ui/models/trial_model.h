@@ -27,8 +27,11 @@ class TrialModel : public RecordModel<TrialRow> {
 
     explicit TrialModel(QObject* parent = nullptr);
 
+    /// Their numbers must rise.
     void setTrials(std::vector<TrialRow> rows);
     [[nodiscard]] int count(trial::Verdict verdict) const;
+    /// The row of a trial; -1 if it is not there.
+    [[nodiscard]] int rowOf(int trial) const;
 
  protected:
     [[nodiscard]] QVariant more(const TrialRow& row, int column, int role) const override;

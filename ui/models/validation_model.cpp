@@ -196,6 +196,7 @@ void ValidationModel::addConditions(std::vector<Row>& rows) const {
         const auto makeSlice = [&](Row::Kind kind, const study::ConditionSlice& slice) {
             Row row = makeRow(kind, {}, {-1, slice.tally});
             row.condition = name;
+            row.slice = slice.places;
             row.range = QString::fromStdString(study::describeRange(sliced.condition, slice));
             row.range.replace(" ... ", "…").replace(" deg", "°");
             return row;
@@ -244,8 +245,6 @@ QVariant ValidationModel::more(const ValidationTableRow& row, int column, int ro
     switch (role) {
         case VerdictRole:
             return isWeighted(row) ? -1 : verdictOf(column);
-        case PlainRole:
-            return isOfCondition(row);
         case Qt::ToolTipRole:
             return column == Pose ? helpOf(row) : QString();
         case Qt::DecorationRole:

@@ -13,10 +13,11 @@ struct ValidationTableRow {
     enum class Kind { group, pose, condition, slice, weighted, correct, total };
 
     Kind kind = Kind::group;
-    std::vector<int> poses;        // of the row; none: a total, or of a condition
-    QString condition = {};        // its name, of a row of it
-    QString range = {};            // of it
-    std::optional<double> weight;  // how often parts land so
+    std::vector<int> poses;                     // of the row; none: a total, or of a condition
+    QString condition = {};                     // its name, of a row of it
+    QString range = {};                         // of it
+    std::optional<study::BoxSlice> slice = {};  // whose trials it counts
+    std::optional<double> weight;               // how often parts land so
     study::ValidationRow row;
     std::optional<double> rate;  // of success
     stats::Interval bounds;      // 95 %, of it; [0, 1] without trials

@@ -25,8 +25,7 @@ namespace trapwright::pages {
 namespace {
 
 bool isLink(const QModelIndex& index, const QSet<int>& columns) {
-    return columns.contains(index.column()) && index.data(models::ValueRole).toInt() > 0 &&
-           !index.data(models::PlainRole).toBool();
+    return columns.contains(index.column()) && index.data(models::ValueRole).toInt() > 0;
 }
 
 class LinkDelegate : public QStyledItemDelegate {

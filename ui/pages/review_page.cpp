@@ -267,7 +267,7 @@ void ReviewPage::askForSlices(const study::ValidationRecord& record, int number)
 
 void ReviewPage::goToFailures(const QModelIndex& cell) {
     if (cell.column() == ValidationModel::Pose) return validation_.toggle(cell.row());
-    if (cell.data(models::ValueRole).toInt() == 0 || cell.data(models::PlainRole).toBool()) return;
+    if (cell.data(models::ValueRole).toInt() == 0) return;
     std::set<trial::Verdict> verdicts;
     if (cell.data(models::VerdictRole).toInt() >= 0) {
         verdicts = {static_cast<trial::Verdict>(cell.data(models::VerdictRole).toInt())};
@@ -276,12 +276,16 @@ void ReviewPage::goToFailures(const QModelIndex& cell) {
     } else {
         return;
     }
+    const models::ValidationTableRow& row = validation_.rows()[static_cast<std::size_t>(cell.row())];
+    if (row.slice)
+        return review_.goToSlice(QString("%1 %2").arg(row.condition, row.range), *row.slice,
+                                 row.row.tally.trials(), verdicts);
     // Of the total: the first poses that have such failures.
-    std::vector<int> poses = validation_.rows()[static_cast<std::size_t>(cell.row())].poses;
-    for (int row = 0; poses.empty() && row < validation_.rowCount(); ++row) {
-        const QModelIndex same = validation_.index(row, cell.column());
+    std::vector<int> poses = row.poses;
+    for (int other = 0; poses.empty() && other < validation_.rowCount(); ++other) {
+        const QModelIndex same = validation_.index(other, cell.column());
         if (same.data(models::ValueRole).toInt() > 0)
-            poses = validation_.rows()[static_cast<std::size_t>(row)].poses;
+            poses = validation_.rows()[static_cast<std::size_t>(other)].poses;
     }
     review_.goToTrials(poses, verdicts);
 }

@@ -169,9 +169,11 @@ void TrialList::setSources(const std::vector<TrialSource>& sources, int current)
         source_->addItem(tr("%1 (%2)").arg(source.name, QLocale().toString(source.count)));
     source_->setVisible(!sources.empty());
     source_->setCurrentIndex(current);
-    listPoses(current >= 0 && current < static_cast<int>(sources.size())
-                  ? sources[static_cast<std::size_t>(current)].request.poses
-                  : std::vector<int>());
+    const bool isThere = current >= 0 && current < static_cast<int>(sources.size());
+    const TrialSource shown = isThere ? sources[static_cast<std::size_t>(current)] : TrialSource();
+    // A slice has trials of all poses, which are not alike.
+    listPoses(isThere && !shown.slice ? shown.request.poses : std::vector<int>());
+    if (shown.slice) table_->setColumnHidden(TrialModel::Pose, false);
 }
 
 void TrialList::listPoses(const std::vector<int>& poses) {
@@ -218,9 +220,10 @@ void TrialList::setTrials(std::vector<models::TrialRow> rows, int wanted) {
     model_.setTrials(std::move(rows));
     stack_->setCurrentIndex(model_.rowCount() == 0 ? 0 : 1);
     if (!sized && model_.rowCount() > 0) sizeColumns();
-    if (!before.empty() && before.front() < model_.rowCount()) {
+    if (!before.empty() && model_.rowOf(before.front()) >= 0) {
         // The ghosts that only follow are found again by themselves.
-        const QModelIndex current = filter_.mapFromSource(model_.index(before.front(), TrialModel::Trial));
+        const QModelIndex current =
+            filter_.mapFromSource(model_.index(model_.rowOf(before.front()), TrialModel::Trial));
         table_->selectionModel()->setCurrentIndex(
             current, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     }
@@ -282,7 +285,7 @@ void TrialList::applyChips() {
 }
 
 void TrialList::select(int trial) {
-    const QModelIndex index = filter_.mapFromSource(model_.index(trial, TrialModel::Trial));
+    const QModelIndex index = filter_.mapFromSource(model_.index(model_.rowOf(trial), TrialModel::Trial));
     table_->selectionModel()->setCurrentIndex(
         index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     table_->scrollTo(index);

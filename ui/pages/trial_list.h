@@ -24,6 +24,7 @@ struct TrialSource {
     QString name;  // "Validation, pose 2"
     workflow::TrialsRequest request;
     int count = 0;
+    std::optional<study::BoxSlice> slice{};  // the trials in there alone
 };
 
 /// The simulated trials of one individual: which ones, how each ended, filters by that, and which are

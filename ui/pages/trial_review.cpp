@@ -26,13 +26,16 @@ bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) 
            isSameIndividual(a.winner, b.winner);
 }
 
-std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::SymmetryGroup& symmetry) {
+/// Of those in the slice, if there is one.
+std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::SymmetryGroup& symmetry,
+                                       const std::optional<study::BoxSlice>& slice) {
     std::vector<models::TrialRow> rows;
     // As many of each pose, one pose after the other.
     const std::vector<int>& poses = trials.request.poses;
     const std::size_t ofEachPose =
         std::max<std::size_t>(1, static_cast<std::size_t>(trials.wanted) / poses.size());
     for (std::size_t i = 0; i < trials.outcomes.size(); ++i) {
+        if (slice && (i >= trials.places.size() || !slice->holds(trials.places[i]))) continue;
         const trial::PartOutcome& outcome = trials.outcomes[i].parts.front();
         const int pose = trials.request.kind == TrialKind::validation
                              ? poses[std::min(i / ofEachPose, poses.size() - 1)]
@@ -135,7 +138,8 @@ void TrialReview::refreshSources() {
     if (source_ < static_cast<int>(sources_.size())) before = sources_[static_cast<std::size_t>(source_)];
     makeSources();
     const auto same = std::find_if(sources_.begin(), sources_.end(), [&](const TrialSource& source) {
-        return before && isSame(source.request, before->request) && source.count == before->count;
+        return before && isSame(source.request, before->request) && source.count == before->count &&
+               source.slice == before->slice;
     });
     // A new validation may expect another orientation.
     if (same == sources_.end() || same->request.kind == TrialKind::validation) return setSource(0);
@@ -171,8 +175,24 @@ void TrialReview::goToRobustness(const workflow::RobustnessTrials& trials, const
     if (!winner_) return;
     workflow::TrialsRequest request{workflow::TrialKind::robustness, *winner_};
     request.robustness = trials;
-    const bool isThere = place_ && isSame(place_->request, request);
-    place_ = TrialSource{name, request, trials.trials.count};
+    goToPlace({name, request, trials.trials.count}, verdicts);
+}
+
+void TrialReview::goToSlice(const QString& name, const study::BoxSlice& slice, int count,
+                            const std::set<trial::Verdict>& verdicts) {
+    if (!winner_) return;
+    workflow::TrialsRequest request{TrialKind::validation, *winner_, {}};
+    for (const TrialSource& source : sources_)
+        if (source.request.kind == TrialKind::validation && !source.slice)
+            request.poses.insert(request.poses.end(), source.request.poses.begin(),
+                                 source.request.poses.end());
+    std::sort(request.poses.begin(), request.poses.end());
+    goToPlace({tr("Validation, %1").arg(name), request, count, slice}, verdicts);
+}
+
+void TrialReview::goToPlace(const TrialSource& place, const std::set<trial::Verdict>& verdicts) {
+    const bool isThere = place_ && isSame(place_->request, place.request) && place_->slice == place.slice;
+    place_ = place;
     makeSources();
     list_->setVerdicts(verdicts);
     const auto index = static_cast<int>(sources_.size()) - 1;
@@ -258,15 +278,19 @@ void TrialReview::takeTrials(const ListedTrials& trials) {
     if (!isShown(trials.request)) return;
     showOrigin(trials);
     const double tolerance = study_->design().settings().validation.tolerance;
-    counting_.start(
-        [this, trials, tolerance, part = study_->design().part()]() -> session::NewestTask::Deliver {
-            auto rows = makeRows(trials, part->symmetry);
-            auto shares = study::calcOrientationShares(*part, trials.outcomes, trials.judged.goal);
-            return [this, rows = std::move(rows), shares = std::move(shares), tolerance,
-                    wanted = trials.wanted]() mutable {
-                showTrials(std::move(rows), wanted, std::move(shares), tolerance);
-            };
-        });
+    counting_.start([this, trials, tolerance, slice = sources_[static_cast<std::size_t>(source_)].slice,
+                     part = study_->design().part()]() -> session::NewestTask::Deliver {
+        auto rows = makeRows(trials, part->symmetry, slice);
+        std::vector<trial::Outcome> outcomes;
+        for (const models::TrialRow& row : rows)
+            outcomes.push_back(trials.outcomes[static_cast<std::size_t>(row.trial)]);
+        auto shares = study::calcOrientationShares(*part, outcomes, trials.judged.goal);
+        const bool all = static_cast<int>(trials.outcomes.size()) == trials.wanted;
+        const int wanted = all ? static_cast<int>(rows.size()) : trials.wanted;
+        return [this, rows = std::move(rows), shares = std::move(shares), tolerance, wanted]() mutable {
+            showTrials(std::move(rows), wanted, std::move(shares), tolerance);
+        };
+    });
 }
 
 void TrialReview::showOrigin(const ListedTrials& trials) {
@@ -319,10 +343,11 @@ void TrialReview::takeReplay(const workflow::TrialsRequest& request, int trial,
     std::erase(requested_, trial);
     if (difference) differences_.insert_or_assign(trial, *difference);
     if (std::find(wanted_.begin(), wanted_.end(), trial) == wanted_.end()) return;
-    const auto& rows = list_->trials().rows();
-    const auto row = static_cast<std::size_t>(trial);
-    replays_.push_back({trial, row < rows.size() ? rows[row].verdict : trial::Verdict::success,
-                        std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape)});
+    const int row = list_->trials().rowOf(trial);
+    replays_.push_back(
+        {trial,
+         row < 0 ? trial::Verdict::success : list_->trials().rows()[static_cast<std::size_t>(row)].verdict,
+         std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape)});
     showReplays();
     if (playWanted_ && trial == wanted_.front()) {
         playWanted_ = false;

@@ -56,11 +56,17 @@ class TrialReview : public QObject {
     void goToRobustness(const workflow::RobustnessTrials& trials, const QString& name,
                         const std::set<trial::Verdict>& verdicts);
 
+    /// Likewise the `count` trials of the validation, whatever their pose, in this slice of the operating
+    /// box.
+    void goToSlice(const QString& name, const study::BoxSlice& slice, int count,
+                   const std::set<trial::Verdict>& verdicts);
+
  signals:
     void failed(const QString& what, const QString& message);
     void chosenChanged();
 
  private:
+    void goToPlace(const TrialSource& place, const std::set<trial::Verdict>& verdicts);
     void showTrack();
     void makeSources();
     void setSource(int source);

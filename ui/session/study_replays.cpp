@@ -4,6 +4,7 @@
 
 #include "core/study/evaluator.h"
 #include "core/study/target.h"
+#include "core/study/trial_batches.h"
 #include "ui/session/study_state.h"
 
 namespace trapwright::session {
@@ -102,6 +103,7 @@ void StudyReplays::requestTrials(const workflow::TrialsRequest& request) {
                   ListedTrials trials;
                   trials.request = request;
                   trials.wanted = static_cast<int>(simulation->batch.trials.size());
+                  trials.places = study::listPlaces(simulation->batch);
                   return simulation->kept ? listStored(*simulation, std::move(trials))
                                           : simulateSome(simulation, std::move(trials));
               });

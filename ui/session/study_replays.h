@@ -20,6 +20,7 @@ struct ListedTrials {
     int wanted = 0;                        // in the end
     std::vector<trial::Outcome> outcomes;  // slot i for trial i
     workflow::JudgedTrials judged;         // likewise
+    std::vector<trial::BoxPlace> places;   // of all that are wanted; none: they do not vary
     trial::OutcomeMaker maker;             // of the outcomes
     bool stored = false;                   // in the study; else they were simulated again
 };

@@ -229,25 +229,25 @@ class RecordModelsTest : public QObject {
         QCOMPARE(textAt(model, 0, ValidationModel::Bounds), QString("99.6 … 100.0"));
     }
 
-    // The cuboid's opposite faces look the same.
-    // A condition shows its worst quarter, and opens to all four; its numbers are no links, and totals stay
-    // last.
+    // A condition shows its worst quarter, and opens to all four; each knows whose trials it counts, and
+    // totals stay last.
     void validationsTellConditions() {
         ValidationModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
-        model.setConditions({{trial::Condition::halfStroke,
-                              {{0.7e-3, 0.75e-3, {99, 1, 0, 0}},
-                               {0.75e-3, 0.8e-3, {100, 0, 0, 0}},
-                               {0.8e-3, 0.85e-3, {90, 4, 6, 0}},
-                               {0.85e-3, 0.9e-3, {95, 5, 0, 0}}}}});
+        constexpr auto kStroke = trial::Condition::halfStroke;
+        model.setConditions({{kStroke,
+                              {{{kStroke, 0.0, 0.25}, 0.7e-3, 0.75e-3, {99, 1, 0, 0}},
+                               {{kStroke, 0.25, 0.5}, 0.75e-3, 0.8e-3, {100, 0, 0, 0}},
+                               {{kStroke, 0.5, 0.75}, 0.8e-3, 0.85e-3, {90, 4, 6, 0}},
+                               {{kStroke, 0.75, 1.0}, 0.85e-3, 0.9e-3, {95, 5, 0, 0}}}}});
         QCOMPARE(model.rowCount(), 0);  // of what?
         model.setValidation(paperTable());
         QCOMPARE(model.rowCount(), 8);
         QCOMPARE(textAt(model, 6, ValidationModel::Pose), QString("Half-stroke 0.800…0.850 mm"));
         QCOMPARE(textAt(model, 6, ValidationModel::Success), QString("90.0"));
         QCOMPARE(textAt(model, 6, ValidationModel::Stuck), QString("6"));
-        QVERIFY(model.index(6, ValidationModel::Stuck).data(models::PlainRole).toBool());
-        QVERIFY(!model.index(5, ValidationModel::Stuck).data(models::PlainRole).toBool());
+        QVERIFY((model.rows()[6].slice == study::BoxSlice{kStroke, 0.5, 0.75}));
+        QVERIFY(!model.rows()[5].slice);
         model.toggle(6);
         QCOMPARE(model.rowCount(), 12);
         QCOMPARE(textAt(model, 7, ValidationModel::Pose).trimmed(), QString("0.700…0.750 mm"));
@@ -259,6 +259,7 @@ class RecordModelsTest : public QObject {
         QCOMPARE(model.rowCount(), 7);
     }
 
+    // The cuboid's opposite faces look the same.
     void alikePosesAreOneRowThatOpens() {
         ValidationModel model;
         const QAbstractItemModelTester tester(&model, kFatal);

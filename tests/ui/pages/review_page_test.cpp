@@ -382,6 +382,60 @@ class ReviewPageTest : public QObject {
         QVERIFY(user.message().isEmpty());
     }
 
+    /// Of a validation over the operating box: the failures of a quarter of a condition, of all poses.
+    void aQuarterOfAConditionIsOneClickFromItsTrials() {
+        ReviewUser user(study_);
+        study::Settings settings = user.session()->design().settings();
+        settings.validation.conditions = study::TrialConditions::varied;
+        user.session()->design().changeSettings(settings, "Judge under");
+        QVERIFY(user.validate());
+        const auto& model = static_cast<ValidationModel&>(*user.validation().model());
+        using Kind = models::ValidationTableRow::Kind;
+        const auto findRow = [&](auto&& meant) {
+            const auto row = std::ranges::find_if(model.rows(), meant);
+            return row == model.rows().end() ? -1 : static_cast<int>(row - model.rows().begin());
+        };
+        // They come after the table itself.
+        QTRY_VERIFY_WITH_TIMEOUT(findRow([](const auto& row) { return row.kind == Kind::condition; }) >= 0,
+                                 kPatience);
+        const int condition = findRow(
+            [](const auto& row) { return row.kind == Kind::condition && row.row.tally.failures() > 0; });
+        QVERIFY2(condition >= 0, "The study of this test has no such failure.");
+        user.validation().scrollTo(model.index(condition, 0));
+        user.click(user.validation(), condition, ValidationModel::Pose);
+        const models::ValidationTableRow worst = model.rows()[static_cast<std::size_t>(condition)];
+        const int quarter = findRow([&](const auto& row) {
+            return row.kind == Kind::slice && row.condition == worst.condition && row.slice != worst.slice &&
+                   row.row.tally.failures() > 0;
+        });
+        int listed = 0;
+        for (const int row : {condition, quarter}) {
+            if (row < 0) continue;  // all failures are in one quarter
+            const models::ValidationTableRow wanted = model.rows()[static_cast<std::size_t>(row)];
+            user.validation().scrollTo(model.index(row, 0));
+            user.click(user.validation(), row, ValidationModel::Failures);
+            QVERIFY(user.find<QComboBox>("trials.source")->currentText().contains(wanted.condition));
+            const QAbstractItemModel& shown = *user.trials().model();
+            QTRY_COMPARE_WITH_TIMEOUT(shown.rowCount(), wanted.row.tally.failures(), kPatience);
+            for (const trial::Verdict verdict : {trial::Verdict::success, trial::Verdict::wrongOrientation,
+                                                 trial::Verdict::stuck, trial::Verdict::fellOff}) {
+                auto* chip = user.find<QToolButton>(QString("trials.chip%1").arg(static_cast<int>(verdict)));
+                QCOMPARE(chip->isChecked(), verdict != trial::Verdict::success);
+                if (verdict == trial::Verdict::stuck)
+                    QCOMPARE(chip->text().section(' ', 0, 0).toInt(), wanted.row.tally.stuck);
+            }
+            QTRY_VERIFY_WITH_TIMEOUT(user.player().playing(), kPatience);
+            QCOMPARE(user.scene().parts.size(), std::size_t{1});
+            // Its number is the trial's own, of which there are more than are listed.
+            QTRY_VERIFY(user.waitForReplay());
+            ++listed;
+        }
+        QVERIFY(listed > 0);
+        // The replay is of a trial that ends as it is listed.
+        QVERIFY(user.find<QWidget>("transport")->findChild<look::MessageBar*>()->text().isEmpty());
+        QVERIFY(user.message().isEmpty());
+    }
+
     void anotherPageEndsTheReplay() {
         ReviewUser user(study_);
         QVERIFY(user.waitForReplay());
