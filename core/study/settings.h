@@ -41,7 +41,7 @@ struct EvolutionSettings {
     int plannedTraps = 1500;  // that are tried by themselves for a first generation that is planned
     // Whose sum a search maximises (objectives::readObjectives).
     std::string objectives{objectives::kPaperObjectives};
-    TrialConditions conditions = TrialConditions::nominal;
+    TrialConditions conditions = TrialConditions::varied;  // nominal in the paper
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0
     int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody
@@ -77,8 +77,8 @@ struct ValidationSettings {
     int selectionWinners = 10;  // how many of the highest winners are re-simulated
     int selectionTrials = 1000;
     int trialsPerPose = 1000;
-    double tolerance = 25.0 * base::kDegree;  // of the expected orientation [rad]
-    TrialConditions conditions = TrialConditions::nominal;
+    double tolerance = 25.0 * base::kDegree;               // of the expected orientation [rad]
+    TrialConditions conditions = TrialConditions::varied;  // nominal in the paper
 
     friend bool operator==(const ValidationSettings&, const ValidationSettings&) = default;
 };

@@ -339,7 +339,12 @@ class CommandsTest : public QObject {
         const Ran text =
             ask({"validate", "sliced.trap", "--trials", "8", "--conditions", "varied", "--engine", "native"});
         QVERIFY2(text.output.contains("By condition"), text.all());
-        QVERIFY(!ask({"validate", "sliced.trap", "--trials", "1", "--engine", "native", "--json"})
+        // Varied, too, if nothing is said.
+        QVERIFY(ask({"validate", "sliced.trap", "--trials", "1", "--engine", "native", "--json"})
+                    .json()
+                    .contains("conditions"));
+        QVERIFY(!ask({"validate", "sliced.trap", "--trials", "1", "--conditions", "nominal", "--engine",
+                      "native", "--json"})
                      .json()
                      .contains("conditions"));
     }

@@ -50,9 +50,13 @@ class GoldenStudyTest : public QObject {
         QTest::addColumn<QStringList>("learning");
         QTest::addColumn<QString>("trials");
         QTest::addColumn<QByteArray>("expected");
+        const QStringList race = {"--preset", "cuboid", "--engine", "native",
+                                  "--trials", "12",     "--set",    "evolution.racingTrials=4"};
+        QTest::newRow("cuboid, linear, native, race, varied")
+            << race << "6" << QByteArray("dee9b398026b084e");
         QTest::newRow("cuboid, linear, native, race")
-            << QStringList{"--preset", "cuboid", "--engine", "native",
-                           "--trials", "12",     "--set",    "evolution.racingTrials=4"}
+            << QStringList{race + QStringList{"--set", "evolution.conditions=nominal", "--set",
+                                              "validation.conditions=nominal"}}
             << "6" << QByteArray("5646252f04b478cf");
         QTest::newRow("cone, bowl, Simbody, as in the paper")
             << QStringList{"--preset", "cone", "--paper", "--trials", "3"} << "2"

@@ -155,6 +155,8 @@ class StudyChecksTest : public QObject {
         expected.evolution.learningStep = 0.2e-3;
         expected.evolution.firstGeneration = search::ga::FirstGeneration::random;
         expected.evolution.plannedTraps = 50 * expected.evolution.populationSize;
+        expected.evolution.conditions = study::TrialConditions::nominal;
+        expected.validation.conditions = study::TrialConditions::nominal;
         QVERIFY(study->loadSettings().value() == expected);
         QCOMPARE(study->loadSettings().value().evolution.racingTrials, 0);
         QVERIFY(study->loadChecks().value() == std::vector{sampleCheck(1)});

@@ -208,6 +208,8 @@ class StudyFeederTest : public QObject {
         expected.evolution.learningStep = 0.2e-3;  // the only one that there was
         expected.evolution.firstGeneration = search::ga::FirstGeneration::random;
         expected.evolution.plannedTraps = 50 * expected.evolution.populationSize;
+        expected.evolution.conditions = study::TrialConditions::nominal;
+        expected.validation.conditions = study::TrialConditions::nominal;
         QVERIFY(study->loadSettings().value() == expected);
         QVERIFY(study->loadPhysicalValidations().value().empty());
         QVERIFY(study->loadDriveLog(-kForEver, kForEver).value().empty());

@@ -224,7 +224,9 @@ class OperatingBoxTest : public QObject {
         const search::Design design(study::designSpace(settings.track).dimensions.size(), 0.5);
         const auto track =
             std::make_shared<const track::Track>(study::decodeTrack(settings.track, design).value());
-        const study::TrialScene nominal = study::makeScene(inputs.settings, inputs.part, track);
+        study::Settings asSet = settings;
+        asSet.evolution.conditions = asSet.validation.conditions = study::TrialConditions::nominal;
+        const study::TrialScene nominal = study::makeScene(asSet, inputs.part, track);
         const study::TrialScene varied = study::makeScene(settings, inputs.part, track);
         const trial::TrialBatch plain = study::makeLearningBatch(nominal, {2, 3}, 40);
         const trial::TrialBatch first = study::makeLearningBatch(varied, {2, 3}, 40);

@@ -49,7 +49,7 @@ Settings unusualSettings() {
                    search::ga::FirstGeneration::random,
                    777,
                    "success, F_C",
-                   study::TrialConditions::varied,
+                   study::TrialConditions::nominal,
                    trial::OrientationDistance::plain,
                    true,
                    4,
@@ -81,7 +81,7 @@ Settings unusualSettings() {
              0.05,
              5.0 * base::kDegree};
     s.target = {"3, 5-6", "12.5", base::Quaternion(0.1 + 0.2, 0.5, -1.0 / 3.0, 0.5)};
-    s.validation = {30, 2000, 500, 24.9 * base::kDegree, study::TrialConditions::varied};
+    s.validation = {30, 2000, 500, 24.9 * base::kDegree, study::TrialConditions::nominal};
     s.feeder = {1.0 / 7.0, 2.5};
     return s;
 }

@@ -87,8 +87,9 @@ class StoredScoresTest : public QObject {
                     *file, inputs, {TrialKind::learning, {{generation, static_cast<int>(i)}, individual}});
                 QCOMPARE(static_cast<int>(outcomes.size()), individual.trials);
                 QVERIFY(agree(
-                    objectives::measureAll(
-                        study::makeEvaluation(inputs, *batch.track, individual.overlaps, outcomes), summed),
+                    objectives::measureAll(study::makeEvaluation(inputs, *batch.track, individual.overlaps,
+                                                                 outcomes, study::listPlaces(batch)),
+                                           summed),
                     individual.fitness));
                 const auto counted = study::countTrials(outcomes, inputs.part->symmetry, std::nullopt,
                                                         inputs.settings.validation.tolerance);
@@ -109,10 +110,11 @@ class StoredScoresTest : public QObject {
             const study::Individual individual{entry, file->loadIndividual(entry).value()};
             const auto [batch, outcomes] = read(*file, inputs, {TrialKind::selection, individual});
             QCOMPARE(static_cast<int>(outcomes.size()), entry.trials);
-            QVERIFY(agree(objectives::measureAll(study::makeEvaluation(inputs, *batch.track,
-                                                                       individual.record.overlaps, outcomes),
-                                                 summed),
-                          entry.fitness));
+            QVERIFY(agree(
+                objectives::measureAll(study::makeEvaluation(inputs, *batch.track, individual.record.overlaps,
+                                                             outcomes, study::listPlaces(batch)),
+                                       summed),
+                entry.fitness));
         }
         const study::ValidationRecord validation = file->loadValidations()->front();
         for (const study::ValidationRow& row : validation.rows) {
