@@ -23,6 +23,18 @@ using session::StudyRuns;
 
 namespace {
 
+/// How many trials a second the study learned by, lately; 0 if that is not known.
+double findRate(const std::vector<study::GenerationSummary>& summaries) {
+    constexpr std::size_t kLately = 5;
+    std::vector<double> rates;
+    for (auto i = summaries.rbegin(); i != summaries.rend() && rates.size() < kLately; ++i)
+        if (i->trialsPerSecond() > 0.0) rates.push_back(i->trialsPerSecond());
+    if (rates.empty()) return 0.0;
+    const auto middle = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2);
+    std::nth_element(rates.begin(), middle, rates.end());
+    return *middle;
+}
+
 QLabel* makeSentence(QWidget* parent) {
     auto* label = new QLabel(parent);
     label->setWordWrap(true);
@@ -49,6 +61,7 @@ JudgingCard::JudgingCard(QWidget* parent)
     connect(validate_, &QAction::triggered, this, [this] { runs_->startValidation(*winner_); });
 
     robustness_->setObjectName("review.robustness");
+    robustnessText_->setObjectName("review.robustness.cost");
     robustness_->setShortcut(Qt::CTRL | Qt::Key_F9);
     connect(robustness_, &QAction::triggered, this, [this] { runs_->startRobustness(*winner_); });
 
@@ -168,6 +181,9 @@ void JudgingCard::showRobustness(const QString& obstacle) {
         const std::int64_t trials =
             study::countRobustnessTrials(runs_->design().settings(), study::RobustnessPlan());
         text = tr("%1 trials all over the operating box").arg(QLocale().toString(qlonglong(trials)));
+        // By the engine that learns.
+        if (const double rate = findRate(runs_->summaries()); rate > 0.0)
+            text += tr(", about %1").arg(look::roughDurationText(static_cast<double>(trials) / rate));
         if (trials == 0) {
             text = tr("The operating box has no room: set on the Track page what is not known exactly.");
             if (reason.isEmpty()) reason = text;

@@ -457,6 +457,9 @@ class ReviewPageTest : public QObject {
         QVERIFY(!chart->saveCsvAction()->isEnabled());
         auto* text = user.find<QLabel>("review.robustness.head");
         QVERIFY(text->isHidden());
+        // What it takes is told before.
+        const QString cost = user.find<QLabel>("review.robustness.cost")->text();
+        QVERIFY2(cost.contains(", about "), qPrintable(cost));
         // Stopped in the middle, nothing is known.
         session::StudyRuns& runs = user.session()->runs();
         user.trigger("review.robustness");
