@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +14,7 @@
 #include "app/trapwright/study_jobs.h"
 #include "app/trapwright/track_source.h"
 #include "app/trapwright/work_display.h"
+#include "core/stats/binomial.h"
 #include "core/study/robustness.h"
 #include "core/study/track_design.h"
 #include "sim/engines/registry.h"
@@ -40,6 +43,7 @@ struct Options {
     std::optional<std::string> engine;
     unsigned threads = 0;
     bool save = false;
+    int best = 0;  // of the last selection, one after the other; 0: one track
 };
 
 /// A track, and what it is measured with.
@@ -142,10 +146,10 @@ Attempt<Subject> loadTrackSubject(const Options& options, const Console& console
                    std::move(json)};
 }
 
-Attempt<Subject> loadStudySubject(const Options& options) {
+Attempt<Subject> loadStudySubject(const Options& options, const IndividualChoice& choice) {
     auto study = openStudy(options.track.file, options.save ? Access::write : Access::read);
     if (!study) return study.error();
-    auto individual = findIndividual(study->file, options.choice);
+    auto individual = findIndividual(study->file, choice);
     if (!individual) return individual.error();
     auto inputs = makeInputs(*study, options.engine, trial::EngineUse::learning, options.threads);
     if (!inputs) return inputs.error();
@@ -161,40 +165,116 @@ Attempt<Subject> loadStudySubject(const Options& options) {
         std::move(study->file), {individual->generation, individual->individual},        std::move(json)};
 }
 
-Attempt<ExitCode> run(const Options& options, const Console& console) {
-    if (const auto checked = options.plan.check(); !checked)
-        return Failure{ExitCode::usage, checked.error().message};
-    const bool isTrack = isTrackFile(options.track.file);
-    if (isTrack && options.save)
-        return Failure{ExitCode::usage, "--save keeps the result in a study, and " + options.track.file +
-                                            " is a track; --json prints it for a file of your own."};
-    auto subject = isTrack ? loadTrackSubject(options, console) : loadStudySubject(options);
-    if (!subject) return subject.error();
+/// Makes the subject what is asked for, and measures it; keeps what comes of it if that is wanted.
+Attempt<study::Robustness> measure(Subject& subject, const Options& options, const Console& console) {
     const auto expected = readExpected(options.expected);
     if (!expected) return expected.error();
-    if (*expected) subject->goal = **expected;
-    study::StudyInputs& inputs = subject->inputs;
+    if (*expected) subject.goal = **expected;
+    study::StudyInputs& inputs = subject.inputs;
     takeBox(options, inputs.settings.box);
     if (const auto checked = study::checkInputs(inputs); !checked)
         return Failure{ExitCode::usage, checked.error().message};
 
     const base::RunControl control;
-    const auto robustness = [&] {
+    auto robustness = [&] {
         const std::int64_t trials = study::countRobustnessTrials(inputs.settings, options.plan);
         const WorkDisplay display(console, watchTrials("Robustness", trials, control));
-        return study::measureRobustness(inputs, subject->track, subject->goal, options.plan, control);
+        return study::measureRobustness(inputs, subject.track, subject.goal, options.plan, control);
     }();
     if (!robustness) return describeRunFailure(control, robustness.error());
     if (options.save) {
-        const auto saved = subject->file->saveRobustness(
-            {subject->individual, inputs.engine->name(), inputs.settings.box, *robustness});
+        const auto saved = subject.file->saveRobustness(
+            {subject.individual, inputs.engine->name(), inputs.settings.box, *robustness});
         if (!saved) return Failure{ExitCode::cannotWrite, saved.error().message};
     }
-    console.print(fmt::format("{}\n{}", subject->name, study::formatRobustness(inputs, *robustness)));
     noteRemadeTrials(inputs, console);
-    subject->json["engine"] = inputs.engine->name();
-    subject->json["robustness"] = toJson(inputs.settings, *robustness);
-    addRemadeTrials(inputs, subject->json);
+    subject.json["engine"] = inputs.engine->name();
+    subject.json["robustness"] = toJson(inputs.settings, *robustness);
+    addRemadeTrials(inputs, subject.json);
+    return *std::move(robustness);
+}
+
+std::string shareText(const study::PlaceResult& result) {
+    const trial::Tally& tally = result.tally;
+    const stats::Interval bounds = stats::calcClopperPearson(tally.success, tally.trials());
+    return fmt::format("{:5.1f} ({:.1f} ... {:.1f})", 100.0 * tally.success / tally.trials(),
+                       100.0 * bounds.low, 100.0 * bounds.high);
+}
+
+/// The last selection's first tracks, by their worst corner: what an average over the box does not tell.
+Attempt<ExitCode> runBest(const Options& options, const Console& console) {
+    if (options.choice.generation || options.choice.individual)
+        return Failure{
+            ExitCode::usage,
+            "--best takes the tracks of the last selection; leave --generation and --individual out."};
+    std::vector<study::SelectionEntry> entries;
+    {
+        auto study = openStudy(options.track.file, Access::read);
+        if (!study) return study.error();
+        const auto selections = study->file.loadSelections();
+        if (!selections) return Failure{ExitCode::badInput, selections.error().message};
+        if (selections->empty())
+            return Failure{ExitCode::badInput, "The winners of " + options.track.file +
+                                                   " were not compared yet. Run `trapwright select` first."};
+        entries = selections->back().entries;
+    }
+    entries.resize(std::min(entries.size(), static_cast<std::size_t>(options.best)));
+    struct Measured {
+        study::IndividualId individual;
+        study::Robustness robustness;
+    };
+    std::vector<Measured> measured;
+    std::string engine;
+    Json tracks = Json::array();
+    for (const study::SelectionEntry& entry : entries) {
+        auto subject = loadStudySubject(options, {entry.generation, entry.individual});
+        if (!subject) return subject.error();
+        auto robustness = measure(*subject, options, console);
+        if (!robustness) return robustness.error();
+        engine = subject->inputs.engine->name();
+        tracks.push_back(subject->json);
+        measured.push_back({entry, *std::move(robustness)});
+    }
+    std::ranges::stable_sort(measured, std::greater(), [](const Measured& one) {
+        const auto share = [](const study::PlaceResult& result) {
+            return static_cast<double>(result.tally.success) / result.tally.trials();
+        };
+        return std::pair(share(one.robustness.corners.front()), share(one.robustness.overBox));
+    });
+    constexpr const char* kColumns = "{:>10} {:>10}   {:<22} {:<22} {}\n";
+    std::string text = fmt::format("The {} best of the last selection, by their worst corner, engine {}\n",
+                                   measured.size(), engine) +
+                       fmt::format(kColumns, "Generation", "Individual", "Worst corner [%]",
+                                   "Over the box [%]", "As set [%]");
+    for (const Measured& one : measured)
+        text += fmt::format(kColumns, one.individual.generation, one.individual.individual,
+                            shareText(one.robustness.corners.front()), shareText(one.robustness.overBox),
+                            shareText(one.robustness.nominal));
+    console.print(
+        text +
+        "In brackets: 95 % Clopper-Pearson, of each by itself; the first of several owes some of its "
+        "number to luck.\n");
+    console.emit({{"study", options.track.file}, {"tracks", tracks}});
+    return ExitCode::ok;
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    if (const auto checked = options.plan.check(); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+    const bool isTrack = isTrackFile(options.track.file);
+    if (isTrack && (options.save || options.best > 0))
+        return Failure{
+            ExitCode::usage,
+            fmt::format("{} needs a study, and {} is a track; --json prints what comes of it for a file "
+                        "of your own.",
+                        options.save ? "--save" : "--best", options.track.file)};
+    if (options.best > 0) return runBest(options, console);
+    auto subject = isTrack ? loadTrackSubject(options, console) : loadStudySubject(options, options.choice);
+    if (!subject) return subject.error();
+    const auto robustness = measure(*subject, options, console);
+    if (!robustness) return robustness.error();
+    console.print(
+        fmt::format("{}\n{}", subject->name, study::formatRobustness(subject->inputs, *robustness)));
     console.emit(subject->json);
     return ExitCode::ok;
 }
@@ -232,6 +312,10 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
                    "The orientation that counts as success, w x y z (default: the most frequent final one "
                    "as set)")
         .values(4);
+    command
+        .addOption("--best", options->best,
+                   "So many tracks of the last selection, one after the other, told by their worst corner")
+        .range(1, 1000);
     command.addFlag("--save", options->save,
                     "Keep it in the study, for the Review page; replaces what it held");
     command.addOption("--engine", options->engine, "What simulates (default: what the study learns with)");

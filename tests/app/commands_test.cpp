@@ -376,6 +376,33 @@ class CommandsTest : public QObject {
         QCOMPARE(kept->loadRobustness()->front().robustness.overBox.tally.success,
                  ofStudy["over_box"]["success"]["count"].toInt());
 
+        // The best of the last selection, each as if it were asked for alone, by their worst corner.
+        const QStringList plan = few.mid(0, few.size() - 1);
+        QVERIFY(QFile::copy(folder_.filePath("study.trap"), folder_.filePath("best.trap")));
+        QCOMPARE(ask({"select", "best.trap", "--winners", "2", "--trials", "8", "--engine", "native"}).code,
+                 0);
+        const Ran best = ask(QStringList{"robustness", "best.trap", "--best", "2", "--save"} + few);
+        QVERIFY2(best.code == 0, best.all());
+        const QJsonArray tracks = best.json()["tracks"].toArray();
+        QCOMPARE(tracks.size(), 2);
+        const auto kept2 =
+            trapwright::store::StudyFile::openReadOnly(folder_.filePath("best.trap").toStdString());
+        QCOMPARE(kept2->loadRobustness()->size(), std::size_t{2});
+        for (const QJsonValue track : tracks) {
+            const Ran alone = ask(QStringList{"robustness", "best.trap", "--generation",
+                                              QString::number(track["generation"].toInt()), "--individual",
+                                              QString::number(track["individual"].toInt())} +
+                                  few);
+            QCOMPARE(alone.json()["robustness"], track["robustness"]);
+        }
+        const Ran table = ask(QStringList{"robustness", "best.trap", "--best", "2"} + plan);
+        const QStringList lines = QString::fromUtf8(table.output).split('\n');
+        QVERIFY2(lines.size() >= 5 && lines[1].contains("Worst corner"), table.all());
+        const auto corner = [&](int line) { return lines[line].simplified().section(' ', 2, 2).toDouble(); };
+        QVERIFY2(corner(2) >= corner(3), table.all());
+        QCOMPARE(ask({"robustness", "best.trap", "--best", "2", "--generation", "0"}).code, 2);
+        QFile::remove(folder_.filePath("best.trap"));
+
         // A track of no study, with a box of its own about other values.
         const QString file = QStringLiteral(TRAPWRIGHT_SOURCE_DIR "/resources/tracks/cuboid_track.json");
         const Ran onTrack =
