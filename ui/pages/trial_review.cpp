@@ -282,6 +282,7 @@ void TrialReview::takeTrials(const ListedTrials& trials) {
                      part = study_->design().part()]() -> session::NewestTask::Deliver {
         auto rows = makeRows(trials, part->symmetry, slice);
         std::vector<trial::Outcome> outcomes;
+        outcomes.reserve(rows.size());
         for (const models::TrialRow& row : rows)
             outcomes.push_back(trials.outcomes[static_cast<std::size_t>(row.trial)]);
         auto shares = study::calcOrientationShares(*part, outcomes, trials.judged.goal);
