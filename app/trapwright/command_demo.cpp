@@ -99,9 +99,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto validation = validateAndSave(study->file, *inputs, *picked, std::nullopt, console);
     if (!validation) return validation.error();
     const std::vector<part::PoseGroup> groups = study::weighPoseGroups(*inputs->part, inputs->settings);
-    console.print(fmt::format("\nThe track of generation {}, by the pose in which the parts arrive:\n{}\n",
-                              picked->generation,
-                              study::formatValidation(study::tabulate(*validation, groups))));
+    console.print(fmt::format(
+        "\nThe track of generation {}, by the pose in which the parts arrive{}:\n{}\n", picked->generation,
+        validation->box ? ", each on a feeder with other friction, restitution, stroke and part size" : "",
+        study::formatValidation(study::tabulate(*validation, groups))));
 
     auto track = study::decodeTrack(study->settings.track, picked->record.design);
     if (!track) return Failure{ExitCode::fault, track.error().message};
