@@ -230,7 +230,12 @@ Attempt<ExitCode> runBest(const Options& options, const Console& console) {
         auto subject = loadStudySubject(options, {entry.generation, entry.individual});
         if (!subject) return subject.error();
         auto robustness = measure(*subject, options, console);
-        if (!robustness) return robustness.error();
+        if (!robustness) {
+            Failure failure = robustness.error();
+            if (options.save && !measured.empty())
+                failure.message += fmt::format(" The {} measured before it are kept.", measured.size());
+            return failure;
+        }
         engine = subject->inputs.engine->name();
         tracks.push_back(subject->json);
         measured.push_back({entry, *std::move(robustness)});

@@ -385,9 +385,9 @@ class CommandsTest : public QObject {
         QVERIFY2(best.code == 0, best.all());
         const QJsonArray tracks = best.json()["tracks"].toArray();
         QCOMPARE(tracks.size(), 2);
-        const auto kept2 =
+        const auto keptBest =
             trapwright::store::StudyFile::openReadOnly(folder_.filePath("best.trap").toStdString());
-        QCOMPARE(kept2->loadRobustness()->size(), std::size_t{2});
+        QCOMPARE(keptBest->loadRobustness()->size(), std::size_t{2});
         for (const QJsonValue track : tracks) {
             const Ran alone = ask(QStringList{"robustness", "best.trap", "--generation",
                                               QString::number(track["generation"].toInt()), "--individual",

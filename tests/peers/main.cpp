@@ -139,7 +139,7 @@ app::Attempt<app::ExitCode> runTransfer(const TransferOptions& asked, const app:
 
 int main(int argc, char** argv) {
     CLI::App program(
-        "trapwright bench, with other simulators beside Trapwright's engines: ode, mujoco, bullet.",
+        "trapwright bench, with other simulators beside Trapwright's engines: ode, mujoco, bullet, points.",
         "trapwright-peers");
     app::BenchOptions options;
     bool json = false;

@@ -170,7 +170,13 @@ class PeersTest : public QObject {
         }
     }
 
-    void mujocoRefusesOverhangs() {
+    void overhangsAreRefused_data() {
+        QTest::addColumn<QString>("engine");
+        for (const char* engine : {"mujoco", "points"})
+            QTest::newRow(engine) << engine;
+    }
+    void overhangsAreRefused() {
+        QFETCH(QString, engine);
         auto batch = testing::makeLyingOn({}, 0.0, 0.3);
         auto overhanging = std::make_shared<track::Track>(*batch.track);
         for (track::CrossSection& section : overhanging->sections)
@@ -180,7 +186,7 @@ class PeersTest : public QObject {
         overhanging->solid = solid.mesh;
         overhanging->surfaceTriangles = solid.surfaceTriangles;
         batch.track = overhanging;
-        const auto outcomes = makeEngine("mujoco", {1, 0.0})->run(std::vector{batch}, {});
+        const auto outcomes = makeEngine(engine, {1, 0.0})->run(std::vector{batch}, {});
         QVERIFY(!outcomes.ok());
         QVERIFY(outcomes.error().message.find("overhangs") != std::string::npos);
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/contact/drive_motion.h"
+#include "sim/contact/law.h"
 
 namespace trapwright::peers {
 
@@ -27,9 +28,10 @@ constexpr double kLeastApproach = 3e-3;      // that damping refers to [m/s]
 
 constexpr double kLeastRestitution = 0.1;  // less takes smaller steps
 
-constexpr double kDeepest = 1e-3;  // deeper points are elsewhere [m]
-constexpr double kSkin = 0.3e-3;   // points within this of the track are looked at in each step [m]
-constexpr double kCell = 0.5e-3;   // of the map of triangles [m]
+constexpr double kLeastUpward = 1e-3;  // of a normal, of a surface that is a height over its plane
+constexpr double kDeepest = 1e-3;      // deeper points are elsewhere [m]
+constexpr double kSkin = 0.3e-3;       // points within this of the track are looked at in each step [m]
+constexpr double kCell = 0.5e-3;       // of the map of triangles [m]
 
 /// The track's surface as heights over its plane.
 class HeightMap {
@@ -50,9 +52,8 @@ class HeightMap {
  private:
     struct Facet {
         Vec3 normal;
-        double a, b, c;    // height = a x + b y + c
-        Vec3 sides[3];     // (p, q, r): p x + q y + r >= 0 inside
-        double low, high;  // of x [m]
+        double a, b, c;  // height = a x + b y + c
+        Vec3 sides[3];   // (p, q, r): p x + q y + r >= 0 inside
     };
     [[nodiscard]] int column(double x) const {
         return static_cast<int>(std::floor((x - origin_.x()) / kCell));
@@ -85,7 +86,6 @@ HeightMap::HeightMap(const track::Track& track) {
         const Vec3 corners[3] = {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
         Facet facet{};
         facet.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-        if (facet.normal.z() < 1e-3) continue;  // upright
         leastCosine_ = std::min(leastCosine_, facet.normal.z());
         facet.a = -facet.normal.x() / facet.normal.z();
         facet.b = -facet.normal.y() / facet.normal.z();
@@ -181,19 +181,6 @@ std::vector<CloudPoint> makeCloud(const geometry::ConvexPolytope& solid) {
     return cloud;
 }
 
-/// The d of Hunt and Crossley's law, for which a free rebound has the ratio e: ln((1 + d) / (1 - d e)) =
-/// d (1 + e).
-double calcDamping(double restitution) {
-    const double e = std::max(restitution, kLeastRestitution);
-    double low = 1e-6;
-    double high = (1.0 - 1e-12) / e;
-    for (int i = 0; i < 200; ++i) {
-        const double d = 0.5 * (low + high);
-        (std::log((1.0 + d) / (1.0 - d * e)) < d * (1.0 + e) ? low : high) = d;
-    }
-    return 0.5 * (low + high);
-}
-
 struct PointsScene : PeerScene {
     PointsScene(const trial::TrialBatch& b, const part::Part& p, double step)
         : batch(b), part(p), dt(step), surface(*b.track), cloud(makeCloud(p.hull)) {}
@@ -251,7 +238,8 @@ PointsTrial::PointsTrial(const PointsScene& scene, std::size_t index)
              scene.batch.trials[index].phase) {
     const trial::TrialSpec& spec = scene.batch.trials[index];
     friction_ = scene.batch.contactOf(spec).kineticFriction;
-    damping_ = calcDamping(scene.batch.contactOf(spec).restitution);
+    damping_ =
+        contact::calcContactDamping(std::max(scene.batch.contactOf(spec).restitution, kLeastRestitution));
     now_ = drive_.placement(0.0);
     const trial::PartStart& start = spec.parts.front();
     pose_ = now_.toRoom(start.pose);
@@ -360,6 +348,9 @@ std::unique_ptr<PeerTrial> PointsScene::start(std::size_t trial) const {
 base::Result<std::unique_ptr<PeerScene>> PointsEngine::prepare(const trial::TrialBatch& batch,
                                                                const part::Part& part) const {
     if (part.pieces.size() != 1) return base::Error{"The engine 'points' can do convex parts only."};
+    for (std::size_t t = 0; t < batch.track->surfaceTriangles; ++t)
+        if (geometry::triangleNormal(batch.track->solid, t).z() < kLeastUpward)
+            return base::Error{"The engine 'points' knows heights only, and the surface overhangs."};
     return std::unique_ptr<PeerScene>(
         std::make_unique<PointsScene>(batch, part, batch.stepOf(step(), step())));
 }

@@ -244,6 +244,7 @@ void PartPage::setSession(session::StudySession* session) {
     if (runs_) runs_->disconnect(this);
     design_ = session != nullptr ? &session->design() : nullptr;
     runs_ = session != nullptr ? &session->runs() : nullptr;
+    target_->setScene(scene_);  // what is being turned is the part before
     shownMesh_.reset();
     proposed_.reset();
     afterMaterial_.reset();

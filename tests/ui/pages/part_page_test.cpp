@@ -359,6 +359,13 @@ class PartPageTest : public QObject {
         QVERIFY(!user.find<QWidget>("orientationEditor")->isVisible());
         user.session()->design().undoStack()->undo();
         QVERIFY(!wanted());
+
+        // So does a study that is closed.
+        user.part.activate(scene);
+        press("target.byHand");
+        QVERIFY(user.part.findChild<QWidget*>("orientationEditor")->isVisible());
+        user.part.setSession(nullptr);
+        QVERIFY(user.part.findChild<QWidget*>("orientationEditor")->isHidden());
     }
 
     // Dropped, cancelled, dropped again, chosen to count, and the same when it is opened again.
