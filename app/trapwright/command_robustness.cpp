@@ -233,7 +233,7 @@ Attempt<ExitCode> runBest(const Options& options, const Console& console) {
         if (!robustness) {
             Failure failure = robustness.error();
             if (options.save && !measured.empty())
-                failure.message += fmt::format(" The {} measured before it are kept.", measured.size());
+                failure.message += fmt::format(" Tracks measured before it are kept: {}.", measured.size());
             return failure;
         }
         engine = subject->inputs.engine->name();
