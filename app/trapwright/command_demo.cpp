@@ -90,6 +90,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!inputs) return inputs.error();
     inputs->settings.validation.selectionWinners = kSelectionWinners;
     inputs->settings.validation.selectionTrials = options.selectionTrials;
+    inputs->settings.validation.selectionCornerTrials = options.selectionTrials / 2;
     inputs->settings.validation.trialsPerPose = options.trialsPerPose;
     auto selection = selectAndSave(study->file, *inputs, console);
     if (!selection) return selection.error();

@@ -20,6 +20,7 @@ struct Options {
     std::string study;
     std::optional<int> winners;
     std::optional<int> trials;
+    std::optional<int> cornerTrials;
     std::optional<std::string> engine;
     std::optional<std::string> conditions;
     unsigned threads = 0;
@@ -34,6 +35,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     study::ValidationSettings& validation = inputs->settings.validation;
     validation.selectionWinners = options.winners.value_or(validation.selectionWinners);
     validation.selectionTrials = options.trials.value_or(validation.selectionTrials);
+    validation.selectionCornerTrials = options.cornerTrials.value_or(validation.selectionCornerTrials);
 
     auto record = selectAndSave(study->file, *inputs, console);
     if (!record) return record.error();
@@ -68,6 +70,8 @@ void addSelectCommand(CLI::App& program, Invocation& invocation) {
     command.addOption("--winners", options->winners,
                       "How many of the highest winners (default: as in the study)");
     command.addOption("--trials", options->trials, "Trials of each (default: as in the study)");
+    command.addOption("--corner-trials", options->cornerTrials,
+                      "More of each in corners of the operating box (default: as in the study)");
     addConditionsOption(command, options->conditions);
     command.addOption("--engine", options->engine, "What simulates (default: as in the study)");
     command.addOption("--threads", options->threads, "Threads (default: all processors)");

@@ -114,6 +114,10 @@ Json toJson(const study::SelectionRecord& record) {
                            {"trials", entry.trials},
                            {"finished", entry.finished},
                            {"oriented", shareToJson(entry.oriented, entry.trials)}});
+        if (entry.corners.trials > 0)
+            entries.back()["corners"] = {
+                {"trials", entry.corners.trials},
+                {"oriented", shareToJson(entry.corners.successes, entry.corners.trials)}};
         entries.back().update(goalToJson("modal_orientation", entry.goal));
     }
     Json json = {{"engine", record.engine}, {"entries", entries}};

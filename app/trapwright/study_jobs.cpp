@@ -4,6 +4,7 @@
 
 #include "app/trapwright/json_records.h"
 #include "app/trapwright/work_display.h"
+#include "core/study/selection.h"
 #include "core/workflow/judging.h"
 #include "sim/engines/registry.h"
 
@@ -70,7 +71,8 @@ Attempt<study::SelectionRecord> selectAndSave(store::StudyFile& file, const stud
     auto candidates = workflow::findCandidates(file, inputs);
     if (!candidates) return toFailure(candidates.error());
     const auto trials =
-        static_cast<std::int64_t>(candidates->size()) * inputs.settings.validation.selectionTrials;
+        static_cast<std::int64_t>(candidates->size()) *
+        (inputs.settings.validation.selectionTrials + study::countCornerTrials(inputs.settings));
     const base::RunControl control;
     auto record = [&] {
         const WorkDisplay display(console, watchTrials("Selection", trials, control));

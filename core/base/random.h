@@ -24,6 +24,7 @@ enum class Purpose : std::uint8_t {
     specimen = 13,
     robustness = 14,
     surface = 15,
+    corners = 16,
     test = 255
 };
 

@@ -29,7 +29,8 @@ struct Evaluation {
     std::optional<int> oriented{};
     /// Where these trials are in the operating box; empty: they are all alike.
     std::span<const trial::BoxPlace> places{};
-    bool isVaried = false;  // trials are, or would be, all over an operating box
+    bool isVaried = false;    // trials are, or would be, all over an operating box
+    bool hasCorners = false;  // and some of them in its corners
 };
 
 /// What there is to attain.

@@ -13,7 +13,7 @@
 #include "core/objectives/paper_scores.h"
 #include "core/objectives/printability.h"
 #include "core/objectives/success_share.h"
-#include "core/objectives/worst_half.h"
+#include "core/objectives/worst_case.h"
 
 namespace trapwright::objectives {
 
@@ -37,9 +37,9 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {collisions(), distance(),       orientation(),  wanted(),
-                                           disorder(),   sorting(),        successShare(), correctShare(),
-                                           worstHalf(),  conveyingSpeed(), printability()};
+    static const std::array kObjectives = {collisions(), distance(), orientation(),    wanted(),
+                                           disorder(),   sorting(),  successShare(),   correctShare(),
+                                           worstHalf(),  corners(),  conveyingSpeed(), printability()};
     return kObjectives;
 }
 

@@ -371,7 +371,14 @@ CREATE TABLE robustness (           -- of an individual, the newest
 );
 )sql";
 
-constexpr std::array<Migration, 17> kMigrations = {{{1, kVersion1},
+// Selected in corners of the box, too, and learned there; nothing was.
+constexpr const char* kVersion18 = R"sql(
+ALTER TABLE selection_entry ADD COLUMN corner_trials INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE selection_entry ADD COLUMN corner_oriented INTEGER NOT NULL DEFAULT 0;
+UPDATE study SET settings = json_set(settings, '$.evolution.cornerShare', 0.0);
+)sql";
+
+constexpr std::array<Migration, 18> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -387,7 +394,8 @@ constexpr std::array<Migration, 17> kMigrations = {{{1, kVersion1},
                                                     {14, kVersion14},
                                                     {15, kVersion15},
                                                     {16, kVersion16},
-                                                    {17, kVersion17}}};
+                                                    {17, kVersion17},
+                                                    {18, kVersion18}}};
 
 }  // namespace
 

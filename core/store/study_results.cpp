@@ -22,6 +22,7 @@ study::SelectionEntry readEntry(const SQLite::Statement& query) {
     entry.trials = query.getColumn(3).getInt();
     entry.finished = query.getColumn(4).getInt();
     entry.oriented = query.getColumn(5).getInt();
+    entry.corners = {query.getColumn(12).getInt(), query.getColumn(11).getInt()};
     return entry;
 }
 
@@ -89,14 +90,15 @@ base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
             database,
             "INSERT INTO selection_entry (selection, rank, generation, individual, fitness, trials, "
             "finished, "
-            "oriented, modal_w, modal_x, modal_y, modal_z) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+            "oriented, modal_w, modal_x, modal_y, modal_z, corner_trials, corner_oriented) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
         ScoreWriter scores(database, kSelectionScores);
         int rank = 0;
         for (const study::SelectionEntry& e : record.entries) {
             const base::Quaternion& q = e.goal.shown();
             row.reset();
             SQLite::bind(row, number, rank, e.generation, e.individual, e.fitness.total, e.trials, e.finished,
-                         e.oriented, q.w(), q.x(), q.y(), q.z());
+                         e.oriented, q.w(), q.x(), q.y(), q.z(), e.corners.trials, e.corners.successes);
             row.exec();
             if (!e.goal.isOneOrientation()) {
                 SQLite::Statement goal =
@@ -113,38 +115,41 @@ base::Status StudyFile::saveSelection(const study::SelectionRecord& record) {
 }
 
 base::Result<std::vector<study::SelectionRecord>> StudyFile::loadSelections() const {
-    return guarded(path(), "The selections could not be read",
-                   [&]() -> base::Result<std::vector<study::SelectionRecord>> {
-                       SQLite::Statement heads(*state_->database,
-                                               "SELECT number, engine, box FROM selection ORDER BY number");
-                       SQLite::Statement rows(*state_->database,
-                                              "SELECT generation, individual, fitness, trials, "
-                                              "finished, oriented, modal_w, modal_x, modal_y, modal_z, goal "
-                                              "FROM selection_entry WHERE selection = ? ORDER BY rank");
-                       ScoreReader scores(*state_->database, kSelectionScores);
-                       std::vector<study::SelectionRecord> records;
-                       while (heads.executeStep()) {
-                           study::SelectionRecord record;
-                           record.engine = heads.getColumn(1).getString();
-                           if (!readBox(heads, 2, record.box))
-                               return damagedValue(path(), "the operating box of a selection");
-                           rows.reset();
-                           const int number = heads.getColumn(0).getInt();
-                           rows.bind(1, number);
-                           while (rows.executeStep()) {
-                               study::SelectionEntry entry = readEntry(rows);
-                               if (!readGoal(rows, 6, 10, entry.goal))
-                                   return damagedValue(path(), "the goal of a selection");
-                               auto own = scores.read({number, static_cast<int>(record.entries.size())});
-                               if (!own || !areCounts(entry.trials, {entry.finished, entry.oriented}))
-                                   return damagedValue(path(), "the counts of a selection");
-                               entry.fitness.scores = std::move(*own);
-                               record.entries.push_back(std::move(entry));
-                           }
-                           records.push_back(std::move(record));
-                       }
-                       return records;
-                   });
+    return guarded(
+        path(), "The selections could not be read",
+        [&]() -> base::Result<std::vector<study::SelectionRecord>> {
+            SQLite::Statement heads(*state_->database,
+                                    "SELECT number, engine, box FROM selection ORDER BY number");
+            SQLite::Statement rows(
+                *state_->database,
+                "SELECT generation, individual, fitness, trials, "
+                "finished, oriented, modal_w, modal_x, modal_y, modal_z, goal, "
+                "corner_trials, corner_oriented FROM selection_entry WHERE selection = ? ORDER BY rank");
+            ScoreReader scores(*state_->database, kSelectionScores);
+            std::vector<study::SelectionRecord> records;
+            while (heads.executeStep()) {
+                study::SelectionRecord record;
+                record.engine = heads.getColumn(1).getString();
+                if (!readBox(heads, 2, record.box))
+                    return damagedValue(path(), "the operating box of a selection");
+                rows.reset();
+                const int number = heads.getColumn(0).getInt();
+                rows.bind(1, number);
+                while (rows.executeStep()) {
+                    study::SelectionEntry entry = readEntry(rows);
+                    if (!readGoal(rows, 6, 10, entry.goal))
+                        return damagedValue(path(), "the goal of a selection");
+                    auto own = scores.read({number, static_cast<int>(record.entries.size())});
+                    if (!own || !areCounts(entry.trials, {entry.finished, entry.oriented}) ||
+                        !areCounts(entry.corners.trials, {entry.corners.successes}))
+                        return damagedValue(path(), "the counts of a selection");
+                    entry.fitness.scores = std::move(*own);
+                    record.entries.push_back(std::move(entry));
+                }
+                records.push_back(std::move(record));
+            }
+            return records;
+        });
 }
 
 base::Status StudyFile::saveValidation(const study::ValidationRecord& record) {

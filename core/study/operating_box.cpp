@@ -142,29 +142,44 @@ void putAt(const SimulationSettings& simulation, const trial::OperatingBox& box,
 }
 
 BoxPlaces::BoxPlaces(const SimulationSettings& simulation, const trial::OperatingBox& box,
-                     base::StreamKey key)
-    : distribution_(box.distribution) {
+                     base::StreamKey key, double cornerShare)
+    : distribution_(box.distribution), cornerShare_(cornerShare) {
     for (std::size_t c = 0; c < trial::kConditions; ++c)
         varies_[c] = varies(simulation, box, static_cast<Condition>(c));
     key.trial = 0;
-    base::Random random(key);
-    for (std::uint64_t& shift : shift_) {
-        const std::uint64_t high = random.bits32();
-        shift = high << 32U | random.bits32();
-    }
+    const auto drawShift = [](const base::StreamKey& of, Shift& shift) {
+        base::Random random(of);
+        for (std::uint64_t& one : shift) {
+            const std::uint64_t high = random.bits32();
+            one = high << 32U | random.bits32();
+        }
+    };
+    drawShift(key, shift_);
+    key.purpose = base::Purpose::corners;
+    drawShift(key, cornerShift_);
 }
 
 std::vector<BoxPlace> BoxPlaces::draw(int first, int count) const {
     using Sobol = boost::random::sobol_engine<std::uint64_t, 64>;
+    // Among the first n trials of all.
+    const auto countCorners = [&](int n) { return static_cast<int>(std::floor(cornerShare_ * n)); };
+    int corners = countCorners(first);
     Sobol sequence(trial::kConditions);
-    sequence.seed(static_cast<Sobol::result_type>(first));
+    sequence.seed(static_cast<Sobol::result_type>(first - corners));
+    Sobol cornerSequence(trial::kConditions);
+    cornerSequence.seed(static_cast<Sobol::result_type>(corners));
     std::vector<BoxPlace> places(static_cast<std::size_t>(count), trial::kMiddle);
     for (BoxPlace& place : places) {
+        const bool isCorner = countCorners(++first) > corners;
+        corners += isCorner ? 1 : 0;
         for (std::size_t c = 0; c < trial::kConditions; ++c) {
             constexpr int kFraction = 53;
-            const std::uint64_t bits = (sequence() ^ shift_[c]) >> (64 - kFraction);
-            if (varies_[c])
-                place[c] = distribute(distribution_, std::ldexp(static_cast<double>(bits), -kFraction));
+            const std::uint64_t bits = isCorner ? cornerSequence() ^ cornerShift_[c] : sequence() ^ shift_[c];
+            if (!varies_[c]) continue;
+            place[c] =
+                isCorner ? static_cast<double>(bits >> 63U)
+                         : distribute(distribution_,
+                                      std::ldexp(static_cast<double>(bits >> (64 - kFraction)), -kFraction));
         }
     }
     return places;

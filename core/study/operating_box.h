@@ -39,18 +39,24 @@ void putAt(const SimulationSettings& simulation, const trial::OperatingBox& box,
 
 /// Places of trials that fill the box evenly (Sobol 1967, direction numbers of Joe and Kuo 2008, moved by a
 /// random digital shift: Lemieux 2009): any first n of them say more of a mean than n random ones. Trial i of
-/// equal keys has the same place; StreamKey::trial is not looked at.
+/// equal keys has the same place; StreamKey::trial is not looked at. A share of the trials, evenly among the
+/// others, is in corners instead, all of them in turn (the halves in which a sequence of their own is).
 class BoxPlaces {
  public:
-    BoxPlaces(const SimulationSettings& simulation, const trial::OperatingBox& box, base::StreamKey key);
+    BoxPlaces(const SimulationSettings& simulation, const trial::OperatingBox& box, base::StreamKey key,
+              double cornerShare = 0.0);
 
     /// Of trials first ... first + count - 1.
     [[nodiscard]] std::vector<trial::BoxPlace> draw(int first, int count) const;
 
  private:
+    using Shift = std::array<std::uint64_t, trial::kConditions>;
+
     std::array<bool, trial::kConditions> varies_{};
     trial::BoxDistribution distribution_;
-    std::array<std::uint64_t, trial::kConditions> shift_{};
+    double cornerShare_;
+    Shift shift_{};
+    Shift cornerShift_{};
 };
 
 }  // namespace trapwright::study

@@ -137,6 +137,8 @@ struct SelectionEntry : IndividualId {
     int finished = 0;
     int oriented = 0;  // finished within the tolerance of the goal
     trial::Goal goal;  // what was wanted, or this track's modal orientation
+    /// Of trials in corners of the operating box, in none of the above; none of those: {0, 0}.
+    stats::Count corners{};
 };
 
 /// All winners that were re-simulated, best first.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/study/operating_box.h"
 #include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
@@ -13,15 +14,30 @@ namespace trapwright::study {
 
 namespace {
 
+/// The share that tells which is better: where corners of the box were tried, what holds in them counts as
+/// much as what holds on average, which hardly shows them.
+double calcWorth(const SelectionEntry& entry) {
+    const double success = static_cast<double>(entry.oriented) / entry.trials;
+    return entry.corners.trials > 0 ? 0.5 * (success + entry.corners.share()) : success;
+}
+
 bool isBetter(const SelectionEntry& a, const SelectionEntry& b, bool fallsAreForgiven) {
     const auto rank = [&](const SelectionEntry& entry) {
-        return std::make_tuple(fallsAreForgiven ? 0 : -entry.oriented, -entry.fitness.total, entry.generation,
-                               entry.individual);
+        return std::make_tuple(fallsAreForgiven ? 0.0 : -calcWorth(entry), -entry.fitness.total,
+                               entry.generation, entry.individual);
     };
     return rank(a) < rank(b);
 }
 
 }  // namespace
+
+int countCornerTrials(const Settings& settings) {
+    if (settings.validation.conditions == TrialConditions::nominal) return 0;
+    for (const trial::ConditionText& text : trial::conditionTexts())
+        if (varies(settings.simulation, settings.box, text.condition))
+            return settings.validation.selectionCornerTrials;
+    return 0;
+}
 
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) {
     std::stable_sort(winners.begin(), winners.end(), [](const Individual& a, const Individual& b) {
@@ -76,6 +92,10 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
             makeScene(settings, specimens, std::make_shared<const track::Track>(std::move(track).value()));
         batches.push_back(makeSelectionBatch(scene, winner, settings.validation.selectionTrials));
     }
+    const int cornerTrials = countCornerTrials(settings);
+    for (std::size_t i = 0; cornerTrials > 0 && i < ranked.size(); ++i)
+        batches.push_back(
+            makeCornerBatch(makeScene(settings, specimens, batches[i].track), ranked[i], cornerTrials));
     const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
     if (!outcomes) return outcomes.error();
 
@@ -91,8 +111,12 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         entry.trials = static_cast<int>(own.size());
         entry.finished = static_cast<int>(trial::finalOrientations(own).size());
         entry.goal = trial::findGoal(wanted, own, inputs.part->symmetry, settings.validation.tolerance);
-        entry.oriented =
-            trial::tally(own, entry.goal, inputs.part->symmetry, settings.validation.tolerance).success;
+        const auto countSuccess = [&](std::span<const trial::Outcome> trials) {
+            return trial::tally(trials, entry.goal, inputs.part->symmetry, settings.validation.tolerance)
+                .success;
+        };
+        entry.oriented = countSuccess(own);
+        if (cornerTrials > 0) entry.corners = {countSuccess((*outcomes)[ranked.size() + i]), cornerTrials};
         const std::vector<trial::BoxPlace> places = listPlaces(batches[i]);
         objectives::Evaluation evaluation =
             makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own, places);

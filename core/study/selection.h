@@ -26,11 +26,15 @@ bool forgivesFalls(const EvolutionSettings& settings);
 /// known is below any. Null if there are no winners.
 const Individual* findBestWinner(std::span<const Individual> winners, bool fallsAreForgiven);
 
+/// Those trials of each winner that are in corners of the operating box: none where nothing varies.
+int countCornerTrials(const Settings& settings);
+
 /// Selecting the final solution (paper, section 6.1.1; decisions.md#selection-and-success): the highest of
 /// all generations' winners are re-simulated with many fresh trials each. Best first: by the number of parts
-/// that finish within the tolerance of what is wanted, or of that track's modal orientation, then by fitness,
-/// then the earlier generation; where falls are forgiven by fitness first. Errors: settings or part that
-/// cannot be used, no winners, engine, cancelled.
+/// that finish within the tolerance of what is wanted, or of that track's modal orientation, over the
+/// operating box and, where trials vary over one, in its corners, on average of both; then by fitness, then
+/// the earlier generation; where falls are forgiven by fitness first. Errors: settings or part that cannot be
+/// used, no winners, engine, cancelled.
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Individual> winners,
                                             base::RunControl control);
 

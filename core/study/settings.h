@@ -42,6 +42,8 @@ struct EvolutionSettings {
     // Whose sum a search maximises (objectives::readObjectives).
     std::string objectives{objectives::kPaperObjectives};
     TrialConditions conditions = TrialConditions::varied;  // nominal in the paper
+    // Of trials that vary: those in corners of the operating box, where most tracks fail that fail at all.
+    double cornerShare = 0.0;
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0
     int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody
@@ -76,6 +78,7 @@ struct SimulationSettings {
 struct ValidationSettings {
     int selectionWinners = 10;  // how many of the highest winners are re-simulated
     int selectionTrials = 1000;
+    int selectionCornerTrials = 480;  // besides, in corners of the operating box
     int trialsPerPose = 1000;
     double tolerance = 25.0 * base::kDegree;               // of the expected orientation [rad]
     TrialConditions conditions = TrialConditions::varied;  // nominal in the paper

@@ -89,6 +89,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.count({"evolution.plannedTraps", 32, 1000000}, s.evolution.plannedTraps);
     v.text("evolution.objectives", s.evolution.objectives);
     v.choice("evolution.conditions", s.evolution.conditions, kConditionChoices);
+    v.number({"evolution.cornerShare", none, 0.0, 1.0}, s.evolution.cornerShare);
     v.choice("evolution.orientationDistance", s.evolution.orientationDistance,
              Choices<trial::OrientationDistance, 2>{{{"symmetric", trial::OrientationDistance::symmetric},
                                                      {"plain", trial::OrientationDistance::plain}}});
@@ -144,6 +145,7 @@ void visitFields(Visitor& v, SettingsType& s) {
 
     v.count({"validation.selectionWinners", 1, 10000}, s.validation.selectionWinners);
     v.count({"validation.selectionTrials", 1, 1000000}, s.validation.selectionTrials);
+    v.count({"validation.selectionCornerTrials", 0, 1000000}, s.validation.selectionCornerTrials);
     v.count({"validation.trialsPerPose", 1, 1000000}, s.validation.trialsPerPose);
     v.number({"validation.tolerance_deg", degree, 0.1, 180.0}, s.validation.tolerance);
     v.choice("validation.conditions", s.validation.conditions, kConditionChoices);

@@ -76,8 +76,11 @@ std::string formatSelection(const SelectionRecord& record) {
         widths.push_back(std::max(kLeast, title.size()));
         text += fmt::format(" {:>{}}", title, widths.back());
     }
-    text += fmt::format(" {:>9} {:>7}   {:>7}   {:>20}\n", "Finished", "Trials", "Success",
-                        "95 % Clopper-Pearson");
+    text +=
+        fmt::format(" {:>9} {:>7}   {:>7}   {:>20}", "Finished", "Trials", "Success", "95 % Clopper-Pearson");
+    const bool hasCorners = std::ranges::any_of(
+        record.entries, [](const SelectionEntry& entry) { return entry.corners.trials > 0; });
+    text += hasCorners ? fmt::format("   {:>7}   {:>20}\n", "Corners", "95 % Clopper-Pearson") : "\n";
     int rank = 0;
     for (const SelectionEntry& entry : record.entries) {
         text += fmt::format("{:>4} {:>10} {:>10}", ++rank, entry.generation, entry.individual);
@@ -87,8 +90,10 @@ std::string formatSelection(const SelectionRecord& record) {
                                 score != nullptr ? objectives::shown(*objectives[i], score->value) : "-",
                                 widths[i]);
         }
-        text += fmt::format(" {:>9} {:>7}   {}\n", entry.finished, entry.trials,
+        text += fmt::format(" {:>9} {:>7}   {}", entry.finished, entry.trials,
                             shareText(entry.oriented, entry.trials));
+        if (hasCorners) text += "   " + shareText(entry.corners.successes, entry.corners.trials);
+        text += '\n';
     }
     return text;
 }

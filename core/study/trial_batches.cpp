@@ -12,7 +12,7 @@ namespace trapwright::study {
 namespace {
 
 trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& policy, base::StreamKey first,
-                            int trials, TrialConditions conditions) {
+                            int trials, TrialConditions conditions, double cornerShare = 0.0) {
     trial::TrialBatch batch;
     batch.track = scene.track;
     batch.parts = {scene.part};
@@ -30,7 +30,7 @@ trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& p
     // The purpose keeps places of learning, selection and validation apart.
     const base::StreamKey key{first.seed, first.generation, static_cast<std::uint32_t>(first.purpose), 0,
                               base::Purpose::conditions};
-    const BoxPlaces places(*scene.simulation, *scene.box, key);
+    const BoxPlaces places(*scene.simulation, *scene.box, key, cornerShare);
     for (const trial::BoxPlace& place : places.draw(static_cast<int>(first.trial), trials)) {
         const auto count = static_cast<double>(batch.parts.size());
         const auto specimen = std::min(
@@ -65,6 +65,7 @@ TrialScene makeScene(const Settings& settings, const Specimens& specimens,
             &settings.box,
             specimens.varied,
             settings.evolution.conditions,
+            settings.evolution.cornerShare,
             settings.validation.conditions};
 }
 
@@ -78,7 +79,7 @@ trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId&
     const IndividualId stream{individual.generation, scene.commonRandomNumbers ? 0 : individual.individual};
     trial::TrialBatch batch =
         makeBatch(scene, scene.simulation->start, keyOf(scene, stream, first, base::Purpose::trialStart),
-                  trials, scene.whileLearning);
+                  trials, scene.whileLearning, scene.cornerShare);
     double& stuckTime = batch.termination.stuckTime;
     stuckTime = std::min(stuckTime, scene.learningStuckTime.value_or(stuckTime));
     batch.step = scene.learningStep;
@@ -88,6 +89,11 @@ trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId&
 trial::TrialBatch makeSelectionBatch(const TrialScene& scene, const IndividualId& individual, int trials) {
     return makeBatch(scene, scene.simulation->start,
                      keyOf(scene, individual, 0, base::Purpose::finalSelection), trials, scene.whileJudging);
+}
+
+trial::TrialBatch makeCornerBatch(const TrialScene& scene, const IndividualId& individual, int trials) {
+    return makeBatch(scene, scene.simulation->start, keyOf(scene, individual, 0, base::Purpose::corners),
+                     trials, scene.whileJudging, 1.0);
 }
 
 trial::TrialBatch makeValidationBatch(const TrialScene& scene, const IndividualId& individual, int pose,

@@ -27,6 +27,7 @@ struct TrialScene {
     const trial::OperatingBox* box = nullptr;
     std::vector<std::shared_ptr<const part::Part>> specimens{};
     TrialConditions whileLearning = TrialConditions::nominal;
+    double cornerShare = 0.0;                                 // of makeLearningBatch
     TrialConditions whileJudging = TrialConditions::nominal;  // selection and validation
 };
 
@@ -51,6 +52,9 @@ trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId&
 
 /// Fresh trials of a winner (paper, section 6.1.1).
 trial::TrialBatch makeSelectionBatch(const TrialScene& scene, const IndividualId& individual, int trials);
+
+/// More of them, all in corners of the operating box.
+trial::TrialBatch makeCornerBatch(const TrialScene& scene, const IndividualId& individual, int trials);
 
 /// Trials that start near one of the part's stable poses (paper, section 6.2;
 /// decisions.md#selection-and-success). Trial i of pose p is trial p x trials + i of the stream.

@@ -19,4 +19,14 @@ std::span<const ConditionText> conditionTexts() {
     return kTexts;
 }
 
+bool isCorner(const BoxPlace& place) {
+    bool somethingVaries = false;
+    for (const double share : place) {
+        if (share == 0.5) continue;
+        if (share > 0.0 && share < 1.0) return false;
+        somethingVaries = true;
+    }
+    return somethingVaries;
+}
+
 }  // namespace trapwright::trial

@@ -48,6 +48,9 @@ struct OperatingBox {
 using BoxPlace = std::array<double, kConditions>;
 inline constexpr BoxPlace kMiddle = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
 
+/// Whether all that varies is at an end of its range. (Of what varies no trial is in the middle by chance.)
+bool isCorner(const BoxPlace& place);
+
 /// A condition as people read it.
 struct ConditionText {
     Condition condition = Condition::friction;

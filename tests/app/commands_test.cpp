@@ -334,8 +334,14 @@ class CommandsTest : public QObject {
             QCOMPARE(sumOf(condition), 8 * 6);
         QCOMPARE(conditions[0]["condition"].toString(), QString("friction"));
         const Ran selected = ask({"select", "sliced.trap", "--trials", "8", "--winners", "2", "--conditions",
-                                  "varied", "--engine", "native", "--json"});
+                                  "varied", "--corner-trials", "16", "--engine", "native", "--json"});
         QCOMPARE(sumOf(selected.json()["conditions"][0]), 8);
+        const QJsonArray entries = selected.json()["selection"].toObject()["entries"].toArray();
+        QCOMPARE(entries.size(), 2);
+        for (const QJsonValue entry : entries) {
+            QCOMPARE(entry["trials"].toInt(), 8);
+            QCOMPARE(entry["corners"].toObject()["trials"].toInt(), 16);
+        }
         const Ran text =
             ask({"validate", "sliced.trap", "--trials", "8", "--conditions", "varied", "--engine", "native"});
         QVERIFY2(text.output.contains("By condition"), text.all());

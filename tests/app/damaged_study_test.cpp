@@ -20,7 +20,7 @@ const QList<QStringList>& studyCommands() {
         {"settings", "x.trap"},
         {"physical", "x.trap"},
         {"evolve", "x.trap", "--resume", "--generations", "3", "--threads", "1"},
-        {"select", "x.trap", "--winners", "1", "--trials", "2", "--engine", "native"},
+        {"select", "x.trap", "--winners", "1", "--trials", "2", "--corner-trials", "2", "--engine", "native"},
         {"validate", "x.trap", "--trials", "1", "--engine", "native"},
         {"export", "x.trap", "x.stl"},
         {"replay", "x.trap", "--out", "x.csv"}};

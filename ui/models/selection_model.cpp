@@ -36,6 +36,23 @@ std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
          [](const Row& r) { return boundsText(r.bounds, r.entry.trials); },
          [] { return boundsTitles(tr("Success")); },
          [](const Row& r) { return boundsValues(r.bounds, r.entry.trials); }},
+        {tr("In corners [%]"),
+         tr("The same of parts in corners of the operating box, where every condition is at an end of its "
+            "range.") +
+             u' ' + boundsHelp(),
+         [](const Row& r) { return percentValue(r.entry.corners.successes, r.entry.corners.trials); },
+         [](const Row& r) {
+             const stats::Count& corners = r.entry.corners;
+             const QString share = percent(corners.successes, corners.trials);
+             if (corners.trials == 0) return share;
+             return QString("%1 (%2)").arg(share, boundsText(r.corners, corners.trials));
+         },
+         [] { return QStringList{tr("In corners [%]")} + boundsTitles(tr("In corners")); },
+         [](const Row& r) {
+             const stats::Count& corners = r.entry.corners;
+             return QVariantList{percentValue(corners.successes, corners.trials)} +
+                    boundsValues(r.corners, corners.trials);
+         }},
         {tr("Trials"), tr("Fresh simulated trials."), [](const Row& r) { return QVariant(r.entry.trials); },
          [](const Row& r) { return QString::number(r.entry.trials); }},
         {tr("Finished"), tr("Parts that crossed the finish line, in whatever orientation."),
@@ -58,7 +75,8 @@ void SelectionModel::setSelection(const study::SelectionRecord& record) {
     rows.reserve(record.entries.size());
     for (const study::SelectionEntry& entry : record.entries) {
         rows.push_back({static_cast<int>(rows.size()) + 1, entry,
-                        stats::calcClopperPearson(entry.oriented, entry.trials)});
+                        stats::calcClopperPearson(entry.oriented, entry.trials),
+                        stats::calcClopperPearson(entry.corners.successes, entry.corners.trials)});
     }
     reset(std::move(rows));
 }

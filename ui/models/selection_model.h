@@ -9,14 +9,15 @@ namespace trapwright::models {
 struct SelectionRow {
     int rank = 1;
     study::SelectionEntry entry;
-    stats::Interval bounds;  // of the success rate; [0, 1] without trials
+    stats::Interval bounds;   // of the success rate; [0, 1] without trials
+    stats::Interval corners;  // of that in the operating box's corners; likewise
 };
 
 /// The winners that were re-simulated, best first.
 class SelectionModel : public RecordModel<SelectionRow> {
     Q_OBJECT
  public:
-    enum Columns { Rank, Generation, Individual, Success, Bounds, Trials, Finished, FirstScore };
+    enum Columns { Rank, Generation, Individual, Success, Bounds, Corners, Trials, Finished, FirstScore };
     /// The scores from there on are what only those who look into the algorithm need.
     static int firstDetail();
 

@@ -216,6 +216,10 @@ void ReviewPage::showSelection() {
     shownSelection_->setHead(
         tr("Simulated by %1. Choose a row to look at its track.").arg(fromText(last.engine)));
     selection_.setSelection(last);
+    shownSelection_->view().setColumnHidden(
+        models::SelectionModel::Corners,
+        std::ranges::all_of(last.entries,
+                            [](const study::SelectionEntry& entry) { return entry.corners.trials == 0; }));
 }
 
 void ReviewPage::showValidation() {

@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/study/evaluator.h"
 #include "core/study/pose_weights.h"
+#include "core/study/selection.h"
 #include "core/study/track_design.h"
 #include "core/workflow/estimate.h"
 #include "core/workflow/judging.h"
@@ -271,7 +272,9 @@ void StudyRuns::startSelection() {
         auto candidates = workflow::findCandidates(state_->writer.file(), *inputs);
         if (!candidates) return candidates.error();
         state_->tell([this, count = static_cast<std::int64_t>(candidates->size()),
-                      each = settings.validation.selectionTrials] { state_->run->total = count * each; });
+                      each = settings.validation.selectionTrials + study::countCornerTrials(settings)] {
+            state_->run->total = count * each;
+        });
         auto record =
             workflow::selectAndSave(state_->writer.file(), *inputs, std::move(*candidates), run.trials);
         if (!record) return record.error();

@@ -42,7 +42,7 @@ struct Judge {
 
     [[nodiscard]] Evaluation evaluation(std::span<const Outcome> outcomes, int overlaps = 0) const {
         Evaluation evaluation{&track, &symmetry, overlaps, outcomes, distance, 25.0 * base::kDegree};
-        evaluation.isVaried = true;
+        evaluation.isVaried = evaluation.hasCorners = true;
         return evaluation;
     }
     [[nodiscard]] Fitness judge(std::span<const Outcome> outcomes, int overlaps = 0) const {
@@ -357,6 +357,34 @@ class ObjectivesTest : public QObject {
         QVERIFY(std::abs(worst().value - 29.0 / 40.0) < 1e-12);
     }
 
+    // 12 trials, four of them in corners of friction and stroke; of these one fails, of the others three.
+    void theCornersOfTheBox() {
+        const Judge judge;
+        std::vector<Outcome> outcomes;
+        std::vector<trial::BoxPlace> places;
+        for (int i = 0; i < 12; ++i) {
+            const bool isCorner = i % 3 == 0;
+            trial::BoxPlace place = trial::kMiddle;
+            place[static_cast<std::size_t>(trial::Condition::friction)] = isCorner ? i / 3 % 2 : 0.25;
+            place[static_cast<std::size_t>(trial::Condition::halfStroke)] = i < 6 ? 0.0 : 1.0;
+            places.push_back(place);
+            const bool fails = i == 1 || i == 3 || i == 7 || i == 8;
+            outcomes.push_back(finishedAfter(104e-3, 1.0, turn(fails ? 90.0 + i : 0.0, base::Vec3::UnitX())));
+        }
+        Evaluation evaluation = judge.evaluation(outcomes);
+        const objectives::Objective& corners = *objectives::findObjective("corners");
+        evaluation.hasCorners = false;
+        QVERIFY(!corners.applies(evaluation));
+        QVERIFY(std::abs(corners.measure(evaluation).value - 8.0 / 12.0) < 1e-12);  // of all
+        evaluation.places = places;
+        evaluation.hasCorners = true;
+        QVERIFY(corners.applies(evaluation));
+        QVERIFY(std::abs(corners.measure(evaluation).value - 0.75) < 1e-12);
+        QVERIFY(std::abs(corners.measure(evaluation).error - std::sqrt(0.1875 / 3.0)) < 1e-12);
+        QVERIFY(std::abs(objectives::findObjective("success")->measure(evaluation).value - 8.0 / 12.0) <
+                1e-12);
+    }
+
     void speedIsThatOfThePartsThatFinish() {
         const Judge judge;
         std::vector<Outcome> outcomes{finishedAfter(104e-3, 1.0, base::Quaternion::Identity()),
@@ -512,8 +540,8 @@ class ObjectivesTest : public QObject {
         QTest::newRow("unknown")
             << "F_C, F_Q"
             << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-               "F_W, disorder, sorting, success, correct, worst_half, conveying_speed, F_P. Write several "
-               "with commas between them.";
+               "F_W, disorder, sorting, success, correct, worst_half, corners, conveying_speed, F_P. Write "
+               "several with commas between them.";
         QTest::newRow("empty") << ""
                                << "There is no objective named \"\".";
         QTest::newRow("end") << "F_C,"

@@ -106,6 +106,12 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 18)
+        database.exec(
+            "ALTER TABLE selection_entry DROP COLUMN corner_trials; "
+            "ALTER TABLE selection_entry DROP COLUMN corner_oriented; "
+            "UPDATE study SET settings = json_remove(settings, '$.evolution.cornerShare', "
+            "'$.validation.selectionCornerTrials')");
     if (version < 17) database.exec("DROP TABLE robustness");
     if (version < 16)
         database.exec(

@@ -27,7 +27,8 @@ study::SelectionRecord sampleSelection(double offset) {
                                   1000,
                                   999 - i,
                                   990 - i,
-                                  trial::makeGoal(base::Quaternion(0.5, -0.5, 0.1 + 0.2, offset))});
+                                  trial::makeGoal(base::Quaternion(0.5, -0.5, 0.1 + 0.2, offset)),
+                                  i == 0 ? stats::Count{} : stats::Count{470 + i, 480}});
     }
     record.entries[1].goal.orientations.push_back({base::Quaternion(1.0 / 3.0, 0.1, offset, 0.7), false});
     record.entries[2].goal.orientations.front().anyHeading = true;
@@ -209,6 +210,7 @@ class StudyFileTest : public QObject {
                 QCOMPARE(a.finished, e.finished);
                 QCOMPARE(a.oriented, e.oriented);
                 QVERIFY(a.goal == e.goal);
+                QCOMPARE(a.corners, e.corners);
             }
             const study::ValidationRecord expectedTable = sampleValidation(s == 0 ? 7 : 9);
             const study::ValidationRecord& table = (*validations)[s];

@@ -3,6 +3,7 @@
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/part/specimen.h"
 #include "core/study/track_design.h"
@@ -84,6 +85,35 @@ class OperatingBoxTest : public QObject {
         for (const int first : {1, 10, 63, 64, 99})
             QVERIFY(placesOf(settings).draw(first, 1).front() == all[static_cast<std::size_t>(first)]);
         QVERIFY(placesOf(settings, 1).draw(0, 1).front() != all.front());
+    }
+
+    // Three of ten trials are in corners, evenly among the others; each of the 16 is met as often as
+    // any other or nearly so. The others are where they are without, and any trial has its place whatever is
+    // drawn with it.
+    void aShareOfThePlacesIsInCorners() {
+        const study::Settings settings = variedSettings();
+        const base::StreamKey key{7, 0, 0, 0, base::Purpose::conditions};
+        const study::BoxPlaces mixed(settings.simulation, settings.box, key, 0.3);
+        const std::vector<BoxPlace> places = mixed.draw(0, 1600);
+        std::vector<BoxPlace> corners;
+        std::vector<BoxPlace> others;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            (trial::isCorner(places[i]) ? corners : others).push_back(places[i]);
+            QVERIFY(std::abs(static_cast<double>(corners.size()) - 0.3 * static_cast<double>(i + 1)) <= 1.0);
+        }
+        QCOMPARE(corners.size(), std::size_t{480});
+        QVERIFY(others == placesOf(settings).draw(0, 1120));
+        std::map<BoxPlace, int> met;
+        for (const BoxPlace& corner : corners)
+            ++met[corner];
+        QCOMPARE(met.size(), std::size_t{16});
+        for (const auto& [corner, times] : met)
+            QVERIFY2(times >= 28 && times <= 32, qPrintable(QString::number(times)));
+        for (const int first : {1, 9, 10, 63, 799})
+            QVERIFY(mixed.draw(first, 1).front() == places[static_cast<std::size_t>(first)]);
+        const study::BoxPlaces all(settings.simulation, settings.box, key, 1.0);
+        QVERIFY(std::ranges::all_of(all.draw(0, 32), trial::isCorner));
+        QVERIFY(!trial::isCorner(trial::kMiddle));
     }
 
     // 100 of them tell a mean more exactly than 1000 at random.

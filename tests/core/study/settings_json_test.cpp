@@ -50,6 +50,7 @@ Settings unusualSettings() {
                    777,
                    "success, F_C",
                    study::TrialConditions::nominal,
+                   0.1 / 0.7,
                    trial::OrientationDistance::plain,
                    true,
                    4,
@@ -81,7 +82,7 @@ Settings unusualSettings() {
              0.05,
              5.0 * base::kDegree};
     s.target = {"3, 5-6", "12.5", base::Quaternion(0.1 + 0.2, 0.5, -1.0 / 3.0, 0.5)};
-    s.validation = {30, 2000, 500, 24.9 * base::kDegree, study::TrialConditions::nominal};
+    s.validation = {30, 2000, 320, 500, 24.9 * base::kDegree, study::TrialConditions::nominal};
     s.feeder = {1.0 / 7.0, 2.5};
     return s;
 }

@@ -1,6 +1,7 @@
 #include "core/study/validation.h"
 
 #include <QtTest>
+#include <atomic>
 #include <set>
 
 #include "core/study/pose_weights.h"
@@ -88,6 +89,7 @@ class ValidationTest : public QObject {
         study::StudyInputs inputs = fake::waveInputs();
         inputs.settings.validation.selectionWinners = 3;
         inputs.settings.validation.selectionTrials = 50;
+        inputs.settings.validation.selectionCornerTrials = 0;
         std::vector<study::Individual> winners;
         winners.reserve(5);
         for (int g = 0; g < 5; ++g)
@@ -131,6 +133,46 @@ class ValidationTest : public QObject {
         QVERIFY(trial::calcOrientationAngle(record->entries[0].goal.shown(), base::Quaternion::Identity(),
                                             inputs.part->symmetry,
                                             trial::OrientationDistance::symmetric) < 1e-6);
+    }
+
+    // Generation 0 is better all over the box, 1 in its corners by more. Where nothing varies corners are not
+    // asked.
+    void cornersCountInSelection() {
+        study::StudyInputs inputs = fake::waveInputs();
+        inputs.settings.validation.selectionTrials = 100;
+        inputs.settings.validation.selectionCornerTrials = 32;
+        inputs.settings.validation.conditions = study::TrialConditions::varied;
+        const std::vector<study::Individual> winners{winnerOf(inputs, 0, 100, 0.0),
+                                                     winnerOf(inputs, 1, 101, 0.0)};
+        std::atomic<bool> inCorners = true;
+        inputs.engine =
+            std::make_shared<fake::FakeEngine>([&](const trial::TrialBatch&, const trial::TrialSpec& spec) {
+                const bool isCorner = spec.stream.purpose == base::Purpose::corners;
+                if (isCorner != (spec.place && trial::isCorner(*spec.place))) inCorners = false;
+                const std::uint32_t generation = spec.stream.generation;
+                const std::uint32_t lost = isCorner ? (generation == 0 ? 16 : 8) : (generation == 0 ? 1 : 6);
+                return ended(spec.stream.trial < lost ? trial::Ending::fellOff : trial::Ending::finished,
+                             about(base::Vec3::UnitZ(), 0));
+            });
+        const auto varied = study::selectWinners(inputs, winners, {});
+        VERIFY_OK(varied);
+        QVERIFY(inCorners);
+        QCOMPARE(varied->entries[0].generation, 1);
+        QCOMPARE(varied->entries[0].oriented, 94);
+        QCOMPARE(varied->entries[0].trials, 100);
+        QCOMPARE(varied->entries[0].corners, (stats::Count{24, 32}));
+        QCOMPARE(varied->entries[1].corners, (stats::Count{16, 32}));
+        QCOMPARE(varied->made.outcomes.size(), std::size_t{200});
+        QVERIFY(study::formatSelection(*varied).find("Corners") != std::string::npos);
+
+        inputs.settings.validation.selectionCornerTrials = 0;
+        QCOMPARE(study::selectWinners(inputs, winners, {})->entries[0].generation, 0);
+        inputs.settings.validation.selectionCornerTrials = 32;
+        inputs.settings.validation.conditions = study::TrialConditions::nominal;
+        const auto nominal = study::selectWinners(inputs, winners, {});
+        QCOMPARE(nominal->entries[0].generation, 0);
+        QCOMPARE(nominal->entries[0].corners, stats::Count{});
+        QVERIFY(study::formatSelection(*nominal).find("Corners") == std::string::npos);
     }
 
     void selectionNeedsWinners() {
@@ -382,7 +424,7 @@ class ValidationTest : public QObject {
     void evolveSelectAndValidateAgree() {
         study::StudyInputs inputs = fake::waveInputs(2);
         inputs.settings.evolution.generations = 12;
-        inputs.settings.validation = {4, 60, 30, 25.0 * base::kDegree};
+        inputs.settings.validation = {4, 60, 32, 30, 25.0 * base::kDegree};
         std::vector<study::Individual> winners;
         study::LearningEvents events;
         events.save = [&](const study::GenerationRecord& record) {

@@ -66,6 +66,7 @@ class StoredScoresTest : public QObject {
         inputs.settings.track.segmentHeight = 6e-3;  // low hills: some parts finish, some fall
         inputs.settings.simulation.engine = engine.toStdString();
         inputs.settings.validation.selectionTrials = 9;
+        inputs.settings.validation.selectionCornerTrials = 4;
         inputs.settings.validation.trialsPerPose = 4;
         inputs.part = cuboid().part;
         inputs.engine = engines::registry().make(engine.toStdString(), {2, 0.0}).value();

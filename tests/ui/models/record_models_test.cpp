@@ -331,7 +331,7 @@ class RecordModelsTest : public QObject {
     void selectionIsRanked() {
         study::SelectionRecord record{"simbody", {}};
         record.entries.push_back(
-            {{439, 17}, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 994, trial::Goal()});
+            {{439, 17}, testing::paperFitness(0.0, -0.01, 0.85), 1000, 1000, 994, trial::Goal(), {456, 480}});
         record.entries.push_back({{12, 3}, testing::paperFitness(0.0, -0.25, 0.5), 0, 0, 0, trial::Goal()});
         SelectionModel model;
         const QAbstractItemModelTester tester(&model, kFatal);
@@ -340,6 +340,12 @@ class RecordModelsTest : public QObject {
         QCOMPARE(textAt(model, 1, SelectionModel::Rank), QString("2"));
         QCOMPARE(textAt(model, 0, SelectionModel::Success), QString("99.4"));
         QCOMPARE(textAt(model, 1, SelectionModel::Success), QString("–"));
+        QCOMPARE(textAt(model, 0, SelectionModel::Corners), QString("95.0 (92.7 … 96.8)"));
+        QCOMPARE(textAt(model, 1, SelectionModel::Corners), QString("–"));
+        const QStringList lines = models::toCsv(model).split('\n');
+        QVERIFY2(lines[0].contains("In corners [%],\"In corners, 95 % Clopper-Pearson low [%]\""),
+                 qPrintable(lines[0]));
+        QVERIFY2(lines[1].contains(",95,92.65"), qPrintable(lines[1]));
         QCOMPARE(model.index(0, 0).data(models::GenerationRole).toInt(), 439);
         QCOMPARE(model.index(0, 0).data(models::IndividualRole).toInt(), 17);
     }

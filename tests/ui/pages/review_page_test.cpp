@@ -236,6 +236,8 @@ class ReviewPageTest : public QObject {
         QTRY_VERIFY(user.session()->runs().state() == session::RunState::idle || user.waitForReplay());
         // What was waited for is in front.
         QTRY_VERIFY(user.comparison().isVisible());
+        // Conditions vary, and so corners were tried.
+        QVERIFY(!user.comparison().isColumnHidden(models::SelectionModel::Corners));
         user.click(user.comparison(), 1, models::SelectionModel::Generation);
         const auto second = user.session()->runs().selections().back().entries.back();
         QTRY_VERIFY(

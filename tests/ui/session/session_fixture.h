@@ -34,6 +34,7 @@ inline study::Settings smallSettings(int generations = 3) {
     settings.simulation.engine = "native";
     settings.validation.selectionWinners = 2;
     settings.validation.selectionTrials = 20;
+    settings.validation.selectionCornerTrials = 16;
     settings.validation.trialsPerPose = 10;
     return settings;
 }

@@ -1,4 +1,4 @@
-#include "core/objectives/worst_half.h"
+#include "core/objectives/worst_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +35,20 @@ Measured measureWorstHalf(const Evaluation& evaluation) {
     return worst;
 }
 
+Measured measureCorners(const Evaluation& evaluation) {
+    const std::vector<bool> right = listRight(evaluation);
+    int trials = 0;
+    int successes = 0;
+    for (std::size_t i = 0; i < evaluation.places.size(); ++i) {
+        if (!trial::isCorner(evaluation.places[i])) continue;
+        ++trials;
+        successes += right[i] ? 1 : 0;
+    }
+    if (trials == 0) return successShare().measure(evaluation);
+    const double share = static_cast<double>(successes) / trials;
+    return {share, trials < 2 ? 0.0 : std::sqrt(share * (1.0 - share) / (trials - 1.0))};
+}
+
 }  // namespace
 
 Objective worstHalf() {
@@ -47,6 +61,17 @@ Objective worstHalf() {
     objective.isSuccess = false;
     objective.applies = [](const Evaluation& evaluation) { return evaluation.isVaried; };
     objective.measure = &measureWorstHalf;
+    return objective;
+}
+
+Objective corners() {
+    Objective objective = worstHalf();
+    objective.key = "corners";
+    objective.symbol = "Corners";
+    objective.name = "Corners";
+    objective.help = "Success of the trials in corners of the operating box. Higher is better.";
+    objective.applies = [](const Evaluation& evaluation) { return evaluation.hasCorners; };
+    objective.measure = &measureCorners;
     return objective;
 }
 
