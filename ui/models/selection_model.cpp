@@ -43,9 +43,9 @@ std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
          [](const Row& r) { return percentValue(r.entry.corners.successes, r.entry.corners.trials); },
          [](const Row& r) {
              const stats::Count& corners = r.entry.corners;
-             const QString share = percent(corners.successes, corners.trials);
-             if (corners.trials == 0) return share;
-             return QString("%1 (%2)").arg(share, boundsText(r.corners, corners.trials));
+             QString share = percent(corners.successes, corners.trials);
+             if (corners.trials > 0) share += QString(" (%1)").arg(boundsText(r.corners, corners.trials));
+             return share;
          },
          [] { return QStringList{tr("In corners [%]")} + boundsTitles(tr("In corners")); },
          [](const Row& r) {
