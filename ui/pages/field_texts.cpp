@@ -62,7 +62,7 @@ const RawText kTexts[] = {
     {"evolution.mutationFloor", TEXT("Least mutation"), TEXT("The least that the chance which adapts itself can be; 0 in the paper.")},
     {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops, cut-outs and gaps are tried by themselves first, and learning begins with the best chains of them."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned")}},
     {"evolution.plannedTraps", TEXT("Planned traps"), TEXT("How many drops, cut-outs and gaps are tried by themselves before a planned first generation. It takes most of the time; more find better chains.")},
-    {"evolution.conditions", TEXT("Learn under"), TEXT("Whether every part meets what is set here, or each another friction, restitution, stroke and size out of the operating box. Tracks learned so hold where the real feeder is not quite what was set."), {TEXT("Set conditions"), TEXT("Varied conditions")}},
+    {"evolution.conditions", TEXT("Learn under"), TEXT("Whether every part meets what is set here, or each another friction, restitution, stroke and size out of the operating box. Tracks learned so hold where the real feeder is not quite what was set."), {TEXT("As set"), TEXT("Varied")}},
     {"evolution.cornerShare", TEXT("Share in corners"), TEXT("How many of the parts that meet varied conditions meet corners of the operating box, where every condition is at an end of its range: least friction with least stroke, say. 0: none. Tracks that fail at all mostly fail there, which an average over the box hardly shows.")},
     {"evolution.orientationDistance", TEXT("Alike orientations"), TEXT("Whether orientations that look alike count as the same; the paper does not count them so."), {TEXT("Count as one"), TEXT("Stay apart")}},
     {"evolution.simulateOverlapping", TEXT("Overlapping tracks"), TEXT("Whether tracks that cross themselves are simulated, as in the paper, or scored worst at once."), {TEXT("Score worst"), TEXT("Simulate")}},
@@ -112,7 +112,7 @@ const RawText kTexts[] = {
     {"validation.selectionCornerTrials", TEXT("Trials in corners"), TEXT("Parts that are simulated for each of these winners in corners of the operating box, besides. The better a track is over the box and in its corners, on average of both, the higher it ranks. 0: none; none either where conditions do not vary.")},
     {"validation.trialsPerPose", TEXT("Trials per pose"), TEXT("Parts that are simulated from each stable pose in a validation.")},
     {"validation.tolerance_deg", TEXT("Tolerance"), TEXT("How far from the expected orientation still counts as success.")},
-    {"validation.conditions", TEXT("Judge under"), TEXT("Whether parts of selection and validation meet what is set here, or each other conditions out of the operating box."), {TEXT("Set conditions"), TEXT("Varied conditions")}},
+    {"validation.conditions", TEXT("Judge under"), TEXT("Whether parts of selection and validation meet what is set here, or each other conditions out of the operating box."), {TEXT("As set"), TEXT("Varied")}},
 
     {"feeder.highestSetPoint", TEXT("Highest set-point"), TEXT("The highest set-point that the drive of the real feeder is given, as a share of full.")},
     {"feeder.rampPerSecond", TEXT("Ramp"), TEXT("How quickly its set-point rises and falls, as a share of full per second; a stop is at once.")},

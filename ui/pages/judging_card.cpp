@@ -11,6 +11,7 @@
 
 #include "core/part/stable_poses.h"
 #include "core/study/robustness.h"
+#include "core/study/selection.h"
 #include "ui/look/text.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -163,8 +164,11 @@ void JudgingCard::update() {
     const QLocale locale;
     const auto winners =
         std::min<std::size_t>(static_cast<std::size_t>(settings.selectionWinners), runs_->winners().size());
-    compareText_->setText(
-        tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials)));
+    const int inCorners = study::countCornerTrials(runs_->design().settings());
+    const QString tracks =
+        tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials));
+    compareText_->setText(inCorners > 0 ? tr("%1 and %2 in corners").arg(tracks, locale.toString(inCorners))
+                                        : tracks);
     const std::size_t poses = runs_->design().part()->stablePoses.size();
     const std::size_t groups = part::findPoseGroups(*runs_->design().part()).size();
     const QString trials = locale.toString(settings.trialsPerPose);
