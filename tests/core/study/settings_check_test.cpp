@@ -290,6 +290,25 @@ class SettingsCheckTest : public QObject {
         QVERIFY(std::abs(study::calcTypicalFall(settings.track) - fall) < 1e-12);
     }
 
+    // What is set and does nothing is told.
+    void cornersNeedTrialsThatVary() {
+        Settings settings;
+        const auto isTold = [&](const char* words) {
+            const auto lines = study::findRecommendations(settings);
+            return lines.size() == 1 && lines[0].find(words) != std::string::npos;
+        };
+        settings.evolution.cornerShare = 0.3;
+        settings.evolution.objectives = "F_C, F_D, F_O, corners";
+        QVERIFY(study::findRecommendations(settings).empty());
+        settings.evolution.cornerShare = 0.0;
+        QVERIFY(isTold("no trial is in one"));
+        settings.evolution.objectives = objectives::kPaperObjectives;
+        QVERIFY(study::findRecommendations(settings).empty());
+        settings.evolution.cornerShare = 0.3;
+        settings.evolution.conditions = study::TrialConditions::nominal;
+        QVERIFY(isTold("no trial varies"));
+    }
+
     void partMustFit_data() {
         QTest::addColumn<double>("radius");
         QTest::addColumn<int>("problems");
