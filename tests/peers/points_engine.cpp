@@ -28,11 +28,10 @@ constexpr double kLeastApproach = 3e-3;      // that damping refers to [m/s]
 
 constexpr double kLeastRestitution = 0.1;  // less takes smaller steps
 
-constexpr double kLeastUpward = 1e-3;     // of a normal, of a surface that is a height over its plane
-constexpr double kDeepest = 1e-3;         // deeper points are elsewhere [m]
-constexpr double kLeastFaceCosine = 0.7;  // of a face to what it touches
-constexpr double kSkin = 0.3e-3;          // points within this of the track are looked at in each step [m]
-constexpr double kCell = 0.5e-3;          // of the map of triangles [m]
+constexpr double kLeastUpward = 1e-3;  // of a normal, of a surface that is a height over its plane
+constexpr double kDeepest = 1e-3;      // deeper points are elsewhere [m]
+constexpr double kSkin = 0.3e-3;       // points within this of the track are looked at in each step [m]
+constexpr double kCell = 0.5e-3;       // of the map of triangles [m]
 
 /// The track's surface as heights over its plane.
 class HeightMap {
@@ -129,9 +128,8 @@ HeightMap::Spot HeightMap::find(double x, double y) const {
 
 /// A point on a part.
 struct CloudPoint {
-    Vec3 place;                 // in the part frame [m]
-    double stiffness;           // [N/m]
-    Vec3 inward{Vec3::Zero()};  // of a point of a face, its normal into the part: a ridge presses along it
+    Vec3 place;        // in the part frame [m]
+    double stiffness;  // [N/m]
 };
 
 void addSegment(const Vec3& from, const Vec3& to, std::vector<CloudPoint>& cloud) {
@@ -168,7 +166,7 @@ void addFace(const geometry::ConvexPolytope& solid, const geometry::PolytopeFace
         for (int k = 0; k <= rows; ++k) {
             const Vec3 point = origin + (low.x() + (high - low).x() * i / columns) * u +
                                (low.y() + (high - low).y() * k / rows) * v;
-            if (isInside(point)) cloud.push_back({point, kFaceStiffness, -face.normal});
+            if (isInside(point)) cloud.push_back({point, kFaceStiffness});
         }
 }
 
@@ -218,7 +216,7 @@ class PointsTrial : public PeerTrial {
     [[nodiscard]] Vec3 turning() const;
     void collect(const base::Pose& inTrack);
     /// In the track's axes, on the point; `velocity`: of the point in the track frame.
-    Vec3 press(Near& near, const Mat3& rotation, const Vec3& place, const Vec3& velocity) const;
+    Vec3 press(Near& near, const Vec3& place, const Vec3& velocity) const;
 
     const PointsScene& scene_;
     contact::DriveMotion drive_;
@@ -273,17 +271,9 @@ void PointsTrial::collect(const base::Pose& inTrack) {
     travel_ = 0.0;
 }
 
-Vec3 PointsTrial::press(Near& near, const Mat3& rotation, const Vec3& place, const Vec3& velocity) const {
-    HeightMap::Spot spot = scene_.surface.find(place.x(), place.y());
-    double depth = (spot.height - place.z()) * spot.normal.z();
-    if (depth > 0.0) {
-        const Vec3 inward = rotation * scene_.cloud[near.point].inward;
-        const double cosine = inward.dot(spot.normal);
-        if (cosine > kLeastFaceCosine) {
-            depth /= cosine;
-            spot.normal = inward;
-        }
-    }
+Vec3 PointsTrial::press(Near& near, const Vec3& place, const Vec3& velocity) const {
+    const HeightMap::Spot spot = scene_.surface.find(place.x(), place.y());
+    const double depth = (spot.height - place.z()) * spot.normal.z();
     if (depth <= 0.0 || depth > kDeepest) {
         near.touching = false;
         if (spot.height != HeightMap::kAbyss)
@@ -329,7 +319,7 @@ void PointsTrial::step(trial::CostLaps& laps) {
     for (Near& near : near_) {
         if (travel_ < near.clearUntil) continue;
         const Vec3 arm = rotation * scene_.cloud[near.point].place;
-        const Vec3 push = press(near, rotation, inTrack.position + arm, velocity + spin.cross(arm));
+        const Vec3 push = press(near, inTrack.position + arm, velocity + spin.cross(arm));
         force += push;
         torque += arm.cross(push);
         contacts_ += near.touching ? 1 : 0;
