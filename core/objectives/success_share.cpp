@@ -20,12 +20,6 @@ trial::Tally countVerdicts(const Evaluation& evaluation) {
                         evaluation.tolerance);
 }
 
-Measured measureShare(int count, double of) {
-    if (of < 1.0) return {};
-    const double share = count / of;
-    return {share, of < 2.0 ? 0.0 : std::sqrt(share * (1.0 - share) / (of - 1.0))};
-}
-
 Measured measureSuccess(const Evaluation& evaluation) {
     if (evaluation.outcomes.empty()) return {};
     const int oriented = evaluation.oriented ? *evaluation.oriented : countVerdicts(evaluation).success;
@@ -58,6 +52,12 @@ Measured measureSorting(const Evaluation& evaluation) {
 }
 
 }  // namespace
+
+Measured measureShare(int count, double of) {
+    if (of < 1.0) return {};
+    const double share = count / of;
+    return {share, of < 2.0 ? 0.0 : std::sqrt(share * (1.0 - share) / (of - 1.0))};
+}
 
 int countSuccess(const Evaluation& evaluation) {
     return countVerdicts(evaluation).success;

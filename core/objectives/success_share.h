@@ -6,6 +6,9 @@
 
 namespace trapwright::objectives {
 
+/// A share with the binomial's standard error; of none 0.
+Measured measureShare(int count, double of);
+
 /// The share of all trials that finish in the wanted orientation (decisions.md#selection-and-success), with
 /// the binomial's standard error; tables of people show the exact bounds beside it (core/stats/binomial).
 Objective successShare();

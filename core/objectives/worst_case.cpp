@@ -1,7 +1,6 @@
 #include "core/objectives/worst_case.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "core/objectives/success_share.h"
@@ -27,9 +26,8 @@ Measured measureWorstHalf(const Evaluation& evaluation) {
                 successes += right[i] ? 1 : 0;
             }
             if (trials < 2) continue;
-            const double share = static_cast<double>(successes) / trials;
-            if (share >= worst.value) continue;
-            worst = {share, std::sqrt(share * (1.0 - share) / (trials - 1.0))};
+            const Measured half = measureShare(successes, trials);
+            if (half.value < worst.value) worst = half;
         }
     }
     return worst;
@@ -45,8 +43,7 @@ Measured measureCorners(const Evaluation& evaluation) {
         successes += right[i] ? 1 : 0;
     }
     if (trials == 0) return successShare().measure(evaluation);
-    const double share = static_cast<double>(successes) / trials;
-    return {share, trials < 2 ? 0.0 : std::sqrt(share * (1.0 - share) / (trials - 1.0))};
+    return measureShare(successes, trials);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace trapwright::objectives {
 /// track that fails in a corner fails in the halves that share it. Without a box, the success of all.
 Objective worstHalf();
 
-/// Where a share of the trials is in corners of the box: the success of those. Nine trials of ten all over a
-/// box of four conditions are away from all of its corners, so that their mean hardly tells of them.
+/// Where a share of the trials is in corners of the box: the success of those. Without any, the success of
+/// all.
 Objective corners();
 
 }  // namespace trapwright::objectives

@@ -42,7 +42,7 @@ struct EvolutionSettings {
     // Whose sum a search maximises (objectives::readObjectives).
     std::string objectives{objectives::kPaperObjectives};
     TrialConditions conditions = TrialConditions::varied;  // nominal in the paper
-    // Of trials that vary: those in corners of the operating box, where most tracks fail that fail at all.
+    // Of trials that vary: those in corners of the operating box.
     double cornerShare = 0.0;
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0

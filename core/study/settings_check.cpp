@@ -226,15 +226,14 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
     if (evolution.cornerShare > 0.0 && !isVaried)
         recommendations.push_back(
             "evolution.cornerShare does nothing while evolution.conditions is nominal, because no trial "
-            "varies "
-            "over the operating box; varied is recommended, or a share of 0.");
+            "varies over the operating box; varied is recommended, or a share of 0.");
     if (summed && (evolution.cornerShare == 0.0 || !isVaried) &&
         std::ranges::any_of(*summed, [](const auto* objective) { return objective->key == "corners"; }))
         recommendations.push_back(
             "evolution.objectives counts corners of the operating box, but no trial is in one, so that it "
-            "counts "
-            "the success of all; an evolution.cornerShare of 0.3 with varied evolution.conditions is "
-            "recommended.");
+            "counts the success of all; an evolution.cornerShare above 0 with varied evolution.conditions, "
+            "or "
+            "another objective, is recommended.");
     const double fall = calcTypicalFall(settings.track);
     if (fall > 0.5 * settings.track.segmentHeight) {
         recommendations.push_back(
