@@ -225,7 +225,7 @@ trial::TrialBatch makePlaceBatch(const Settings& settings, const std::shared_ptr
         makeSpecimenAt(settings.box, part, (*trials.place)[static_cast<std::size_t>(Condition::part)])};
     batch.drive = settings.simulation.drive;
     batch.contact = settings.simulation.contact;
-    batch.termination = settings.simulation.termination;
+    batch.termination = terminationOn(settings.simulation, *track);
     batch.gravity = settings.simulation.gravity;
     base::StreamKey key{settings.evolution.seed, 0, 0, static_cast<std::uint32_t>(trials.first),
                         base::Purpose::robustness};

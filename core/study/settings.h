@@ -66,8 +66,8 @@ struct SimulationSettings {
     trial::Vibration drive;
     trial::ContactParameters contact;
     std::string surface{};  // that the contact numbers are of, as the library of materials names it; or empty
-    trial::Termination termination;
-    trial::StartPolicy start;  // of learning trials
+    trial::Termination termination{.timeLimit = 0.0};  // 0: each track its own (terminationOn)
+    trial::StartPolicy start;                          // of learning trials
     double gravity = base::kStandardGravity;
     std::string engine = "hybrid";  // a text of the study; what it means is trial::EngineRegistry's
 

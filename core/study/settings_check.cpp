@@ -135,6 +135,12 @@ std::vector<std::string> findProblems(const Settings& settings) {
                            shown(evolution.learningStep, FileUnit::millisecond) +
                            "; it must be 0 (chosen by the program) or from 0.01 to 1.");
     }
+    constexpr double kLeastLimit = 0.1;
+    const double limit = settings.simulation.termination.timeLimit;
+    if (limit > 0.0 && limit < kLeastLimit) {
+        problems.push_back("simulation.termination.timeLimit_s is " + shown(limit, FileUnit::none) +
+                           "; it must be 0 (as long as the track needs) or from 0.1 to 600.");
+    }
     if (evolution.racingTrials == 1) {
         problems.emplace_back(
             "evolution.racingTrials is 1; F_O compares two parts at least, so it must be 0 (no race) or at "

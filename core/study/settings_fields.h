@@ -112,7 +112,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"simulation.contact.restitution", none, 0.0, 1.0}, contact.restitution);
     v.text("simulation.contact.surface", s.simulation.surface);
     auto& termination = s.simulation.termination;
-    v.number({"simulation.termination.timeLimit_s", none, 0.1, 600.0}, termination.timeLimit);
+    v.number({"simulation.termination.timeLimit_s", none, 0.0, 600.0}, termination.timeLimit);
     v.number({"simulation.termination.stuckTime_s", none, 0.05, 600.0}, termination.stuckTime);
     v.number({"simulation.termination.stuckProgress_mm", mm, 0.001, 100.0}, termination.stuckProgress);
     auto& start = s.simulation.start;

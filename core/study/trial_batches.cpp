@@ -18,7 +18,7 @@ trial::TrialBatch makeBatch(const TrialScene& scene, const trial::StartPolicy& p
     batch.parts = {scene.part};
     batch.drive = scene.simulation->drive;
     batch.contact = scene.simulation->contact;
-    batch.termination = scene.simulation->termination;
+    batch.termination = terminationOn(*scene.simulation, *scene.track);
     batch.gravity = scene.simulation->gravity;
     batch.trials.reserve(static_cast<std::size_t>(trials));
     if (conditions == TrialConditions::nominal || scene.box == nullptr) {
@@ -52,6 +52,15 @@ base::StreamKey keyOf(const TrialScene& scene, const IndividualId& individual, i
 }
 
 }  // namespace
+
+trial::Termination terminationOn(const SimulationSettings& simulation, const track::Track& track) {
+    constexpr double kSlowest = 20e-3;     // [m/s]
+    constexpr double kShortestLimit = 10;  // [s]
+    trial::Termination termination = simulation.termination;
+    if (termination.timeLimit == 0.0)
+        termination.timeLimit = std::max((track.finish - track.start) / kSlowest, kShortestLimit);
+    return termination;
+}
 
 TrialScene makeScene(const Settings& settings, const Specimens& specimens,
                      std::shared_ptr<const track::Track> track) {

@@ -38,6 +38,10 @@ TrialScene makeScene(const Settings& settings, const Specimens& specimens,
 TrialScene makeScene(const Settings& settings, const std::shared_ptr<const part::Part>& part,
                      std::shared_ptr<const track::Track> track);
 
+/// When trials on this track end: as set. A time limit of 0 is as long as a part needs to the finish at
+/// 20 mm/s, 10 s at least, so that what is slow on a long track is not called stuck (decisions.md#endings).
+trial::Termination terminationOn(const SimulationSettings& simulation, const track::Track& track);
+
 /// Each trial's start is drawn from its own stream (seed, generation, individual, trial, purpose), so that
 /// any single trial can be made again from the study alone. Each of these makes the batch anew with the same
 /// bits. Where trials vary over the operating box, trial i of all individuals of a generation is at the same

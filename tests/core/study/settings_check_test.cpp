@@ -183,6 +183,10 @@ class SettingsCheckTest : public QObject {
             "step that never ends", [](Settings& s) { s.evolution.learningStep = 1e-6; },
             "evolution.learningStep_ms is 0.001; it must be 0 (chosen by the program) or from 0.01 to 1.");
         row(
+            "no time at all", [](Settings& s) { s.simulation.termination.timeLimit = 0.02; },
+            "simulation.termination.timeLimit_s is 0.02; it must be 0 (as long as the track needs) or from "
+            "0.1 to 600.");
+        row(
             "race for fewer than the statistics show", [](Settings& s) { s.evolution.racingShare = 0.25; },
             "evolution.racingShare is 0.25; it must be from 0.3 to 1.");
         row(

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/study/pose_weights.h"
+#include "core/study/robustness.h"
 #include "core/study/runner.h"
 #include "core/study/selection.h"
 #include "core/study/tables.h"
@@ -291,6 +292,34 @@ class ValidationTest : public QObject {
         QCOMPARE(study::makeValidationBatch(scene, {0, 0}, 0, 1).termination.stuckTime, 1.5);
         stuckTime = 0.3;  // the lesser counts
         QCOMPARE(study::makeLearningBatch(scene, {0, 0}, 1).termination.stuckTime, 0.3);
+    }
+
+    void longTracksHaveMoreTime() {
+        study::StudyInputs inputs = fake::waveInputs();
+        track::Track track =
+            study::decodeTrack(inputs.settings.track, winnerOf(inputs, 0, 1, 0).record.design).value();
+        double& set = inputs.settings.simulation.termination.timeLimit;
+        QCOMPARE(set, 0.0);
+        // The limits of learning, selection, validation, and of robustness over the box and at a place.
+        const auto limitsOn = [&](double length) {
+            track.finish = track.start + length;
+            const auto shared = std::make_shared<const track::Track>(track);
+            const study::TrialScene scene = study::makeScene(inputs.settings, inputs.part, shared);
+            const auto placed = [&](const study::PlaceTrials& trials) {
+                return study::makePlaceBatch(inputs.settings, inputs.part, shared, trials);
+            };
+            return std::set<double>{study::makeLearningBatch(scene, {0, 0}, 1).termination.timeLimit,
+                                    study::makeSelectionBatch(scene, {0, 0}, 1).termination.timeLimit,
+                                    study::makeValidationBatch(scene, {0, 0}, 0, 1).termination.timeLimit,
+                                    placed({std::nullopt, 0, 1}).termination.timeLimit,
+                                    placed({trial::kMiddle, 0, 1}).termination.timeLimit};
+        };
+        QCOMPARE(limitsOn(0.1), std::set{10.0});
+        const std::set<double> ofLong = limitsOn(0.5);  // at 20 mm/s
+        QCOMPARE(ofLong.size(), std::size_t{1});
+        QVERIFY(std::abs(*ofLong.begin() - 25.0) < 1e-9);
+        set = 3.0;
+        QCOMPARE(limitsOn(0.5), std::set{3.0});
     }
 
     void learningTakesLargerSteps_data() {
