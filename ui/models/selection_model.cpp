@@ -1,5 +1,7 @@
 #include "ui/models/selection_model.h"
 
+#include <algorithm>
+
 #include "ui/models/number_columns.h"
 #include "ui/models/numbers.h"
 
@@ -11,6 +13,16 @@ using Row = SelectionRow;
 
 const objectives::Fitness& fitnessOf(const Row& row) {
     return row.entry.fitness;
+}
+
+/// Of the corners that were measured last; none if this track was not.
+std::optional<stats::Count> findWorstCorner(const study::IndividualId& track,
+                                            std::span<const study::RobustnessRecord> measured) {
+    const auto known = std::ranges::find_if(
+        measured, [&](const study::RobustnessRecord& one) { return isSameIndividual(one, track); });
+    if (known == measured.end() || known->robustness.corners.empty()) return std::nullopt;
+    const trial::Tally& worst = known->robustness.corners.front().tally;
+    return stats::Count{worst.success, worst.trials()};
 }
 
 }  // namespace
@@ -53,6 +65,21 @@ std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
              return QVariantList{percentValue(corners.successes, corners.trials)} +
                     boundsValues(r.corners, corners.trials);
          }},
+        {tr("Worst corner [%]"),
+         tr("The same in the one corner of the operating box that is worst for this track, if its robustness "
+            "was measured.") +
+             u' ' + boundsHelp(),
+         [](const Row& r) { return percentValue(r.worst); },
+         [](const Row& r) {
+             return r.worst ? QString("%1 (%2)").arg(percent(r.worst), boundsText(r.worst))
+                            : percent(r.worst);
+         },
+         [] { return QStringList{tr("Worst corner [%]")} + boundsTitles(tr("Worst corner")); },
+         [](const Row& r) {
+             const stats::Count worst = r.worst.value_or(stats::Count());
+             return QVariantList{percentValue(r.worst)} +
+                    boundsValues(stats::calcClopperPearson(worst.successes, worst.trials), worst.trials);
+         }},
         {tr("Trials"), tr("Fresh simulated trials."), [](const Row& r) { return QVariant(r.entry.trials); },
          [](const Row& r) { return QString::number(r.entry.trials); }},
         {tr("Finished"), tr("Parts that crossed the finish line, in whatever orientation."),
@@ -70,13 +97,15 @@ int SelectionModel::firstDetail() {
     return FirstScore + static_cast<int>(scoredObjectives(false, true).size());
 }
 
-void SelectionModel::setSelection(const study::SelectionRecord& record) {
+void SelectionModel::setSelection(const study::SelectionRecord& record,
+                                  std::span<const study::RobustnessRecord> measured) {
     std::vector<SelectionRow> rows;
     rows.reserve(record.entries.size());
     for (const study::SelectionEntry& entry : record.entries) {
         rows.push_back({static_cast<int>(rows.size()) + 1, entry,
                         stats::calcClopperPearson(entry.oriented, entry.trials),
-                        stats::calcClopperPearson(entry.corners.successes, entry.corners.trials)});
+                        stats::calcClopperPearson(entry.corners.successes, entry.corners.trials),
+                        findWorstCorner(entry, measured)});
     }
     reset(std::move(rows));
 }

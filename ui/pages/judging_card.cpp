@@ -50,9 +50,11 @@ JudgingCard::JudgingCard(QWidget* parent)
       compare_(new QAction(tr("&Compare the best winners"), this)),
       validate_(new QAction(tr("&Validate this track"), this)),
       robustness_(new QAction(tr("Measure its &robustness"), this)),
+      allRobustness_(new QAction(tr("Measure &all compared"), this)),
       compareText_(makeSentence(this)),
       validateText_(makeSentence(this)),
       robustnessText_(makeSentence(this)),
+      allRobustnessText_(makeSentence(this)),
       busy_(makeProgress()) {
     compare_->setObjectName("review.compare");
     compare_->setShortcut(Qt::Key_F8);
@@ -63,8 +65,11 @@ JudgingCard::JudgingCard(QWidget* parent)
 
     robustness_->setObjectName("review.robustness");
     robustnessText_->setObjectName("review.robustness.cost");
+    allRobustnessText_->setObjectName("review.robustness.all.cost");
     robustness_->setShortcut(Qt::CTRL | Qt::Key_F9);
-    connect(robustness_, &QAction::triggered, this, [this] { runs_->startRobustness(*winner_); });
+    connect(robustness_, &QAction::triggered, this, [this] { runs_->startRobustness({*winner_}); });
+    allRobustness_->setObjectName("review.robustness.all");
+    connect(allRobustness_, &QAction::triggered, this, &JudgingCard::measureAll);
 
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -78,6 +83,9 @@ JudgingCard::JudgingCard(QWidget* parent)
     column->addSpacing(6);
     column->addWidget(makeButton(robustness_));
     column->addWidget(robustnessText_);
+    column->addSpacing(6);
+    column->addWidget(makeButton(allRobustness_));
+    column->addWidget(allRobustnessText_);
     update();
 }
 
@@ -130,6 +138,7 @@ void JudgingCard::setRuns(StudyRuns* runs) {
         connect(&runs_->design(), &StudyDesign::settingsChanged, this, &JudgingCard::update);
         connect(runs_, &StudyRuns::generationSaved, this, &JudgingCard::update);
         connect(runs_, &StudyRuns::progressed, this, &JudgingCard::showProgress);
+        connect(runs_, &StudyRuns::robustnessMeasured, this, &JudgingCard::update);
     }
     update();
 }
@@ -181,14 +190,20 @@ void JudgingCard::update() {
 void JudgingCard::showRobustness(const QString& obstacle) {
     QString reason = obstacle;
     QString text;
-    if (runs_) {
-        const std::int64_t trials =
-            study::countRobustnessTrials(runs_->design().settings(), study::RobustnessPlan());
-        text = tr("%1 trials all over the operating box").arg(QLocale().toString(qlonglong(trials)));
-        // By the engine that learns.
+    // By the engine that learns.
+    const auto costOf = [this](std::int64_t trials) {
+        QString cost = tr("%1 trials").arg(QLocale().toString(qlonglong(trials)));
         if (const double rate = findRate(runs_->summaries()); rate > 0.0)
-            text += tr(", about %1").arg(look::roughDurationText(static_cast<double>(trials) / rate));
-        if (trials == 0) {
+            cost += tr(", about %1").arg(look::roughDurationText(static_cast<double>(trials) / rate));
+        return cost;
+    };
+    std::int64_t each = 0;
+    std::int64_t unmeasured = 0;
+    if (runs_) {
+        each = study::countRobustnessTrials(runs_->design().settings(), study::RobustnessPlan());
+        unmeasured = static_cast<std::int64_t>(runs_->listUnmeasured().size());
+        text = tr("All over the operating box: %1").arg(costOf(each));
+        if (each == 0) {
             text = tr("The operating box has no room: set on the Track page what is not known exactly.");
             if (reason.isEmpty()) reason = text;
         }
@@ -198,6 +213,33 @@ void JudgingCard::showRobustness(const QString& obstacle) {
                                 ? tr("Simulate this track with other friction, restitution, stroke and size")
                                 : reason);
     robustnessText_->setText(text);
+    QString left;
+    if (each > 0 && unmeasured > 0)
+        left = tr("%1: %2").arg(unmeasured == 1 ? tr("1 track left") : tr("%1 tracks left").arg(unmeasured),
+                                costOf(each * unmeasured));
+    allRobustnessText_->setText(left);
+    allRobustnessText_->setVisible(!left.isEmpty());
+    if (reason.isEmpty() && runs_->selections().empty()) reason = tr("Compare the best winners first");
+    if (reason.isEmpty() && unmeasured == 0) reason = tr("All tracks of the comparison are measured");
+    allRobustness_->setEnabled(reason.isEmpty());
+    allRobustness_->setToolTip(
+        reason.isEmpty()
+            ? tr("Find the worst corner of each track of the comparison that was not measured yet")
+            : reason);
+}
+
+void JudgingCard::measureAll() {
+    std::vector<study::Individual> tracks;
+    for (const study::IndividualId& id : runs_->listUnmeasured()) {
+        auto track = runs_->loadIndividual(id);
+        if (!track) {
+            emit failed(tr("The tracks' robustness cannot be measured"),
+                        QString::fromStdString(track.error().message));
+            return;
+        }
+        tracks.push_back(std::move(*track));
+    }
+    runs_->startRobustness(tracks);
 }
 
 void JudgingCard::showProgress() {

@@ -18,7 +18,7 @@ class StudyRuns;
 namespace trapwright::pages {
 
 /// Starts the comparison of the best winners, the validation of one track and the measurement of how robust
-/// it is, and shows how far they have come.
+/// it and the others of the last comparison are, and shows how far they have come.
 class JudgingCard : public QWidget {
     Q_OBJECT
  public:
@@ -31,12 +31,17 @@ class JudgingCard : public QWidget {
     [[nodiscard]] QAction* compareAction() { return compare_; }
     [[nodiscard]] QAction* validateAction() { return validate_; }
     [[nodiscard]] QAction* robustnessAction() { return robustness_; }
+    [[nodiscard]] QAction* allRobustnessAction() { return allRobustness_; }
+
+ signals:
+    void failed(const QString& what, const QString& message);
 
  private:
     QWidget* makeProgress();
     QPushButton* makeButton(QAction* action);
     void update();
     void showRobustness(const QString& obstacle);
+    void measureAll();
     void showProgress();
 
     QPointer<session::StudyRuns> runs_;
@@ -44,9 +49,11 @@ class JudgingCard : public QWidget {
     QAction* compare_;
     QAction* validate_;
     QAction* robustness_;
+    QAction* allRobustness_;
     QLabel* compareText_;
     QLabel* validateText_;
     QLabel* robustnessText_;
+    QLabel* allRobustnessText_;
     QWidget* busy_;
     QLabel* busyText_;
     QProgressBar* bar_;

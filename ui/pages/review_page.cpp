@@ -56,6 +56,7 @@ ReviewPage::ReviewPage(QWidget* parent)
     connect(choice_, &TrackChoice::winnerChanged, this, &ReviewPage::showWinner);
     connect(choice_, &TrackChoice::failed, this, &Page::failed);
     connect(files_, &ReplayFiles::failed, this, &Page::failed);
+    connect(judging_, &JudgingCard::failed, this, &Page::failed);
     connect(&review_, &TrialReview::failed, this, &Page::failed);
     ReviewPage::setSession(nullptr);
 }
@@ -99,6 +100,7 @@ void ReviewPage::addKeys() {
     addAction(judging_->compareAction());
     addAction(judging_->validateAction());
     addAction(judging_->robustnessAction());
+    addAction(judging_->allRobustnessAction());
     addActions(review_.bar()->actions());
 }
 
@@ -156,9 +158,10 @@ void ReviewPage::setSession(StudySession* session) {
                 validation_.setConditions(conditions);
                 shownValidation_->setPinned(validation_.totals());
             });
-    connect(&session_->runs(), &StudyRuns::robustnessMeasured, this, [this] {
+    connect(&session_->runs(), &StudyRuns::robustnessMeasured, this, [this](int tracks) {
+        showSelection();
         showRobustness();
-        emit panelWanted("robustness");
+        emit panelWanted(tracks > 1 ? "comparison" : "robustness");
     });
 }
 
@@ -215,7 +218,11 @@ void ReviewPage::showSelection() {
     const study::SelectionRecord& last = session_->runs().selections().back();
     shownSelection_->setHead(
         tr("Simulated by %1. Choose a row to look at its track.").arg(fromText(last.engine)));
-    selection_.setSelection(last);
+    selection_.setSelection(last, session_->runs().robustness());
+    shownSelection_->view().setColumnHidden(
+        models::SelectionModel::Worst,
+        std::ranges::none_of(selection_.rows(),
+                             [](const models::SelectionRow& row) { return row.worst.has_value(); }));
     shownSelection_->view().setColumnHidden(
         models::SelectionModel::Corners,
         std::ranges::all_of(last.entries,

@@ -73,6 +73,20 @@ const study::RobustnessRecord* StudyRuns::findRobustness(const study::Individual
     return found == state_->robustness.end() ? nullptr : &*found;
 }
 
+const std::vector<study::RobustnessRecord>& StudyRuns::robustness() const {
+    return state_->robustness;
+}
+
+std::vector<study::IndividualId> StudyRuns::listUnmeasured() const {
+    std::vector<study::IndividualId> unmeasured;
+    if (state_->selections.empty()) return unmeasured;
+    for (const study::SelectionEntry& entry : state_->selections.back().entries) {
+        const study::RobustnessRecord* known = findRobustness(entry);
+        if (known == nullptr || !(known->box == state_->settings.box)) unmeasured.push_back(entry);
+    }
+    return unmeasured;
+}
+
 const study::Individual* StudyRuns::bestWinner() const {
     return study::findBestWinner(state_->winners, study::forgivesFalls(state_->settings.evolution));
 }
@@ -308,27 +322,35 @@ void StudyRuns::startValidation(const study::Individual& winner, const std::opti
     startRun(RunState::validating, tr("The track could not be validated"), work);
 }
 
-void StudyRuns::startRobustness(const study::Individual& individual, const study::RobustnessPlan& plan,
-                                const std::optional<trial::Goal>& goal) {
-    const auto work = [this, individual, plan, goal, settings = state_->settings, part = state_->part.part,
+void StudyRuns::startRobustness(const std::vector<study::Individual>& tracks,
+                                const study::RobustnessPlan& plan, const std::optional<trial::Goal>& goal) {
+    const auto work = [this, tracks, plan, goal, settings = state_->settings, part = state_->part.part,
                        threads = state_->threads](Run& run) -> Failed {
         const auto inputs =
             makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads, run.remade);
         if (!inputs) return settingsFailure(inputs.error());
-        state_->tell(
-            [this, total = study::countRobustnessTrials(settings, plan)] { state_->run->total = total; });
-        auto record =
-            workflow::measureAndSave(state_->writer.file(), *inputs, individual, goal, plan, run.trials);
-        if (!record) return record.error();
-        state_->tell([this, record = std::move(*record)] {
-            std::erase_if(state_->robustness,
-                          [&](const study::RobustnessRecord& one) { return isSameIndividual(one, record); });
-            state_->robustness.push_back(record);
-            emit robustnessMeasured();
+        const auto count = static_cast<int>(tracks.size());
+        state_->tell([this, total = count * study::countRobustnessTrials(settings, plan)] {
+            state_->run->total = total;
         });
+        for (const study::Individual& track : tracks) {
+            auto record =
+                workflow::measureAndSave(state_->writer.file(), *inputs, track, goal, plan, run.trials);
+            if (!record) return record.error();
+            state_->tell([this, count, record = std::move(*record)] {
+                std::erase_if(state_->robustness, [&](const study::RobustnessRecord& one) {
+                    return isSameIndividual(one, record);
+                });
+                state_->robustness.push_back(record);
+                emit robustnessMeasured(count);
+            });
+        }
         return std::nullopt;
     };
-    startRun(RunState::measuring, tr("The track's robustness could not be measured"), work);
+    startRun(RunState::measuring,
+             tracks.size() > 1 ? tr("The robustness of the tracks could not be measured")
+                               : tr("The track's robustness could not be measured"),
+             work);
 }
 
 void StudyRuns::pause() {

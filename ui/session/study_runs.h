@@ -76,6 +76,10 @@ class StudyRuns : public QObject {
     [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
     /// The last one of this individual; null: it was not measured since the study was opened.
     [[nodiscard]] const study::RobustnessRecord* findRobustness(const study::IndividualId& individual) const;
+    /// Of each track that was measured the last one.
+    [[nodiscard]] const std::vector<study::RobustnessRecord>& robustness() const;
+    /// Those of the last selection, best first, whose robustness is not known in the present operating box.
+    [[nodiscard]] std::vector<study::IndividualId> listUnmeasured() const;
     /// Of the winners (study::findBestWinner); null if there are none.
     [[nodiscard]] const study::Individual* bestWinner() const;
     /// What is known of the success of an individual (study::findSuccess).
@@ -114,10 +118,10 @@ class StudyRuns : public QObject {
     void startValidation(const study::Individual& winner,
                          const std::optional<trial::Goal>& expected = std::nullopt);
 
-    /// How it does all over the operating box (study::measureRobustness) in the engine that learns, which is
-    /// the quick one, told by robustnessMeasured().
+    /// How these tracks do all over the operating box (study::measureRobustness), one after the other, in the
+    /// engine that learns, which is the quick one, told by robustnessMeasured() of each.
     /// `goal`: what counts as success, if not what the study wants or the most frequent orientation.
-    void startRobustness(const study::Individual& individual, const study::RobustnessPlan& plan = {},
+    void startRobustness(const std::vector<study::Individual>& tracks, const study::RobustnessPlan& plan = {},
                          const std::optional<trial::Goal>& goal = std::nullopt);
 
     /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
@@ -141,7 +145,8 @@ class StudyRuns : public QObject {
     void checkSaved(int generation);
     void selectionSaved();
     void validationSaved();
-    void robustnessMeasured();
+    /// Of one of so many that are measured one after the other.
+    void robustnessMeasured(int tracks);
     void chosenChanged();
     /// 0: the estimate before does not hold any more.
     void estimated(double seconds);

@@ -328,6 +328,29 @@ class RecordModelsTest : public QObject {
         QVERIFY(model.index(2, ValidationModel::Pose).data(Qt::ToolTipRole).toString().contains("arrive"));
     }
 
+    void worstCornersOfWhatWasMeasured() {
+        study::SelectionRecord record{"simbody", {}};
+        record.entries.push_back({{4, 1}, testing::paperFitness(0.0, 0.0, 0.8), 100, 100, 99, trial::Goal()});
+        record.entries.push_back({{3, 2}, testing::paperFitness(0.0, 0.0, 0.8), 100, 100, 98, trial::Goal()});
+        study::RobustnessRecord other{{3, 1}, "native", {}, {}};
+        study::RobustnessRecord known{{3, 2}, "native", {}, {}};
+        for (const int success : {281, 290}) {  // the worst comes first
+            study::PlaceResult corner;
+            corner.tally = {success, 300 - success, 0, 0};
+            known.robustness.corners.push_back(corner);
+        }
+        const std::vector<study::RobustnessRecord> measured = {other, known};
+        SelectionModel model;
+        const QAbstractItemModelTester tester(&model, kFatal);
+        model.setSelection(record, measured);
+        QCOMPARE(textAt(model, 0, SelectionModel::Worst), QString("–"));
+        QCOMPARE(textAt(model, 1, SelectionModel::Worst), QString("93.7 (90.3 … 96.1)"));
+        const QStringList lines = models::toCsv(model).split('\n');
+        QVERIFY2(lines[0].contains("Worst corner [%],\"Worst corner, 95 % Clopper-Pearson low [%]\""),
+                 qPrintable(lines[0]));
+        QVERIFY2(lines[2].contains(",93.66"), qPrintable(lines[2]));
+    }
+
     void selectionIsRanked() {
         study::SelectionRecord record{"simbody", {}};
         record.entries.push_back(
@@ -342,6 +365,7 @@ class RecordModelsTest : public QObject {
         QCOMPARE(textAt(model, 1, SelectionModel::Success), QString("–"));
         QCOMPARE(textAt(model, 0, SelectionModel::Corners), QString("95.0 (92.7 … 96.8)"));
         QCOMPARE(textAt(model, 1, SelectionModel::Corners), QString("–"));
+        QCOMPARE(textAt(model, 0, SelectionModel::Worst), QString("–"));
         const QStringList lines = models::toCsv(model).split('\n');
         QVERIFY2(lines[0].contains("In corners [%],\"In corners, 95 % Clopper-Pearson low [%]\""),
                  qPrintable(lines[0]));

@@ -471,7 +471,7 @@ class ReviewPageTest : public QObject {
         QTRY_COMPARE_WITH_TIMEOUT(runs.state(), session::RunState::idle, kPatience);
         QVERIFY(text->isHidden());
         // With fewer trials than the button's, for the test's sake.
-        runs.startRobustness(*runs.chosen(), {20, 20, 3, 2});
+        runs.startRobustness({*runs.chosen()}, {20, 20, 3, 2});
         QTRY_VERIFY_WITH_TIMEOUT(!text->isHidden(), 3 * kPatience);
         QVERIFY2(text->text().contains("Worst corners") && text->text().contains("riction 0."),
                  qPrintable(text->text()));
@@ -498,6 +498,41 @@ class ReviewPageTest : public QObject {
         track->setCurrentIndex(track->currentIndex() == 0 ? 1 : 0);
         emit track->activated(track->currentIndex());
         QTRY_VERIFY(text->isHidden());
+    }
+
+    void worstCornersOfAllThatWereCompared() {
+        ReviewUser user(study_);
+        auto* all = user.find<QAction>("review.robustness.all");
+        session::StudyRuns& runs = user.session()->runs();
+        if (runs.selections().empty()) {
+            QVERIFY(!all->isEnabled());
+            QVERIFY2(all->toolTip().contains("Compare"), qPrintable(all->toolTip()));
+            user.trigger("review.compare");
+            QTRY_VERIFY_WITH_TIMEOUT(!runs.selections().empty(), kPatience);
+        }
+        QTRY_VERIFY_WITH_TIMEOUT(all->isEnabled(), kPatience);
+        const QString left = user.find<QLabel>("review.robustness.all.cost")->text();
+        QVERIFY2(left.startsWith("2 tracks left") && left.contains(", about "), qPrintable(left));
+        user.find<QPushButton>("review.robustness.all.button")->click();
+        QCOMPARE(runs.state(), session::RunState::measuring);
+        user.find<QPushButton>("review.stop")->click();
+        QTRY_COMPARE_WITH_TIMEOUT(runs.state(), session::RunState::idle, kPatience);
+        // With fewer trials than the button's, for the test's sake.
+        std::vector<study::Individual> tracks;
+        for (const study::SelectionEntry& entry : runs.selections().back().entries)
+            tracks.push_back(runs.loadIndividual(entry).value());
+        runs.startRobustness(tracks, {20, 20, 3, 2});
+        QTRY_COMPARE_WITH_TIMEOUT(runs.state(), session::RunState::idle, 3 * kPatience);
+        QTRY_VERIFY(user.comparison().isVisible());
+        QVERIFY(!user.comparison().isColumnHidden(models::SelectionModel::Worst));
+        const auto worst = [&](int row) {
+            const QAbstractItemModel& model = *user.comparison().model();
+            return model.index(row, models::SelectionModel::Worst).data().toString();
+        };
+        for (int row = 0; row < static_cast<int>(tracks.size()); ++row)
+            QVERIFY2(worst(row).contains(" … "), qPrintable(worst(row)));
+        QVERIFY(!all->isEnabled());
+        QVERIFY2(all->toolTip().contains("are measured"), qPrintable(all->toolTip()));
     }
 
     void withoutRoomInTheBoxRobustnessCannotBeMeasured() {

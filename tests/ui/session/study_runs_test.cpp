@@ -308,7 +308,7 @@ class StudyRunsTest : public QObject {
         QVERIFY(session->runs().findRobustness(winner) == nullptr);
         QSignalSpy measured(&session->runs(), &StudyRuns::robustnessMeasured);
         const study::RobustnessPlan plan{10, 20, 3, 2};
-        session->runs().startRobustness(winner, plan);
+        session->runs().startRobustness({winner}, plan);
         QCOMPARE(session->runs().state(), RunState::measuring);
         QVERIFY(waitUntil([&] { return measured.count() == 1; }));
         QVERIFY(waitForState(*session, RunState::idle));
@@ -318,7 +318,7 @@ class StudyRunsTest : public QObject {
         QCOMPARE(known->robustness.overBox.tally.trials(), 20);
         QVERIFY(!known->robustness.corners.empty());
         // Once more takes its place; what is stopped does not.
-        session->runs().startRobustness(winner, {12, 20, 3, 2});
+        session->runs().startRobustness({winner}, {12, 20, 3, 2});
         QVERIFY(waitUntil([&] { return measured.count() == 2; }));
         QVERIFY(waitForState(*session, RunState::idle));
         QCOMPARE(session->runs().findRobustness(winner)->robustness.nominal.tally.trials(), 12);
@@ -331,11 +331,48 @@ class StudyRunsTest : public QObject {
         };
         QCOMPARE(kept(), 12);
         QSignalSpy failed(session.get(), &StudySession::failed);
-        session->runs().startRobustness(winner);
+        session->runs().startRobustness({winner});
         session->runs().stopNow();
         QVERIFY(waitForState(*session, RunState::idle));
         QCOMPARE(kept(), 12);
         QCOMPARE(failed.count(), 0);
+    }
+
+    void allThatWereComparedAreMeasured() {
+        auto session = fixture_->create("a.trap", smallSettings());
+        QVERIFY(session && learnToTheEnd(*session));
+        session::StudyRuns& runs = session->runs();
+        QVERIFY(runs.listUnmeasured().empty());  // nothing was compared
+        runs.startSelection();
+        QVERIFY(waitForState(*session, RunState::idle));
+        const std::vector<study::SelectionEntry> entries = runs.selections().back().entries;
+        QVERIFY(entries.size() > 1);
+        QCOMPARE(runs.listUnmeasured().size(), entries.size());
+        std::vector<study::Individual> tracks;
+        for (const study::IndividualId& id : runs.listUnmeasured())
+            tracks.push_back(runs.loadIndividual(id).value());
+        QSignalSpy measured(&runs, &StudyRuns::robustnessMeasured);
+        runs.startRobustness(tracks, {10, 20, 3, 2});
+        QVERIFY(waitForState(*session, RunState::idle));
+        QCOMPARE(static_cast<std::size_t>(measured.count()), entries.size());
+        QCOMPARE(measured.front().front().toInt(), static_cast<int>(entries.size()));
+        for (const study::SelectionEntry& entry : entries)
+            QVERIFY(runs.findRobustness(entry) != nullptr);
+        QVERIFY(runs.listUnmeasured().empty());
+        // Stopped in the middle: the first stays.
+        fixture_->trialTime = std::chrono::milliseconds(2);
+        session.reset();
+        session = fixture_->open("a.trap");
+        session::StudyRuns& reopened = session->runs();
+        QVERIFY(reopened.listUnmeasured().empty());
+        QObject::connect(&reopened, &StudyRuns::robustnessMeasured, &reopened, &StudyRuns::stopNow);
+        reopened.startRobustness(tracks, {11, 20, 3, 2});
+        QVERIFY(waitForState(*session, RunState::idle));
+        const auto trialsOf = [&](const study::Individual& track) {
+            return reopened.findRobustness(track)->robustness.nominal.tally.trials();
+        };
+        QCOMPARE(trialsOf(tracks.front()), 11);
+        QCOMPARE(trialsOf(tracks.back()), 10);
     }
 
     void oneRunAtATime() {
