@@ -10,7 +10,7 @@ Usage: packaging/test.sh [CTEST-OPTION...]
 
 Installs what is missing, builds the release preset, checks format, layers and clang-tidy, and runs every test. With
 CI=true it also installs and configures in a bare Debian 12 (packaging/try_bare.sh), fuzzes for a minute, and runs as many
-tests with sanitizers as fit in ten minutes (packaging/fuzz.sh, packaging/sanitize.sh). It then ends within 80 minutes also
+tests with sanitizers as fit in fifteen minutes (packaging/fuzz.sh, packaging/sanitize.sh). It then ends within 80 minutes also
 on a slow machine: the tests come first, the other checks get what is left, and what was left out is said.
 Options go to ctest, for instance: packaging/test.sh -R core_track
 USAGE
@@ -57,9 +57,9 @@ if [[ ${CI:-} == true ]]; then
     # 77: no bare system can be made here, which it has said.
     ((bare == 0 || bare == 77)) || failed+=(try_bare)
 
-    # One sanitized tree for both, in ten minutes, building included.
+    # One sanitized tree for both, building included.
     began=$SECONDS
-    minutes=$(spare 10)
+    minutes=$(spare 15)
     fuzz=0
     timeout "$((minutes * 60 + 1))" "$root/packaging/fuzz.sh" --seconds 60 || fuzz=$?
     minutes=$((minutes - (SECONDS - began + 30) / 60))

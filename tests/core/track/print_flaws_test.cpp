@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/track/track_file.h"
 #include "core/track/track_solid.h"
 #include "track_scenes.h"
 
@@ -44,6 +45,16 @@ class PrintFlawsTest : public QObject {
     Q_OBJECT
 
  private slots:
+    void whatComesWithTrapwrightCanBePrinted() {
+        for (const char* file : {"cuboid_box_track.json", "cone_track.json", "bowl_track.json"}) {
+            const auto read =
+                track::readTrackFile(std::string(TRAPWRIGHT_SOURCE_DIR) + "/resources/tracks/" + file);
+            QVERIFY2(read, file);
+            const PrintFlaws flaws = track::findPrintFlaws(read->track);
+            QVERIFY2(isNear(flaws.thin, 0.0) && isNear(flaws.overhang, 0.0), file);
+        }
+    }
+
     void aFlatTrackHasNone() {
         const PrintFlaws flaws = track::findPrintFlaws(extrude({{-30, 15}, {0, 15}, {30, 15}}));
         QCOMPARE(flaws.thin, 0.0);
