@@ -10,8 +10,8 @@ Usage: packaging/test.sh [CTEST-OPTION...]
 
 Installs what is missing, builds the release preset, checks format, layers and clang-tidy, and runs every test. With
 CI=true it also installs and configures in a bare Debian 12 (packaging/try_bare.sh), fuzzes for a minute, and runs as many
-tests with sanitizers as fit in fifteen minutes (packaging/fuzz.sh, packaging/sanitize.sh). It then ends within 80 minutes also
-on a slow machine: the tests come first, the other checks get what is left, and what was left out is said.
+tests with sanitizers as fit in fifteen minutes (packaging/fuzz.sh, packaging/sanitize.sh). It then aims
+at 80 minutes: the tests come first, the other checks get what they leave, and what was left out is said.
 Options go to ctest, for instance: packaging/test.sh -R core_track
 USAGE
 }
@@ -27,8 +27,8 @@ esac
 began=$SECONDS
 "$root/packaging/build.sh" release
 
-# Continuous integration is stopped after 90 minutes, and the same build took 15 there on one day and 45 on another. So
-# long as the build was, so long the tests will be: they take a fifth to a third of it, and eight minutes alone.
+# Continuous integration is stopped after 90 minutes; all of this took 42 there on one day and more than that on another.
+# The tests get two fifths of what the build took: where it took 45 minutes, they took 10 to 17.
 tests=$(((SECONDS - began) * 2 / 5))
 ((tests >= 600)) || tests=600
 # Prints how many minutes the other checks may take yet, at most $1.

@@ -90,7 +90,7 @@ function(trapwright_test_program name)
 endfunction()
 
 # Has moc write SOURCE's .moc, which SOURCE includes at its end. For each of two hundred tests CMake's AUTOMOC would start a
-# process that looks for what is known here, and compile one more file, empty but for that: a third of the time of a build.
+# process that looks for what is known here, and compile one more file, empty but for that: a fifth of the steps of a build.
 function(trapwright_moc name source)
     cmake_path(GET source STEM stem)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${name}_moc)

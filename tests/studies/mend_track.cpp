@@ -168,7 +168,7 @@ int main(int count, char** texts) {
     const Plan plan = planOf(file->track, options->leadOut);
     const auto before = build(plan);
     if (!before) {
-        fmt::print("The track crosses itself.\n");
+        fmt::print("These sections make no track, or one that crosses itself.\n");
         return 1;
     }
     fmt::print("{:.2f} mm^2 cannot be printed\n", before->flaws * 1e6);

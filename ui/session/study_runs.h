@@ -74,7 +74,7 @@ class StudyRuns : public QObject {
     /// Oldest first.
     [[nodiscard]] const std::vector<study::SelectionRecord>& selections() const;
     [[nodiscard]] const std::vector<study::ValidationRecord>& validations() const;
-    /// The last one of this individual; null: it was not measured since the study was opened.
+    /// The last one of this individual; null: it was never measured.
     [[nodiscard]] const study::RobustnessRecord* findRobustness(const study::IndividualId& individual) const;
     /// Of each track that was measured the last one.
     [[nodiscard]] const std::vector<study::RobustnessRecord>& robustness() const;
