@@ -158,8 +158,15 @@ int main(int count, char** texts) {
     const auto part = workflow::importPart({options->part});
     const auto engine = engines::registry().make("native", {});
     auto settings = study::presetSettings(options->part == "cone" ? "cone" : "cuboid");
-    if (!file || !file->expectedOrientation || !part || !engine || !settings) {
-        fmt::print("The track, with the orientation that is expected, or the part cannot be read.\n");
+    if (!file || !part || !engine || !settings) {
+        fmt::print("{}\n", !file     ? file.error().message
+                           : !part   ? part.error().failure.message
+                           : !engine ? engine.error().message
+                                     : settings.error().message);
+        return 1;
+    }
+    if (!file->expectedOrientation) {
+        fmt::print("{} does not tell the orientation that is expected.\n", options->track);
         return 1;
     }
     const trial::Goal goal = trial::makeGoal(*file->expectedOrientation);
