@@ -33,6 +33,7 @@ void addSelectCommand(CLI::App& program, Invocation& invocation);
 void addValidateCommand(CLI::App& program, Invocation& invocation);
 void addRobustnessCommand(CLI::App& program, Invocation& invocation);
 void addPhysicalCommand(CLI::App& program, Invocation& invocation);
+void addMendCommand(CLI::App& program, Invocation& invocation);
 void addExportCommand(CLI::App& program, Invocation& invocation);
 void addReplayCommand(CLI::App& program, Invocation& invocation);
 void addTrackCommand(CLI::App& program, Invocation& invocation);

@@ -164,9 +164,9 @@ void buildCommandLine(CLI::App& program, Invocation& invocation) {
     program.failure_message(CLI::FailureMessage::simple);
     for (const auto add :
          {addPartCommand, addMaterialsCommand, addNewCommand, addSettingsCommand, addEvolveCommand,
-          addSelectCommand, addValidateCommand, addRobustnessCommand, addPhysicalCommand, addExportCommand,
-          addReplayCommand, addTrackCommand, addSweepCommand, addVerifyCommand, addBenchCommand,
-          addDemoCommand, addDumpCommand, addCompletionCommand}) {
+          addSelectCommand, addValidateCommand, addRobustnessCommand, addPhysicalCommand, addMendCommand,
+          addExportCommand, addReplayCommand, addTrackCommand, addSweepCommand, addVerifyCommand,
+          addBenchCommand, addDemoCommand, addDumpCommand, addCompletionCommand}) {
         add(program, invocation);
     }
     nameValueTypes(program);

@@ -78,6 +78,9 @@ Json toJson(const study::GenerationSummary& summary) {
     for (const search::NamedNumber& curve : statistics.curves)
         json[curve.key] = curve.value;
     json["seconds"] = summary.seconds;
+    if (summary.mendedFrom)
+        json["mended_from"] = {{"generation", summary.mendedFrom->generation},
+                               {"individual", summary.mendedFrom->individual}};
     return json;
 }
 

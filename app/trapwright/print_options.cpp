@@ -49,6 +49,27 @@ std::string describeExcess(const geometry::BedFit& fit) {
 
 }  // namespace
 
+void addPrinterOptions(Command command, PrintRequest& request) {
+    command
+        .addOption(
+            "--printer", request.printer,
+            "For its bed, thinnest wall and steepest overhang: a name of resources/printers or of your "
+            "own, as in prusa-mk4; a wrong name tells which there are")
+        .type("NAME")
+        .group(kGroup);
+    command
+        .addOption("--thinnest", request.thinnestWall,
+                   "Walls thinner than this cannot be printed (the printer's, or 1.2)")
+        .type("MM")
+        .group(kGroup);
+    command
+        .addOption("--steepest", request.steepestOverhang,
+                   "Overhangs that lean further from upright cannot be printed (the printer's, or 45)")
+        .type("DEG")
+        .range(0.0, 90.0)
+        .group(kGroup);
+}
+
 void addPrintOptions(Command command, PrintRequest& request) {
     const auto add = [&](const char* name, std::optional<double>& value, const char* help) {
         command.addOption(name, value, help).type("MM").group(kGroup);
@@ -69,24 +90,11 @@ void addPrintOptions(Command command, PrintRequest& request) {
         "From the holes' centres to the flange's edge; the flange is twice as wide (8)");
     add("--insert-radius", request.insertRadius,
         "Of the bowl, where the flange is cut (0, the default: the least that leaves room)");
-    command
-        .addOption(
-            "--printer", request.printer,
-            "For its bed, thinnest wall and steepest overhang: a name of resources/printers or of your "
-            "own, as in prusa-mk4; a wrong name tells which there are")
-        .type("NAME")
-        .group(kGroup);
+    addPrinterOptions(command, request);
     command
         .addOption("--bed", request.bed,
                    "Bed and height of the printer, as in 250x210x220: whether the track fits is told")
         .type("MMxMMxMM")
-        .group(kGroup);
-    add("--thinnest", request.thinnestWall, "Walls thinner than this are told of (the printer's, or 1.2)");
-    command
-        .addOption("--steepest", request.steepestOverhang,
-                   "Overhangs that lean further from upright are told of (the printer's, or 45)")
-        .type("DEG")
-        .range(0.0, 90.0)
         .group(kGroup);
     Option split =
         command.addFlag("--split", request.split,

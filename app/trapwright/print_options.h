@@ -37,6 +37,9 @@ struct PrintRequest {
     std::optional<double> dowelClearance;
 };
 
+/// Adds --printer, --thinnest and --steepest.
+void addPrinterOptions(Command command, PrintRequest& request);
+/// Adds these and all else of a request.
 void addPrintOptions(Command command, PrintRequest& request);
 
 track::PrintOptions toPrintOptions(const PrintRequest& request);

@@ -25,6 +25,7 @@ enum class Purpose : std::uint8_t {
     robustness = 14,
     surface = 15,
     corners = 16,
+    mending = 17,
     test = 255
 };
 

@@ -179,6 +179,10 @@ Overhang makeOverhang(const TriangleMesh& mesh, const std::vector<double>& angle
 
 }  // namespace
 
+std::vector<SharpRidge> findSharpRidges(const TriangleMesh& mesh, const PrintLimits& limits) {
+    return collectRidges(mesh, limits.thinnestWall, findSharpEdges(mesh, kSharpestEdge));
+}
+
 std::vector<ThinWall> findThinWalls(const TriangleMesh& mesh, const PrintLimits& limits) {
     return findThinWalls(mesh, limits.thinnestWall, findSharpEdges(mesh, kSharpestEdge));
 }

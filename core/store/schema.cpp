@@ -378,7 +378,13 @@ ALTER TABLE selection_entry ADD COLUMN corner_oriented INTEGER NOT NULL DEFAULT 
 UPDATE study SET settings = json_set(settings, '$.evolution.cornerShare', 0.0);
 )sql";
 
-constexpr std::array<Migration, 18> kMigrations = {{{1, kVersion1},
+// Generations of mended tracks; there were none.
+constexpr const char* kVersion19 = R"sql(
+ALTER TABLE generation ADD COLUMN mended_generation INTEGER;   -- what all of it is mended from; NULL: learned
+ALTER TABLE generation ADD COLUMN mended_individual INTEGER;
+)sql";
+
+constexpr std::array<Migration, 19> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -395,7 +401,8 @@ constexpr std::array<Migration, 18> kMigrations = {{{1, kVersion1},
                                                     {15, kVersion15},
                                                     {16, kVersion16},
                                                     {17, kVersion17},
-                                                    {18, kVersion18}}};
+                                                    {18, kVersion18},
+                                                    {19, kVersion19}}};
 
 }  // namespace
 

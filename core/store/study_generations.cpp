@@ -108,7 +108,8 @@ class IndividualReader {
 constexpr const char* kSummaryQuery =
     "SELECT generation.number, winner, seconds, best.fitness, top_fitness, "
     "(SELECT sum(trials) FROM individual WHERE individual.generation = generation.number), best.oriented, "
-    "best.trials, top_success FROM generation LEFT JOIN individual AS best "
+    "best.trials, top_success, mended_generation, mended_individual FROM generation LEFT JOIN individual AS "
+    "best "
     "ON best.generation = generation.number AND best.number = generation.winner ";
 
 /// Reads summaries from rows of kSummaryQuery and the tables of scores.
@@ -138,6 +139,12 @@ class SummaryReader {
         }
         const auto topSuccess = query.getColumn(8);
         if (!topSuccess.isNull()) summary.statistics.topSuccess = topSuccess.getDouble();
+        const auto mended = query.getColumn(9);
+        if (!mended.isNull()) {
+            summary.mendedFrom = {mended.getInt(), query.getColumn(10).getInt()};
+            if (summary.mendedFrom->generation >= summary.index)
+                return damagedValue(path_, "where generation " + std::to_string(summary.index) + " is from");
+        }
         return summary;
     }
 
@@ -202,11 +209,15 @@ base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
         }
         SQLite::Statement generation(database,
                                      "INSERT INTO generation (number, program, winner, seconds, top_fitness, "
-                                     "top_success) VALUES (?, ?, ?, ?, ?, ?)");
+                                     "top_success, mended_generation, mended_individual) "
+                                     "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
         const study::GenerationStatistics& s = record.statistics;
         SQLite::bind(generation, record.index, state_->program, record.winner, record.seconds,
                      s.topMean.total);
         bindOptional(generation, 6, s.topSuccess);
+        const auto& from = record.mendedFrom;
+        bindOptional(generation, 7, from ? std::optional(from->generation) : std::nullopt);
+        bindOptional(generation, 8, from ? std::optional(from->individual) : std::nullopt);
         generation.exec();
         ScoreWriter(database, kTopScores).write({record.index}, s.topMean.scores);
         SQLite::Statement curve(database, "INSERT INTO curve VALUES (?, ?, ?, ?)");
@@ -260,6 +271,7 @@ base::Result<study::GenerationRecord> StudyFile::loadGeneration(int index) const
         record.winner = one.front().winner;
         record.statistics = std::move(one.front().statistics);
         record.seconds = one.front().seconds;
+        record.mendedFrom = one.front().mendedFrom;
 
         IndividualReader reader(*state_->database);
         SQLite::Statement query(*state_->database,

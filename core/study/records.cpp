@@ -6,6 +6,7 @@ GenerationSummary summarize(const GenerationRecord& record) {
     GenerationSummary summary{record.index, record.winner, record.statistics, record.seconds};
     for (const IndividualRecord& individual : record.individuals)
         summary.trials += individual.trials;
+    summary.mendedFrom = record.mendedFrom;
     return summary;
 }
 

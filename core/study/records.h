@@ -77,6 +77,9 @@ struct GenerationRecord {
     int winner = 0;  // index into individuals; the lowest among equals
     GenerationStatistics statistics;
     double seconds = 0.0;  // wall time; the only field that may differ between equal runs
+    /// The track that all individuals are mended from, of an earlier generation (judgeVariants); none:
+    /// learned.
+    std::optional<IndividualId> mendedFrom{};
     /// The search's own after it was told of this generation (search::Search::save). A study keeps that of
     /// its last generation alone (LearningState).
     std::string searchState{};
@@ -95,8 +98,9 @@ struct GenerationSummary {
     int index = 0;   // from 0
     int winner = 0;  // index into the generation's individuals
     GenerationStatistics statistics;
-    double seconds = 0.0;     // wall time
-    std::int64_t trials = 0;  // simulated, of all individuals
+    double seconds = 0.0;                      // wall time
+    std::int64_t trials = 0;                   // simulated, of all individuals
+    std::optional<IndividualId> mendedFrom{};  // as GenerationRecord::mendedFrom
 
     /// 0 if the generation took no time.
     [[nodiscard]] double trialsPerSecond() const {

@@ -1,5 +1,7 @@
 #include "core/workflow/judging.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/study/planning.h"
@@ -90,6 +92,75 @@ Result<study::RobustnessRecord> measureAndSave(store::StudyFile& file, const stu
                                    std::move(*robustness)};
     if (const auto saved = file.saveRobustness(record); !saved) return describeSaving(saved.error());
     return record;
+}
+
+std::int64_t countMendingTrials(const study::Settings& settings, const study::MendingPlan& plan) {
+    const std::int64_t compared = 1 + std::min(plan.compared, plan.variants);
+    return static_cast<std::int64_t>(plan.variants) * plan.trials +
+           compared * (settings.validation.selectionTrials + study::countCornerTrials(settings));
+}
+
+Result<MendingReport> mendAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                  const study::Individual& track, const study::MendingPlan& plan,
+                                  const std::function<void(const study::GenerationRecord&)>& saved,
+                                  const base::RunControl& control) {
+    const auto last = file.loadLearningState();
+    if (!last) return Failure{FailureKind::reading, last.error().message};
+    if (!*last) {
+        return Failure{FailureKind::reading, "The study " + file.path().string() +
+                                                 " has no generations, and so no track to mend. Learn some "
+                                                 "first with evolve."};
+    }
+    MendingReport report;
+    const auto unprintable =
+        study::measureUnprintable(inputs.settings.track, track.record.design, plan.limits);
+    if (!unprintable) return Failure{FailureKind::settings, unprintable.error().message};
+    report.unprintable = *unprintable;
+    if (report.unprintable <= 0.0) {
+        return Failure{FailureKind::settings,
+                       fmt::format("Nothing of this track is thinner than {:g} mm or overhangs by more than "
+                                   "{:g} degrees: there is nothing to mend.",
+                                   plan.limits.thinnestWall / base::kMillimetre,
+                                   plan.limits.steepestOverhang / base::kDegree)};
+    }
+    auto variants = study::mendVariants(inputs, (*last)->index + 1, track, plan, control);
+    if (!variants) return describeFailure(control, variants.error());
+    const double least =
+        std::ranges::min_element(*variants, {}, &study::MendedDesign::unprintable)->unprintable;
+    if (least > 0.0) {
+        constexpr double kSquareMillimetre = 1e-6;  // [m^2]
+        return Failure{
+            FailureKind::notSolid,
+            fmt::format(
+                "{:.2f} mm2 of this track cannot be printed, and none of {} variants is without: {:.2f} "
+                "mm2 are left of the best. Try more variants, another track, or learn with F_P among "
+                "evolution.objectives.",
+                report.unprintable / kSquareMillimetre, plan.variants, least / kSquareMillimetre)};
+    }
+    auto generation = study::judgeVariants(inputs, **last, track, *std::move(variants), plan, control);
+    if (!generation) return describeFailure(control, generation.error());
+    if (const auto kept = file.saveGeneration(*generation); !kept) return describeSaving(kept.error());
+    generation->made = {};
+    report.generation = *std::move(generation);
+    if (saved) saved(report.generation);
+
+    std::vector<study::Individual> printable;
+    for (std::size_t i = 0; i < report.generation.individuals.size(); ++i)
+        printable.push_back(
+            {{report.generation.index, static_cast<int>(i)}, report.generation.individuals[i]});
+    std::vector<study::Individual> candidates = study::rankWinners(std::move(printable), plan.compared);
+    candidates.push_back(track);
+    study::StudyInputs comparing = inputs;
+    comparing.settings.validation.selectionWinners = static_cast<int>(candidates.size());
+    auto selection = selectAndSave(file, comparing, std::move(candidates), control);
+    if (!selection) return selection.error();
+    report.selection = *std::move(selection);
+    const auto best = std::ranges::find_if(report.selection.entries, [&](const study::SelectionEntry& entry) {
+        return entry.generation == report.generation.index;
+    });
+    report.best = *best;
+    if (const auto kept = file.chooseWinner(report.best); !kept) return describeSaving(kept.error());
+    return report;
 }
 
 }  // namespace trapwright::workflow

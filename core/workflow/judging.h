@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "core/base/run_control.h"
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
+#include "core/study/mending.h"
 #include "core/study/robustness.h"
 #include "core/workflow/failure.h"
 
@@ -41,5 +43,27 @@ Result<study::RobustnessRecord> measureAndSave(store::StudyFile& file, const stu
                                                const std::optional<trial::Goal>& goal,
                                                const study::RobustnessPlan& plan,
                                                const base::RunControl& control);
+
+/// What mending a track gave; both are saved.
+struct MendingReport {
+    study::GenerationRecord generation;  // the variants that can be printed
+    study::SelectionRecord selection;    // the best of them, and the track that they come from
+    /// The best variant of the selection.
+    study::IndividualId best;
+    double unprintable = 0.0;  // of the track before [m^2]
+};
+
+/// Trials of a mending if all variants can be printed.
+std::int64_t countMendingTrials(const study::Settings& settings, const study::MendingPlan& plan);
+
+/// Mends an individual's track for the printer (study::mendVariants, judgeVariants), compares the best
+/// variants with it by the trials of a selection, saves generation and selection in the file, and makes the
+/// best variant the study's final track. `saved` is told of the generation, which stays if the rest fails;
+/// may be empty. Failures: nothing to mend (settings), no variant of which all can be printed (notSolid), as
+/// the others.
+Result<MendingReport> mendAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                  const study::Individual& track, const study::MendingPlan& plan,
+                                  const std::function<void(const study::GenerationRecord&)>& saved,
+                                  const base::RunControl& control);
 
 }  // namespace trapwright::workflow

@@ -24,8 +24,8 @@ class CommandsTest : public QObject {
     void help_data() {
         QTest::addColumn<QString>("command");
         for (const char* name :
-             {"part", "new", "settings", "evolve", "select", "validate", "robustness", "physical", "export",
-              "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
+             {"part", "new", "settings", "evolve", "select", "validate", "robustness", "physical", "mend",
+              "export", "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
             QTest::newRow(name) << name;
         }
     }
@@ -428,6 +428,33 @@ class CommandsTest : public QObject {
         QVERIFY2(none.code != 0 && none.all().contains("has no room"), none.all());
         QCOMPARE(ask({"robustness", "study.trap", "--trials", "3"}).code, 2);
         QCOMPARE(ask({"robustness", "nowhere.trap"}).code, 3);
+    }
+
+    void mend() {
+        QVERIFY(QFile::copy(folder_.filePath("study.trap"), folder_.filePath("mend.trap")));
+        const QStringList few = {"--variants",   "6", "--variant-trials", "4", "--compared",   "2",
+                                 "--trials",     "6", "--corner-trials",  "4", "--generation", "0",
+                                 "--individual", "7"};  // whose walls are too thin in part
+        // A printer that can do all of it.
+        const Ran whole =
+            ask(QStringList{"mend", "mend.trap", "--thinnest", "0.001", "--steepest", "90"} + few);
+        QVERIFY2(whole.code == 0 && whole.all().contains("nothing to mend"), whole.all());
+        const Ran ran = ask(QStringList{"mend", "mend.trap", "--json"} + few);
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonObject mended = ran.json();
+        QCOMPARE(mended["tried"].toInt(), 6);
+        QCOMPARE(mended["best"]["generation"].toInt(), 2);
+        QVERIFY(mended["unprintable_mm2"].toDouble() > 0.0);
+        const int printable = mended["printable"].toInt();
+        QVERIFY(printable >= 1 && printable <= 6);
+        QCOMPARE(mended["selection"]["entries"].toArray().size(), 1 + std::min(printable, 2));
+        // What is exported from now on.
+        const QJsonObject exported = ask({"export", "mend.trap", "mend.stl", "--json"}).json();
+        QCOMPARE(exported["generation"].toInt(), 2);
+        QCOMPARE(exported["print"]["thin_walls"].toArray().size(), 0);
+        QCOMPARE(ask(QStringList{"mend", "mend.trap", "--variants", "0"}).code, 2);
+        QCOMPARE(ask({"mend", "nowhere.trap"}).code, 3);
+        QFile::remove(folder_.filePath("mend.trap"));
     }
 
     // Told by name, and by those that there are where the name is unknown.

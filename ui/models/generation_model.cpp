@@ -43,7 +43,10 @@ GenerationModel::GenerationModel(QObject* parent) : RecordModel(makeColumns(), p
 std::vector<Column<GenerationRow>> GenerationModel::makeColumns() {
     std::vector<Column<Row>> columns = {
         {tr("Generation"), tr("Counted from 0."), [](const Row& r) { return QVariant(r.summary.index); },
-         [](const Row& r) { return QString::number(r.summary.index); }},
+         [](const Row& r) {
+             return r.summary.mendedFrom ? tr("%1, mended").arg(r.summary.index)
+                                         : QString::number(r.summary.index);
+         }},
         {tr("Winner"), tr("Number of the generation's best individual."),
          [](const Row& r) { return QVariant(r.summary.winner); },
          [](const Row& r) { return QString::number(r.summary.winner); }},
@@ -124,6 +127,12 @@ QVariant GenerationModel::more(const GenerationRow& row, int column, int role) c
         case IndividualRole:
             return row.summary.winner;
         case Qt::ToolTipRole: {
+            if (column == Generation && row.summary.mendedFrom) {
+                return tr("Variants of generation %1, individual %2 that can be printed; nothing was "
+                          "learned.")
+                    .arg(row.summary.mendedFrom->generation)
+                    .arg(row.summary.mendedFrom->individual);
+            }
             if (column == Success || column == Bounds) return successHelp(row.summary.statistics.success);
             const bool learning = column == LearningSuccess;
             if (!row.check || !(learning || column == ReferenceSuccess)) return {};

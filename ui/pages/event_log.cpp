@@ -163,6 +163,9 @@ void EventLog::tellState(RunState state) {
         case RunState::measuring:
             add(Kind::info, tr("Measurement of robustness began"));
             break;
+        case RunState::mending:
+            add(Kind::info, tr("Mending of a track for the printer began"));
+            break;
         case RunState::simulating:
             break;
         case RunState::idle:
@@ -174,6 +177,15 @@ void EventLog::tellState(RunState state) {
 
 void EventLog::tellGeneration(int generation) {
     const study::GenerationSummary& summary = runs_->summaries().back();
+    if (summary.mendedFrom) {
+        add(Kind::good,
+            tr("Generation %1 saved: variants of generation %2, individual %3 that can be printed, in %4")
+                .arg(generation)
+                .arg(summary.mendedFrom->generation)
+                .arg(summary.mendedFrom->individual)
+                .arg(look::durationText(summary.seconds)));
+        return;
+    }
     add(Kind::good, tr("Generation %1 saved: success of its winner %2, F %3, in %4")
                         .arg(generation)
                         .arg(models::shareText(summary.statistics.success),

@@ -19,6 +19,7 @@
 #include "ui/look/text.h"
 #include "ui/look/theme.h"
 #include "ui/models/numbers.h"
+#include "ui/pages/mend_card.h"
 #include "ui/pages/part_files.h"
 #include "ui/pages/print_findings.h"
 #include "ui/pages/print_form.h"
@@ -64,6 +65,7 @@ ExportPage::ExportPage(QWidget* parent)
       tracks_(new QComboBox(contents_)),
       form_(new PrintForm(contents_)),
       findings_(new PrintFindings(contents_)),
+      mend_(new MendCard(contents_)),
       state_(new QLabel(this)),
       help_(new QLabel(this)) {
     empty_->setObjectName("export.empty");
@@ -87,6 +89,7 @@ ExportPage::ExportPage(QWidget* parent)
 
     auto* found = new look::FoldingGroup("print.found", tr("Checks"), false, contents_);
     found->body()->addWidget(findings_);
+    found->body()->addWidget(mend_);
     auto* column = new QVBoxLayout(contents_);
     column->setContentsMargins(12, 12, 12, 12);
     column->setSpacing(8);
@@ -188,6 +191,7 @@ void ExportPage::setSession(session::StudySession* session) {
     printed_.reset();
     shown_.reset();
     findings_->clear();
+    mend_->setRuns(session_ ? &session_->runs() : nullptr);
     if (session_) {
         using session::StudyDesign;
         using session::StudyRuns;
@@ -246,11 +250,11 @@ void ExportPage::fillTracks() {
     if (!session_->runs().selections().empty()) {
         int place = 0;
         for (const study::SelectionEntry& entry : session_->runs().selections().back().entries) {
-            add(tr("Selected, place %1: generation %2, individual %3")
-                    .arg(++place)
-                    .arg(entry.generation)
-                    .arg(entry.individual),
-                entry.generation, entry.individual);
+            const QString text = session_->runs().mendedFrom(entry.generation)
+                                     ? tr("Selected, place %1: generation %2, individual %3, mended")
+                                     : tr("Selected, place %1: generation %2, individual %3");
+            add(text.arg(++place).arg(entry.generation).arg(entry.individual), entry.generation,
+                entry.individual);
         }
     }
     const std::vector<study::Individual>& winners = session_->runs().winners();
@@ -262,11 +266,16 @@ void ExportPage::fillTracks() {
             winner.generation, winner.individual);
     }
     const auto chosen = session_->runs().chosen();
-    for (int i = 0; chosen && i < tracks_->count(); ++i) {
+    if (!chosen) return;
+    for (int i = 0; i < tracks_->count(); ++i) {
         if (tracks_->itemData(i, kGeneration) == chosen->generation &&
             tracks_->itemData(i, kIndividual) == chosen->individual)
             return tracks_->setCurrentIndex(i);
     }
+    // Any individual can be made the final one.
+    add(tr("Final: generation %1, individual %2").arg(chosen->generation).arg(chosen->individual),
+        chosen->generation, chosen->individual);
+    tracks_->setCurrentIndex(tracks_->count() - 1);
 }
 
 study::IndividualId ExportPage::shownTrack() const {
@@ -304,6 +313,8 @@ void ExportPage::take(const std::shared_ptr<const session::PrintedTrack>& printe
     form_->setProblem({}, {});
     form_->show(*printed);
     findings_->show(*printed, successOfTrack(), form_->choice(), form_->printer());
+    if (const auto track = session_->runs().loadIndividual(shownTrack()))
+        mend_->show(*track, *printed, form_->choice().limits);
     setState({});
     enableExport();
     showScene();

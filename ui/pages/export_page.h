@@ -15,6 +15,7 @@ class QLabel;
 
 namespace trapwright::pages {
 
+class MendCard;
 class PrintFindings;
 class PrintForm;
 
@@ -62,6 +63,7 @@ class ExportPage : public Page {
     QComboBox* tracks_;
     PrintForm* form_;
     PrintFindings* findings_;
+    MendCard* mend_;
     QLabel* state_;
     QLabel* help_;
     QWidget* foot_ = nullptr;

@@ -24,18 +24,6 @@ using session::StudyRuns;
 
 namespace {
 
-/// How many trials a second the study learned by, lately; 0 if that is not known.
-double findRate(const std::vector<study::GenerationSummary>& summaries) {
-    constexpr std::size_t kLately = 5;
-    std::vector<double> rates;
-    for (auto i = summaries.rbegin(); i != summaries.rend() && rates.size() < kLately; ++i)
-        if (i->trialsPerSecond() > 0.0) rates.push_back(i->trialsPerSecond());
-    if (rates.empty()) return 0.0;
-    const auto middle = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2);
-    std::nth_element(rates.begin(), middle, rates.end());
-    return *middle;
-}
-
 QLabel* makeSentence(QWidget* parent) {
     auto* label = new QLabel(parent);
     label->setWordWrap(true);
@@ -150,8 +138,7 @@ void JudgingCard::setWinner(const std::optional<study::Individual>& winner) {
 
 void JudgingCard::update() {
     const RunState state = runs_ ? runs_->state() : RunState::idle;
-    const bool judging =
-        state == RunState::selecting || state == RunState::validating || state == RunState::measuring;
+    const bool judging = session::isJudging(state);
     QString obstacle;
     if (!runs_ || runs_->winners().empty()) {
         obstacle = tr("Learn a track first");
@@ -193,8 +180,8 @@ void JudgingCard::showRobustness(const QString& obstacle) {
     // By the engine that learns.
     const auto costOf = [this](std::int64_t trials) {
         QString cost = tr("%1 trials").arg(QLocale().toString(qlonglong(trials)));
-        if (const double rate = findRate(runs_->summaries()); rate > 0.0)
-            cost += tr(", about %1").arg(look::roughDurationText(static_cast<double>(trials) / rate));
+        if (const double seconds = runs_->secondsFor(trials); seconds > 0.0)
+            cost += tr(", about %1").arg(look::roughDurationText(seconds));
         return cost;
     };
     std::int64_t each = 0;
@@ -248,6 +235,7 @@ void JudgingCard::showProgress() {
     const QLocale locale;
     QString text = runs_->state() == RunState::selecting    ? tr("Comparing")
                    : runs_->state() == RunState::validating ? tr("Validating")
+                   : runs_->state() == RunState::mending    ? tr("Mending")
                                                             : tr("Measuring");
     if (progress.trials > 0)
         text = tr("%1: %2 of %3 trials")

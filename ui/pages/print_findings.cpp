@@ -138,8 +138,8 @@ PrintFindings::PrintFindings(QWidget* parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(8);
     layout->addLayout(grid);
-    layout->addWidget(list_);
     layout->addWidget(least_);
+    layout->addWidget(list_);
     clear();
 }
 

@@ -216,7 +216,7 @@ void RunCard::showIdle() {
         return;
     }
     if (known >= wanted) {
-        title_->setText(tr("All %1 generations learned").arg(known));
+        title_->setText(tr("All %1 generations learned").arg(wanted));
         detail_->setText(tr("Raise their number below to continue."));
         return;
     }
@@ -275,6 +275,9 @@ void RunCard::showRun(RunState state) {
             break;
         case RunState::measuring:
             title_->setText(tr("Measuring robustness"));
+            break;
+        case RunState::mending:
+            title_->setText(tr("Mending for the printer"));
             break;
         default:
             title_->setText(checking              ? tr("Checking winners")

@@ -149,6 +149,8 @@ void TrackChoice::showFacts() {
     Facts facts = {{tr("Wanted"), wantedText(design.settings().target, *design.part())},
                    {tr("While learning"), models::shareText(record.success())},
                    {tr("Finished"), tr("%1 of %2").arg(record.finished).arg(record.trials)}};
+    if (const auto from = runs_->mendedFrom(winner_->generation))
+        facts.emplace_back(tr("Mended from"), nameOf(from->generation, from->individual).toLower());
     const study::SelectionEntry* compared = nullptr;
     for (const study::SelectionRecord& selection : runs_->selections())
         for (const study::SelectionEntry& entry : selection.entries)

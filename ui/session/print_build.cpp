@@ -77,6 +77,7 @@ void PrintBuild::build(const PrintRequest& request) {
         if (!solid) return fail(solid.error().option, solid.error().message);
         const auto printed = std::make_shared<PrintedTrack>();
         printed->report = geometry::checkForPrinting(*solid, request.limits);
+        printed->learnedFlaws = track::findPrintFlaws(*track, request.limits);
         printed->design = {request.about, std::move(*track), std::nullopt};
         printed->solid = std::make_shared<const geometry::TriangleMesh>(std::move(*solid));
         addPieces(*printed, request);

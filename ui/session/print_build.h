@@ -12,6 +12,7 @@
 #include "core/geometry/print_check.h"
 #include "core/search/design_space.h"
 #include "core/study/settings.h"
+#include "core/track/print_flaws.h"
 #include "core/track/print_pieces.h"
 #include "core/track/track_file.h"
 #include "core/workflow/track_export.h"
@@ -43,6 +44,7 @@ struct PrintedTrack {
     track::TrackFile design;
     std::shared_ptr<const geometry::TriangleMesh> solid;  // the whole
     geometry::PrintReport report;                         // of the whole
+    track::PrintFlaws learnedFlaws;                       // of the track as it was learned
     std::vector<track::PrintPiece> pieces;  // one: it is not cut; none: it cannot be cut as it was asked for
     std::optional<track::PrintProblem> splitProblem;  // why not
     std::vector<geometry::BedFit> fits;               // of the pieces, or of the whole if there are none

@@ -9,7 +9,6 @@
 #include "core/study/selection.h"
 #include "core/study/track_design.h"
 #include "core/workflow/estimate.h"
-#include "core/workflow/judging.h"
 #include "core/workflow/learning.h"
 #include "ui/session/recovery_note.h"
 #include "ui/session/study_state.h"
@@ -39,6 +38,11 @@ base::Result<study::StudyInputs> makeInputs(const Environment& environment, cons
 }
 
 }  // namespace
+
+bool isJudging(RunState state) {
+    return state == RunState::selecting || state == RunState::validating || state == RunState::measuring ||
+           state == RunState::mending;
+}
 
 StudyRuns::StudyRuns(StudyState& state, const StudyDesign& design) : state_(&state), design_(design) {
     tick_.setInterval(kTick);
@@ -115,6 +119,12 @@ base::Result<study::Individual> StudyRuns::loadIndividual(const study::Individua
     auto record = state_->reader->loadIndividual(id);
     if (!record) return record.error();
     return study::Individual{id, std::move(*record)};
+}
+
+std::optional<study::IndividualId> StudyRuns::mendedFrom(int generation) const {
+    const std::vector<study::GenerationSummary>& all = summaries();
+    if (generation < 0 || generation >= static_cast<int>(all.size())) return std::nullopt;
+    return all[static_cast<std::size_t>(generation)].mendedFrom;
 }
 
 std::optional<study::Individual> StudyRuns::chosen() const {
@@ -245,18 +255,7 @@ std::optional<workflow::Failure> StudyRuns::learn(Run& run, const study::Setting
     events.planned = [this](const study::GenerationPlan& plan) {
         state_->tell([this, plan] { state_->run->plan = plan; });
     };
-    events.saved = [this](const study::GenerationRecord& record) {
-        const study::GenerationSummary summary = study::summarize(record);
-        const study::Individual winner{{record.index, record.winner},
-                                       record.individuals[static_cast<std::size_t>(record.winner)]};
-        state_->tell([this, summary, winner, kept = std::make_shared<const study::GenerationRecord>(record)] {
-            state_->summaries.push_back(summary);
-            state_->winners.push_back(winner);
-            newest_ = kept;
-            emit generationSaved(summary.index);
-        });
-        state_->savePending();
-    };
+    events.saved = [this](const study::GenerationRecord& record) { tellGeneration(record); };
     events.checked = [this](const study::CheckRecord& check) {
         state_->tell([this, check] {
             state_->checks.push_back(check);
@@ -275,6 +274,19 @@ std::optional<workflow::Failure> StudyRuns::learn(Run& run, const study::Setting
                                                 events.checked, run.trials);
     if (!checked) return checked.error();
     return std::nullopt;
+}
+
+void StudyRuns::tellGeneration(const study::GenerationRecord& record) {
+    const study::GenerationSummary summary = study::summarize(record);
+    const study::Individual winner{{record.index, record.winner},
+                                   record.individuals[static_cast<std::size_t>(record.winner)]};
+    state_->tell([this, summary, winner, kept = std::make_shared<const study::GenerationRecord>(record)] {
+        state_->summaries.push_back(summary);
+        state_->winners.push_back(winner);
+        newest_ = kept;
+        emit generationSaved(summary.index);
+    });
+    state_->savePending();
 }
 
 void StudyRuns::startSelection() {
@@ -351,6 +363,31 @@ void StudyRuns::startRobustness(const std::vector<study::Individual>& tracks,
              tracks.size() > 1 ? tr("The robustness of the tracks could not be measured")
                                : tr("The track's robustness could not be measured"),
              work);
+}
+
+void StudyRuns::startMending(const study::Individual& track, const study::MendingPlan& plan) {
+    const auto work = [this, track, plan, settings = state_->settings, part = state_->part.part,
+                       threads = state_->threads](Run& run) -> Failed {
+        const auto inputs =
+            makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads, run.remade);
+        if (!inputs) return settingsFailure(inputs.error());
+        state_->tell(
+            [this, total = workflow::countMendingTrials(settings, plan)] { state_->run->total = total; });
+        const auto saved = [this](const study::GenerationRecord& record) { tellGeneration(record); };
+        auto report = workflow::mendAndSave(state_->writer.file(), *inputs, track, plan, saved, run.trials);
+        if (!report) return report.error();
+        state_->tell([this, report = std::move(*report)] {
+            state_->selections.push_back(report.selection);
+            state_->found.reset();
+            const auto at = static_cast<std::size_t>(report.best.individual);
+            state_->chosen = {report.best, report.generation.individuals[at]};
+            emit selectionSaved();
+            emit chosenChanged();
+            emit mended(report);
+        });
+        return std::nullopt;
+    };
+    startRun(RunState::mending, tr("The track could not be mended"), work);
 }
 
 void StudyRuns::pause() {
@@ -454,6 +491,17 @@ double StudyRuns::estimatedSeconds() const {
     const study::EvolutionSettings& evolution = state_->settings.evolution;
     const int left = evolution.generations - static_cast<int>(state_->summaries.size());
     return workflow::learningTime(evolution, std::max(left, 0), state_->trialCost);
+}
+
+double StudyRuns::secondsFor(std::int64_t trials) const {
+    constexpr std::size_t kLately = 5;  // generations
+    std::vector<double> rates;
+    for (auto i = summaries().rbegin(); i != summaries().rend() && rates.size() < kLately; ++i)
+        if (i->trialsPerSecond() > 0.0) rates.push_back(i->trialsPerSecond());
+    if (rates.empty()) return 0.0;
+    const auto middle = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2);
+    std::nth_element(rates.begin(), middle, rates.end());
+    return static_cast<double>(trials) / *middle;
 }
 
 std::optional<LearningDraft> StudyRuns::draft() const {

@@ -15,6 +15,7 @@
 #include "core/study/settings.h"
 #include "core/trial/remade_trials.h"
 #include "core/workflow/failure.h"
+#include "core/workflow/judging.h"
 #include "core/workflow/proposal.h"
 
 namespace trapwright::session {
@@ -33,8 +34,13 @@ enum class RunState {
     selecting,
     validating,
     measuring,  // how robust a track is
+    mending,    // a track for the printer
     simulating  // trials or a replay, while nothing else goes on
 };
+
+/// Whether it simulates tracks that are there, rather than learn new ones: what is not complete is lost when
+/// it stops, and there is no generation to wait for.
+bool isJudging(RunState state);
 
 /// How far learning, selection, validation or a measurement has come.
 struct RunProgress {
@@ -55,8 +61,8 @@ struct LearningDraft {
     double seconds = 0.0;  // of learning, estimated
 };
 
-/// Learning, selection and validation of the open study and measurements of robustness, one at a time, and
-/// what they find out. What cannot be done is told by StudySession::failed().
+/// Learning, selection and validation of the open study, measurements of robustness and mending, one at a
+/// time, and what they find out. What cannot be done is told by StudySession::failed().
 class StudyRuns : public QObject {
     Q_OBJECT
 
@@ -87,6 +93,9 @@ class StudyRuns : public QObject {
     /// Read from the file, unless it is the newest generation or a winner.
     [[nodiscard]] base::Result<study::GenerationRecord> loadGeneration(int index) const;
     [[nodiscard]] base::Result<study::Individual> loadIndividual(const study::IndividualId& id) const;
+
+    /// What the individuals of a generation are mended from (study::judgeVariants); none: they were learned.
+    [[nodiscard]] std::optional<study::IndividualId> mendedFrom(int generation) const;
 
     /// The track that is exported and printed in the end: the user's choice, which is kept in the study, else
     /// the best of the last selection, else the best winner. None without generations.
@@ -124,12 +133,19 @@ class StudyRuns : public QObject {
     void startRobustness(const std::vector<study::Individual>& tracks, const study::RobustnessPlan& plan = {},
                          const std::optional<trial::Goal>& goal = std::nullopt);
 
+    /// Mends this track for the printer in the engine that learns (workflow::mendAndSave), into the
+    /// generations and into selections(); then the best variant is chosen(), told by mended().
+    void startMending(const study::Individual& track, const study::MendingPlan& plan);
+
     /// Times trials on this machine for a second or so, then tells by estimated() how long the run will take
     /// from here. Does nothing while something goes on or the study has problems; what begins meanwhile ends
     /// it. What is known then holds for any number of individuals, trials and generations.
     void requestEstimate();
     /// The last estimate [s]; 0 if there is none for the present settings, or nothing is left.
     [[nodiscard]] double estimatedSeconds() const;
+    /// How long so many trials take in the engine that learns, by its rate in the last generations [s]; 0
+    /// while there are none.
+    [[nodiscard]] double secondsFor(std::int64_t trials) const;
     /// What can be learned in less than ten minutes (workflow::fitEvolution). None before the estimate,
     /// once there are generations, or where nothing useful fits.
     [[nodiscard]] std::optional<LearningDraft> draft() const;
@@ -147,6 +163,7 @@ class StudyRuns : public QObject {
     void validationSaved();
     /// Of one of so many that are measured one after the other.
     void robustnessMeasured(int tracks);
+    void mended(const trapwright::workflow::MendingReport& report);
     void chosenChanged();
     /// 0: the estimate before does not hold any more.
     void estimated(double seconds);
@@ -158,6 +175,8 @@ class StudyRuns : public QObject {
     void endRun(const std::optional<workflow::Failure>& failure);
     std::optional<workflow::Failure> learn(Run& run, const study::Settings& settings,
                                            const std::shared_ptr<const part::Part>& part, unsigned threads);
+    /// For any thread: a generation is in the file.
+    void tellGeneration(const study::GenerationRecord& record);
     void goOn();
     void setActivity(RunState activity);
     void tellState();

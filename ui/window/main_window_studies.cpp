@@ -176,8 +176,7 @@ void MainWindow::whenClosable(const std::function<void()>& afterwards) {
         return whenSaved([this, afterwards] { farewell_->whenReleased(afterwards); });
     }
 
-    const bool learns =
-        state != RunState::selecting && state != RunState::validating && state != RunState::measuring;
+    const bool learns = !session::isJudging(state);
     QMessageBox* box = question(this, "dialog.running",
                                 learns ? tr("The study is learning.") : tr("The study is simulating."),
                                 learns ? tr("All complete generations are saved. What is done of the present "

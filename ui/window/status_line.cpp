@@ -49,6 +49,8 @@ StateFace faceOf(RunState state, bool problems) {
             return {StatusLine::tr("Validating"), "start", true};
         case RunState::measuring:
             return {StatusLine::tr("Measuring robustness"), "start", true};
+        case RunState::mending:
+            return {StatusLine::tr("Mending for the printer"), "start", true};
         case RunState::simulating:
             return {StatusLine::tr("Simulating"), "start", false};
     }
@@ -150,7 +152,7 @@ void StatusLine::update() {
     state_->setText(face.text);
 
     const int known = static_cast<int>(runs_->summaries().size());
-    const int generations = runs_->design().settings().evolution.generations;
+    const int generations = std::max(known, runs_->design().settings().evolution.generations);
     generation_->setText(tr("%1 of %2 generations").arg(known).arg(generations));
     if (!face.active) return;
 

@@ -106,6 +106,10 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 19)
+        database.exec(
+            "ALTER TABLE generation DROP COLUMN mended_generation; "
+            "ALTER TABLE generation DROP COLUMN mended_individual");
     if (version < 18)
         database.exec(
             "ALTER TABLE selection_entry DROP COLUMN corner_trials; "

@@ -20,6 +20,7 @@
 #include "core/study/track_design.h"
 #include "core/track/print_solid.h"
 #include "core/track/printer.h"
+#include "tests/core/study/flawed_track.h"
 #include "tests/ui/session/session_fixture.h"
 #include "tests/ui/window/window_user.h"
 #include "ui/look/message_bar.h"
@@ -401,6 +402,38 @@ class ExportPageTest : public QObject {
         QVERIFY(user.waitForSolid());
         QVERIFY(user.reason("dowelDiameter").isEmpty());
         QVERIFY(!user.find<QLineEdit>("field.print.dowelDepth")->isVisibleTo(&user.window));
+    }
+
+    void whatCannotBePrintedIsMended() {
+        auto study = studies_.create("mend.trap", session::smallSettings());
+        QVERIFY(study && session::learnToTheEnd(*study));
+        std::vector<study::GenerationRecord> generations;
+        for (const study::GenerationSummary& summary : study->runs().summaries())
+            generations.push_back(study->runs().loadGeneration(summary.index).value());
+        const auto [track, limits] =
+            fake::findFlawedTrack(study->design().settings().track, generations).value();
+        study->runs().choose(track);
+        study.reset();
+
+        User user(studies_, "mend.trap");
+        QVERIFY(user.waitForSolid());
+        user.type("thinnestWall", QString::number(limits.thinnestWall / kMm));
+        QVERIFY(user.waitForSolid());
+        auto* mend = user.find<QPushButton>("print.mend");
+        QVERIFY(mend->isVisibleTo(&user.window) && mend->isEnabled());
+        QVERIFY2(user.text("print.mend.cost").contains("mm²"), qPrintable(user.text("print.mend.cost")));
+        mend->click();
+        QCOMPARE(user.session()->runs().state(), session::RunState::mending);
+        QVERIFY(!mend->isVisibleTo(&user.window));
+        QVERIFY(user.find<QPushButton>("print.mend.stop")->isVisibleTo(&user.window));
+        QVERIFY(QTest::qWaitFor([&] { return user.session()->runs().state() == session::RunState::idle; },
+                                kPatience));
+        QVERIFY(user.waitForSolid());
+        QVERIFY2(user.text("print.mend.result").contains("Mended; "),
+                 qPrintable(user.text("print.mend.result")));
+        const QString shown = user.find<QComboBox>("export.track")->currentText();
+        QVERIFY2(shown.startsWith("Selected") && shown.endsWith("mended"), qPrintable(shown));
+        QVERIFY(!mend->isVisibleTo(&user.window));  // nothing is left to mend
     }
 
     void fileMenuExportsFromAnyPage() {

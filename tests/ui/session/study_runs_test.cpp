@@ -4,6 +4,7 @@
 #include "core/study/runner.h"
 #include "core/study/selection.h"
 #include "core/study/validation.h"
+#include "tests/core/study/flawed_track.h"
 #include "tests/ui/session/session_fixture.h"
 #include "ui/session/recovery_note.h"
 #include "ui/session/study_design.h"
@@ -373,6 +374,50 @@ class StudyRunsTest : public QObject {
         };
         QCOMPARE(trialsOf(tracks.front()), 11);
         QCOMPARE(trialsOf(tracks.back()), 10);
+    }
+
+    void mendedTracksAreAGenerationAndChosen() {
+        auto session = fixture_->create("a.trap", smallSettings());
+        QVERIFY(session && learnToTheEnd(*session));
+        session::StudyRuns& runs = session->runs();
+        std::vector<study::GenerationRecord> generations;
+        for (const study::GenerationSummary& summary : runs.summaries())
+            generations.push_back(runs.loadGeneration(summary.index).value());
+        const auto [track, limits] =
+            fake::findFlawedTrack(session->design().settings().track, generations).value();
+        study::MendingPlan plan;
+        plan.variants = 6;
+        plan.trials = 8;
+        plan.compared = 2;
+        plan.limits = limits;
+        QSignalSpy saved(&runs, &StudyRuns::generationSaved);
+        QSignalSpy selected(&runs, &StudyRuns::selectionSaved);
+        QSignalSpy mended(&runs, &StudyRuns::mended);
+        runs.startMending(track, plan);
+        QCOMPARE(runs.state(), RunState::mending);
+        QVERIFY(waitForState(*session, RunState::idle));
+        QCOMPARE(saved.count(), 1);
+        QCOMPARE(selected.count(), 1);
+        QCOMPARE(mended.count(), 1);
+        QCOMPARE(runs.summaries().size(), std::size_t{4});
+        QVERIFY(runs.mendedFrom(3) == study::IndividualId(track));
+        QVERIFY(!runs.mendedFrom(2) && !runs.mendedFrom(4) && !runs.mendedFrom(-1));
+        QCOMPARE(runs.chosen()->generation, 3);
+        const study::Individual chosen = *runs.chosen();
+        session.reset();
+        session = fixture_->open("a.trap");
+        QVERIFY(session->runs().mendedFrom(3) == study::IndividualId(track));
+        QVERIFY(isSameIndividual(*session->runs().chosen(), chosen));
+        // What is stopped leaves nothing.
+        session.reset();
+        fixture_->trialTime = std::chrono::milliseconds(10);
+        session = fixture_->open("a.trap");
+        QSignalSpy failed(session.get(), &StudySession::failed);
+        session->runs().startMending(track, plan);
+        session->runs().stopNow();
+        QVERIFY(waitForState(*session, RunState::idle));
+        QCOMPARE(failed.count(), 0);
+        QCOMPARE(session->runs().summaries().size(), std::size_t{4});
     }
 
     void oneRunAtATime() {
