@@ -83,8 +83,7 @@ base::Status MendingPlan::check() const {
         if (value >= low && value <= high) return base::success();
         return base::Error{fmt::format("{} must be {} to {}, and is {}.", name, low, high, value)};
     };
-    if (auto checked = range("The number of variants", variants, 1, kMostVariants); !checked)
-        return checked;
+    if (auto checked = range("The number of variants", variants, 1, kMostVariants); !checked) return checked;
     if (auto checked = range("The number of trials of each variant", trials, 1, kMostTrials); !checked)
         return checked;
     if (auto checked = range("The number of moves", moves, 1, kMostTrials); !checked) return checked;

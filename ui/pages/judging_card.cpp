@@ -1,10 +1,8 @@
 #include "ui/pages/judging_card.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "core/study/robustness.h"
 #include "core/study/selection.h"
 #include "ui/look/text.h"
+#include "ui/pages/job_progress.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
 
@@ -43,7 +42,7 @@ JudgingCard::JudgingCard(QWidget* parent)
       validateText_(makeSentence(this)),
       robustnessText_(makeSentence(this)),
       allRobustnessText_(makeSentence(this)),
-      busy_(makeProgress()) {
+      progress_(new JobProgress("review", this)) {
     compare_->setObjectName("review.compare");
     compare_->setShortcut(Qt::Key_F8);
     connect(compare_, &QAction::triggered, this, [this] { runs_->startSelection(); });
@@ -62,7 +61,7 @@ JudgingCard::JudgingCard(QWidget* parent)
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(6);
-    column->addWidget(busy_);
+    column->addWidget(progress_);
     column->addWidget(makeButton(compare_));
     column->addWidget(compareText_);
     column->addSpacing(6);
@@ -90,42 +89,17 @@ QPushButton* JudgingCard::makeButton(QAction* action) {
     return button;
 }
 
-QWidget* JudgingCard::makeProgress() {
-    auto* busy = new QWidget(this);
-    busyText_ = new QLabel(busy);
-    busyText_->setObjectName("review.progress");
-    busyText_->setWordWrap(true);
-    bar_ = new QProgressBar(busy);
-    bar_->setTextVisible(false);
-    bar_->setFixedHeight(6);
-    auto* stop = new QPushButton(tr("Stop"), busy);
-    stop->setObjectName("review.stop");
-    connect(stop, &QPushButton::clicked, this, [this] {
-        if (runs_) runs_->stopNow();
-    });
-    auto* row = new QHBoxLayout;
-    row->addWidget(busyText_, 1);
-    row->addWidget(stop);
-    auto* column = new QVBoxLayout(busy);
-    column->setContentsMargins(0, 0, 0, 4);
-    column->setSpacing(4);
-    column->addLayout(row);
-    column->addWidget(bar_);
-    busy->hide();
-    return busy;
-}
-
 void JudgingCard::setRuns(StudyRuns* runs) {
     if (runs_) {
         runs_->disconnect(this);
         runs_->design().disconnect(this);
     }
     runs_ = runs;
+    progress_->setRuns(runs);
     if (runs_) {
         connect(runs_, &StudyRuns::stateChanged, this, &JudgingCard::update);
         connect(&runs_->design(), &StudyDesign::settingsChanged, this, &JudgingCard::update);
         connect(runs_, &StudyRuns::generationSaved, this, &JudgingCard::update);
-        connect(runs_, &StudyRuns::progressed, this, &JudgingCard::showProgress);
         connect(runs_, &StudyRuns::robustnessMeasured, this, &JudgingCard::update);
     }
     update();
@@ -152,8 +126,6 @@ void JudgingCard::update() {
                                             : obstacle);
     validate_->setToolTip(obstacle.isEmpty() ? tr("Simulate parts that start in each stable pose")
                                              : obstacle);
-    busy_->setVisible(judging);
-    showProgress();
     showRobustness(obstacle);
     if (!runs_) return;
     const study::ValidationSettings& settings = runs_->design().settings().validation;
@@ -227,24 +199,6 @@ void JudgingCard::measureAll() {
         tracks.push_back(std::move(*track));
     }
     runs_->startRobustness(tracks);
-}
-
-void JudgingCard::showProgress() {
-    if (!runs_ || busy_->isHidden()) return;
-    const session::RunProgress progress = runs_->progress();
-    const QLocale locale;
-    QString text = runs_->state() == RunState::selecting    ? tr("Comparing")
-                   : runs_->state() == RunState::validating ? tr("Validating")
-                   : runs_->state() == RunState::mending    ? tr("Mending")
-                                                            : tr("Measuring");
-    if (progress.trials > 0)
-        text = tr("%1: %2 of %3 trials")
-                   .arg(text, locale.toString(static_cast<qlonglong>(progress.trialsDone)),
-                        locale.toString(static_cast<qlonglong>(progress.trials)));
-    if (progress.secondsLeft > 0.0) text += tr(", %1 left").arg(look::durationText(progress.secondsLeft));
-    busyText_->setText(text);
-    bar_->setRange(0, static_cast<int>(progress.trials));
-    bar_->setValue(static_cast<int>(progress.trialsDone));
 }
 
 }  // namespace trapwright::pages

@@ -8,7 +8,6 @@
 
 class QAction;
 class QLabel;
-class QProgressBar;
 class QPushButton;
 
 namespace trapwright::session {
@@ -16,6 +15,8 @@ class StudyRuns;
 }
 
 namespace trapwright::pages {
+
+class JobProgress;
 
 /// Starts the comparison of the best winners, the validation of one track and the measurement of how robust
 /// it and the others of the last comparison are, and shows how far they have come.
@@ -37,12 +38,10 @@ class JudgingCard : public QWidget {
     void failed(const QString& what, const QString& message);
 
  private:
-    QWidget* makeProgress();
     QPushButton* makeButton(QAction* action);
     void update();
     void showRobustness(const QString& obstacle);
     void measureAll();
-    void showProgress();
 
     QPointer<session::StudyRuns> runs_;
     std::optional<study::Individual> winner_;
@@ -54,9 +53,7 @@ class JudgingCard : public QWidget {
     QLabel* validateText_;
     QLabel* robustnessText_;
     QLabel* allRobustnessText_;
-    QWidget* busy_;
-    QLabel* busyText_;
-    QProgressBar* bar_;
+    JobProgress* progress_;
 };
 
 }  // namespace trapwright::pages

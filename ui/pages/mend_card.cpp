@@ -1,9 +1,7 @@
 #include "ui/pages/mend_card.h"
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "core/workflow/judging.h"
 #include "ui/look/text.h"
 #include "ui/models/numbers.h"
+#include "ui/pages/job_progress.h"
 #include "ui/session/print_build.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -31,7 +30,7 @@ QString nameOf(const study::IndividualId& id) {
 
 /// "99.6 %, in corners 98.1 %"
 QString successOf(const study::SelectionEntry& entry) {
-    const QString all = models::successWord(stats::Count{entry.oriented, entry.trials});
+    QString all = models::successWord(stats::Count{entry.oriented, entry.trials});
     if (entry.corners.trials == 0) return all;
     return MendCard::tr("%1, in corners %2").arg(all, models::successWord(entry.corners));
 }
@@ -42,9 +41,7 @@ MendCard::MendCard(QWidget* parent)
     : QWidget(parent),
       mend_(new QPushButton(tr("&Mend for printing"), this)),
       cost_(new QLabel(this)),
-      busy_(new QWidget(this)),
-      busyText_(new QLabel(busy_)),
-      bar_(new QProgressBar(busy_)),
+      progress_(new JobProgress("print.mend", this)),
       told_(new QLabel(this)) {
     mend_->setObjectName("print.mend");
     connect(mend_, &QPushButton::clicked, this, &MendCard::start);
@@ -52,32 +49,15 @@ MendCard::MendCard(QWidget* parent)
     cost_->setForegroundRole(QPalette::PlaceholderText);
     told_->setObjectName("print.mend.result");
     told_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    for (QLabel* label : {cost_, told_, busyText_})
+    for (QLabel* label : {cost_, told_})
         label->setWordWrap(true);
-
-    busyText_->setObjectName("print.mend.progress");
-    bar_->setTextVisible(false);
-    bar_->setFixedHeight(6);
-    auto* stop = new QPushButton(tr("Stop"), busy_);
-    stop->setObjectName("print.mend.stop");
-    connect(stop, &QPushButton::clicked, this, [this] {
-        if (runs_) runs_->stopNow();
-    });
-    auto* row = new QHBoxLayout;
-    row->addWidget(busyText_, 1);
-    row->addWidget(stop);
-    auto* busyColumn = new QVBoxLayout(busy_);
-    busyColumn->setContentsMargins(0, 0, 0, 0);
-    busyColumn->setSpacing(4);
-    busyColumn->addLayout(row);
-    busyColumn->addWidget(bar_);
 
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(6);
     column->addWidget(mend_);
     column->addWidget(cost_);
-    column->addWidget(busy_);
+    column->addWidget(progress_);
     column->addWidget(told_);
     update();
 }
@@ -85,10 +65,10 @@ MendCard::MendCard(QWidget* parent)
 void MendCard::setRuns(StudyRuns* runs) {
     if (runs_) runs_->disconnect(this);
     runs_ = runs;
+    progress_->setRuns(runs);
     result_.clear();
     if (runs_) {
         connect(runs_, &StudyRuns::stateChanged, this, &MendCard::update);
-        connect(runs_, &StudyRuns::progressed, this, &MendCard::showProgress);
         connect(runs_, &StudyRuns::mended, this, &MendCard::tell);
     }
     clear();
@@ -122,11 +102,9 @@ void MendCard::update() {
     const bool needed = runs_ && track_ && unprintable_ > 0.0 && !mending;
     mend_->setVisible(needed);
     cost_->setVisible(needed);
-    busy_->setVisible(mending);
     told_->setVisible(!mending && !result_.isEmpty());
     told_->setText(result_);
     setVisible(needed || mending || !result_.isEmpty());
-    if (mending) showProgress();
     if (!needed) return;
     const bool free = state == RunState::idle || state == RunState::simulating;
     const study::MendingPlan plan;
@@ -146,22 +124,6 @@ void MendCard::update() {
     if (const double seconds = runs_->secondsFor(trials); seconds > 0.0)
         cost += tr(", about %1").arg(look::roughDurationText(seconds));
     cost_->setText(cost);
-}
-
-void MendCard::showProgress() {
-    if (!runs_ || runs_->state() != RunState::mending) return;
-    const session::RunProgress progress = runs_->progress();
-    const QLocale locale;
-    QString text = tr("Mending");
-    if (progress.trialsDone > 0) {
-        text = tr("Mending: %1 of %2 trials")
-                   .arg(locale.toString(static_cast<qlonglong>(progress.trialsDone)),
-                        locale.toString(static_cast<qlonglong>(progress.trials)));
-    }
-    if (progress.secondsLeft > 0.0) text += tr(", %1 left").arg(look::durationText(progress.secondsLeft));
-    busyText_->setText(text);
-    bar_->setRange(0, static_cast<int>(progress.trials));
-    bar_->setValue(static_cast<int>(progress.trialsDone));
 }
 
 void MendCard::tell(const workflow::MendingReport& report) {

@@ -9,7 +9,6 @@
 #include "core/study/records.h"
 
 class QLabel;
-class QProgressBar;
 class QPushButton;
 
 namespace trapwright::session {
@@ -22,6 +21,8 @@ struct MendingReport;
 }
 
 namespace trapwright::pages {
+
+class JobProgress;
 
 /// Mends a learned track of which something cannot be printed: says how much that is and what mending costs,
 /// how far it has come, and what it gave, beside the track before. Takes no room where there is nothing to
@@ -41,7 +42,6 @@ class MendCard : public QWidget {
  private:
     void start();
     void update();
-    void showProgress();
     void tell(const workflow::MendingReport& report);
 
     QPointer<session::StudyRuns> runs_;
@@ -51,9 +51,7 @@ class MendCard : public QWidget {
     QString result_;            // of the last mending, until another study is shown
     QPushButton* mend_;
     QLabel* cost_;
-    QWidget* busy_;
-    QLabel* busyText_;
-    QProgressBar* bar_;
+    JobProgress* progress_;
     QLabel* told_;
 };
 
