@@ -33,12 +33,13 @@ class MendingTest : public QObject {
     void variantsAreKeptComparedAndLeftOutOfLearning() {
         fake::WaveStudy study("native", 3);
         learn(study, 3);
-        const auto [track, limits] = findFlawed(study);
+        const fake::FlawedTrack flawed = findFlawed(study);
+        const study::Individual& track = flawed.track;
         study::MendingPlan plan;
         plan.variants = 8;
         plan.trials = 10;
         plan.compared = 3;
-        plan.limits = limits;
+        plan.limits = flawed.limits;
         study.inputs.settings.validation.selectionTrials = 40;
         study.inputs.settings.validation.selectionCornerTrials = 20;
 
@@ -104,11 +105,12 @@ class MendingTest : public QObject {
         QVERIFY(early.error().kind == workflow::FailureKind::reading);
 
         learn(study, 2);
-        const auto [track, limits] = findFlawed(study);
+        const fake::FlawedTrack flawed = findFlawed(study);
+        const study::Individual& track = flawed.track;
         study::MendingPlan plan;
         plan.variants = 1;
         plan.moves = 1;
-        plan.limits = limits;
+        plan.limits = flawed.limits;
         const auto thin = mend(track, plan);
         QVERIFY(!thin.ok());
         QVERIFY(thin.error().kind == workflow::FailureKind::notSolid);
@@ -122,7 +124,7 @@ class MendingTest : public QObject {
                  whole.error().message.c_str());
         base::RunControl control;
         control.cancel();
-        plan.limits = limits;
+        plan.limits = flawed.limits;
         plan.moves = 2000;
         const auto cancelled = workflow::mendAndSave(*study.file, study.inputs, track, plan, {}, control);
         QVERIFY(!cancelled.ok());
