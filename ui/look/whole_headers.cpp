@@ -15,7 +15,10 @@ void keepHeadersWhole(QHeaderView& header) {
         for (int section = 0; section < header.count(); ++section)
             widen(section);
     };
-    QObject::connect(&header, &QHeaderView::sectionResized, &header, widen);
+    QObject::connect(&header, &QHeaderView::sectionResized, &header, [widen](int section, int, int size) {
+        // One that is being hidden has no width, and is not called hidden yet.
+        if (size > 0) widen(section);
+    });
     QObject::connect(&header, &QHeaderView::sectionCountChanged, &header, widenAll);
     QObject::connect(&header, &QHeaderView::geometriesChanged, &header, widenAll);
     if (header.model() != nullptr)

@@ -238,6 +238,11 @@ class ReviewPageTest : public QObject {
         QTRY_VERIFY(user.comparison().isVisible());
         // Conditions vary, and so corners were tried.
         QVERIFY(!user.comparison().isColumnHidden(models::SelectionModel::Corners));
+        // Not measured yet; what is hidden takes no room.
+        QVERIFY(user.comparison().isColumnHidden(models::SelectionModel::Worst));
+        QCOMPARE(user.comparison().columnViewportPosition(models::SelectionModel::Worst + 1),
+                 user.comparison().columnViewportPosition(models::SelectionModel::Corners) +
+                     user.comparison().columnWidth(models::SelectionModel::Corners));
         user.click(user.comparison(), 1, models::SelectionModel::Generation);
         const auto second = user.session()->runs().selections().back().entries.back();
         QTRY_VERIFY(
