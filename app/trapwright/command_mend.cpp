@@ -71,9 +71,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (!report) return toFailure(report.error(), study->file);
     noteRemadeTrials(*inputs, console);
     console.print(fmt::format(
-        "{:.2f} mm2 of generation {}, individual {} cannot be printed. Mended {} times; {} can be printed "
-        "now, "
-        "all of it: generation {}.\nThe best of them beside what they come of:\n{}"
+        "{:.2f} mm2 of generation {}, individual {} cannot be printed. Mended {} times; of {} all can be "
+        "printed now: generation {}.\nThe best of them beside what they come of:\n{}"
         "The final track is generation {}, individual {} now.\n",
         *unprintable / kSquareMillimetre, individual->generation, individual->individual, plan.variants,
         report->generation.individuals.size(), report->generation.index,
@@ -92,13 +91,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
 
 void addMendCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
-    Command command =
-        addCommand(program, invocation, "mend",
-                   "Changes a learned track a little, many times anew, so that nothing of it is too thin or "
-                   "too steep to "
-                   "print, and compares the best with it. They become a generation of the study.",
-                   "trapwright mend cuboid.trap --printer prusa-mk4",
-                   [options](const Console& console) { return run(*options, console); });
+    Command command = addCommand(
+        program, invocation, "mend",
+        "Changes a learned track a little, many times anew, so that nothing of it is too thin or "
+        "too steep to print, and compares the best with it. They become a generation of the study.",
+        "trapwright mend cuboid.trap --printer prusa-mk4",
+        [options](const Console& console) { return run(*options, console); });
     command.addOption("STUDY", options->study, "The study's file").required();
     addIndividualOptions(command, options->choice);
     command.addOption("--variants", options->plan.variants, "How often it is mended (20)");

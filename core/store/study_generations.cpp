@@ -108,8 +108,8 @@ class IndividualReader {
 constexpr const char* kSummaryQuery =
     "SELECT generation.number, winner, seconds, best.fitness, top_fitness, "
     "(SELECT sum(trials) FROM individual WHERE individual.generation = generation.number), best.oriented, "
-    "best.trials, top_success, mended_generation, mended_individual FROM generation LEFT JOIN individual AS "
-    "best "
+    "best.trials, top_success, mended_generation, mended_individual "
+    "FROM generation LEFT JOIN individual AS best "
     "ON best.generation = generation.number AND best.number = generation.winner ";
 
 /// Reads summaries from rows of kSummaryQuery and the tables of scores.

@@ -130,8 +130,6 @@ base::Result<MendedDesign> mendDesign(const TrackSettings& settings, const searc
             mended.design[number] = kept;
         }
     }
-    for (std::size_t i = 0; i < design.size(); ++i)
-        mended.changed += mended.design[i] != design[i] ? 1 : 0;
     return mended;
 }
 

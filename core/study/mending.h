@@ -28,7 +28,6 @@ struct MendingPlan {
 struct MendedDesign {
     search::Design design;
     double unprintable = 0.0;  // what is left of track::PrintFlaws, all together [m^2]
-    int changed = 0;           // numbers of the design
 };
 
 /// How much of the track of a design cannot be printed, all together. An error if it is no track, or crosses

@@ -139,21 +139,22 @@ Result<MendingReport> mendAndSave(store::StudyFile& file, const study::StudyInpu
     }
     auto generation = study::judgeVariants(inputs, **last, track, *std::move(variants), plan, control);
     if (!generation) return describeFailure(control, generation.error());
-    if (const auto kept = file.saveGeneration(*generation); !kept) return describeSaving(kept.error());
-    generation->made = {};
-    report.generation = *std::move(generation);
-    if (saved) saved(report.generation);
-
     std::vector<study::Individual> printable;
-    for (std::size_t i = 0; i < report.generation.individuals.size(); ++i)
-        printable.push_back(
-            {{report.generation.index, static_cast<int>(i)}, report.generation.individuals[i]});
+    for (std::size_t i = 0; i < generation->individuals.size(); ++i)
+        printable.push_back({{generation->index, static_cast<int>(i)}, generation->individuals[i]});
     std::vector<study::Individual> candidates = study::rankWinners(std::move(printable), plan.compared);
     candidates.push_back(track);
     study::StudyInputs comparing = inputs;
     comparing.settings.validation.selectionWinners = static_cast<int>(candidates.size());
-    auto selection = selectAndSave(file, comparing, std::move(candidates), control);
-    if (!selection) return selection.error();
+    auto selection = study::selectWinners(comparing, std::move(candidates), control);
+    if (!selection) return describeFailure(control, selection.error());
+
+    if (const auto kept = file.saveGeneration(*generation); !kept) return describeSaving(kept.error());
+    generation->made = {};
+    report.generation = *std::move(generation);
+    if (saved) saved(report.generation);
+    if (const auto kept = file.saveSelection(*selection); !kept) return describeSaving(kept.error());
+    selection->made = {};
     report.selection = *std::move(selection);
     const auto best = std::ranges::find_if(report.selection.entries, [&](const study::SelectionEntry& entry) {
         return entry.generation == report.generation.index;

@@ -57,10 +57,10 @@ struct MendingReport {
 std::int64_t countMendingTrials(const study::Settings& settings, const study::MendingPlan& plan);
 
 /// Mends an individual's track for the printer (study::mendVariants, judgeVariants), compares the best
-/// variants with it by the trials of a selection, saves generation and selection in the file, and makes the
-/// best variant the study's final track. `saved` is told of the generation, which stays if the rest fails;
-/// may be empty. Failures: nothing to mend (settings), no variant of which all can be printed (notSolid), as
-/// the others.
+/// variants with it by the trials of a selection, then saves generation and selection in the file and makes
+/// the best variant the study's final track: what is cancelled leaves nothing. `saved` is told of the
+/// generation; may be empty. Failures: nothing to mend (settings), no variant of which all can be printed
+/// (notSolid), as the others.
 Result<MendingReport> mendAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
                                   const study::Individual& track, const study::MendingPlan& plan,
                                   const std::function<void(const study::GenerationRecord&)>& saved,

@@ -33,7 +33,7 @@ std::vector<Column<SelectionRow>> SelectionModel::makeColumns() {
     std::vector<Column<Row>> columns = {
         {tr("Rank"), tr("1 is the best."), [](const Row& r) { return QVariant(r.rank); },
          [](const Row& r) { return QString::number(r.rank); }},
-        {tr("Generation"), tr("The generation that this track won."),
+        {tr("Generation"), tr("The generation that this track is of."),
          [](const Row& r) { return QVariant(r.entry.generation); },
          [](const Row& r) { return QString::number(r.entry.generation); }},
         {tr("Individual"), tr("Its number within the generation."),

@@ -82,7 +82,6 @@ class MendingTest : public QObject {
             ++changed;
             QVERIFY2(dimension.ofPoint, dimension.key.c_str());
         }
-        QCOMPARE(mended->changed, changed);
         QVERIFY(changed > 0 && changed < static_cast<int>(design.size()) / 2);
 
         QVERIFY(ridgesOf(settings, mended->design) <= ridgesOf(settings, design));
@@ -97,7 +96,11 @@ class MendingTest : public QObject {
         plan.moves = 1;
         const auto mended = study::mendDesign(cuboidTrack(), flawedDesign(), plan, {}, {});
         VERIFY_OK(mended);
-        QVERIFY(mended->changed <= 1 && mended->unprintable > 0.0);
+        QVERIFY(mended->unprintable > 0.0);
+        int changed = 0;
+        for (std::size_t i = 0; i < mended->design.size(); ++i)
+            changed += mended->design[i] != flawedDesign()[i] ? 1 : 0;
+        QVERIFY(changed <= 1);
     }
 
     /// A printer that does more leaves nothing to mend, one that does less more.
@@ -118,7 +121,6 @@ class MendingTest : public QObject {
         const auto mended = study::mendDesign(settings, design, plan, {}, {});
         VERIFY_OK(mended);
         QVERIFY(mended->design == design);
-        QCOMPARE(mended->changed, 0);
     }
 
     void variantsAreAGeneration() {

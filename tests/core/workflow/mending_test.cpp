@@ -129,8 +129,21 @@ class MendingTest : public QObject {
         const auto cancelled = workflow::mendAndSave(*study.file, study.inputs, track, plan, {}, control);
         QVERIFY(!cancelled.ok());
         QVERIFY(cancelled.error().kind == workflow::FailureKind::cancelled);
+        // In the middle of the comparison, when all variants were judged.
+        base::RunControl later;
+        auto engine = std::make_shared<fake::FakeEngine>(fake::waveLaw);
+        engine->afterTrial = [&] {
+            if (later.done() > plan.variants * plan.trials) later.cancel();
+        };
+        study.inputs.engine = engine;
+        plan.variants = 8;
+        plan.trials = 10;
+        const auto stopped = workflow::mendAndSave(*study.file, study.inputs, track, plan, {}, later);
+        QVERIFY(!stopped.ok());
+        QVERIFY(stopped.error().kind == workflow::FailureKind::cancelled);
         QCOMPARE(study.file->generationCount().value(), 2);
         QVERIFY(study.file->loadSelections()->empty());
+        QVERIFY(!study.file->loadChosenWinner().value());
     }
 };
 
