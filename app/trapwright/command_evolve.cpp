@@ -25,7 +25,22 @@ struct Options {
     SettingOptions settings;
     unsigned threads = 0;
     bool resume = false;
+    bool corners = false;
 };
+
+/// Keeps in the study that corners are learned from the next generation on.
+Attempt<bool> learnCorners(OpenStudy& study, int next) {
+    if (study::cornerShareIn(study.settings.evolution, next) > 0.0) return false;  // since before
+    if (!study::canLearnInCorners(study.settings, next))
+        return Failure{ExitCode::usage,
+                       "Corners can be learned where trials vary over an operating box that has some; "
+                       "evolution.conditions is nominal, or every range of box is 0."};
+    const study::Settings settings = study::learnInCorners(study.settings, next);
+    if (const auto changed = study.file.changeSettings(settings); !changed)
+        return describeStudyFailure(changed.error(), ExitCode::usage);
+    study.settings = settings;
+    return true;
+}
 
 /// Opens the study that is to go on, with the settings that the user changed kept in it.
 Attempt<OpenStudy> openExisting(const Options& options) {
@@ -46,6 +61,9 @@ Attempt<OpenStudy> openExisting(const Options& options) {
                                    options.study, *count)};
     }
     if (auto changed = changeSettings(*study, options.settings); !changed) return changed.error();
+    if (options.corners) {
+        if (auto changed = learnCorners(*study, *count); !changed) return changed.error();
+    }
     return study;
 }
 
@@ -53,6 +71,12 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) 
     std::error_code failure;
     const bool exists = std::filesystem::exists(options.study, failure);
     if (exists || (options.resume && !options.creation.given())) return openExisting(options);
+    if (options.corners)
+        return Failure{
+            ExitCode::usage,
+            fmt::format("There is no study {} yet. Learn some generations without --corners first, "
+                        "or set evolution.cornerShare and evolution.cornersFrom.",
+                        options.study)};
     auto file = createStudy(options.study, options.creation, options.settings, console);
     if (!file) return file.error();
     return loadStudy(std::move(*file));
@@ -183,10 +207,14 @@ void addEvolveCommand(CLI::App& program, Invocation& invocation) {
         "Learns a track: generation after generation, each saved in the study as soon as it is complete.\n"
         "Ctrl-C once stops after the generation, twice at once.",
         "trapwright evolve cuboid.trap --preset cuboid --population 40 --trials 20 --generations 40\n"
-        "  trapwright evolve cuboid.trap --resume --generations 80",
+        "  trapwright evolve cuboid.trap --resume --generations 80\n"
+        "  trapwright evolve cuboid.trap --resume --corners",
         [options](const Console& console) { return run(*options, console); });
     command.addOption("STUDY", options->study, "The study's file; made if it does not exist").required();
     command.addFlag("--resume", options->resume, "Go on where the study stopped, bit for bit");
+    command.addFlag("--corners", options->corners,
+                    "From the next generation on learn in corners of the operating box, too: three of five "
+                    "trials, for 20 generations at least");
     addSettingOptions(command, options->settings);
     command.addOption("--threads", options->threads, "Threads (default: all processors)");
     addCreationOptions(command, options->creation);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/part/part.h"
+#include "core/stats/binomial.h"
 #include "core/track/track.h"
 #include "core/trial/conditions.h"
 #include "core/trial/goal.h"
@@ -29,6 +30,8 @@ struct Evaluation {
     std::optional<int> oriented{};
     /// Where these trials are in the operating box; empty: they are all alike.
     std::span<const trial::BoxPlace> places{};
+    /// Of trials in its corners that are not among these, where there are any.
+    std::optional<stats::Count> corners{};
     bool isVaried = false;    // trials are, or would be, all over an operating box
     bool hasCorners = false;  // and some of them in its corners
 };

@@ -27,6 +27,8 @@ inline constexpr std::string_view kSuccess = "success";
 inline constexpr std::string_view kWanted = "F_W";
 /// What is best summed up where something is wanted (decisions.md#wanted-orientation).
 inline constexpr std::string_view kWantedObjectives = "F_C, F_D, F_O, F_W";
+/// Of the objective that counts successes in corners of the operating box.
+inline constexpr std::string_view kCorners = "corners";
 /// Of the objective that forgives what falls off.
 inline constexpr std::string_view kSorting = "sorting";
 

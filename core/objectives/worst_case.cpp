@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/objectives/objectives.h"
 #include "core/objectives/success_share.h"
 
 namespace trapwright::objectives {
@@ -34,6 +35,7 @@ Measured measureWorstHalf(const Evaluation& evaluation) {
 }
 
 Measured measureCorners(const Evaluation& evaluation) {
+    if (evaluation.corners) return measureShare(evaluation.corners->successes, evaluation.corners->trials);
     const std::vector<bool> right = listRight(evaluation);
     int trials = 0;
     int successes = 0;
@@ -42,7 +44,7 @@ Measured measureCorners(const Evaluation& evaluation) {
         ++trials;
         successes += right[i] ? 1 : 0;
     }
-    if (trials == 0) return successShare().measure(evaluation);
+    if (trials == 0) return {};
     return measureShare(successes, trials);
 }
 
@@ -63,7 +65,7 @@ Objective worstHalf() {
 
 Objective corners() {
     Objective objective = worstHalf();
-    objective.key = "corners";
+    objective.key = kCorners;
     objective.symbol = "Corners";
     objective.name = "Corners";
     objective.help = "Success of the trials in corners of the operating box. Higher is better.";

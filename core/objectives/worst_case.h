@@ -10,8 +10,8 @@ namespace trapwright::objectives {
 /// track that fails in a corner fails in the halves that share it. Without a box, the success of all.
 Objective worstHalf();
 
-/// Where a share of the trials is in corners of the box: the success of those. Without any, the success of
-/// all.
+/// Where a share of the trials is in corners of the box: the success of those. Without any, nothing: what is
+/// not known does not count, so that a study can begin with its corners later.
 Objective corners();
 
 }  // namespace trapwright::objectives

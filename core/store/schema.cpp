@@ -384,7 +384,12 @@ ALTER TABLE generation ADD COLUMN mended_generation INTEGER;   -- what all of it
 ALTER TABLE generation ADD COLUMN mended_individual INTEGER;
 )sql";
 
-constexpr std::array<Migration, 19> kMigrations = {{{1, kVersion1},
+// Corners that are learned from a generation on; they were from the first.
+constexpr const char* kVersion20 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.evolution.cornersFrom', 0);
+)sql";
+
+constexpr std::array<Migration, 20> kMigrations = {{{1, kVersion1},
                                                     {2, kVersion2},
                                                     {3, kVersion3},
                                                     {4, kVersion4},
@@ -402,7 +407,8 @@ constexpr std::array<Migration, 19> kMigrations = {{{1, kVersion1},
                                                     {16, kVersion16},
                                                     {17, kVersion17},
                                                     {18, kVersion18},
-                                                    {19, kVersion19}}};
+                                                    {19, kVersion19},
+                                                    {20, kVersion20}}};
 
 }  // namespace
 

@@ -304,11 +304,14 @@ base::Status StudyFile::changeSettings(const study::Settings& settings) {
     const auto present = loadSettings();
     if (!present) return present.error();
     return state_->save("The settings could not be saved", [&]() -> base::Status {
-        if (!study::keepsScores(*present, settings) && state_->countRows("generation") > 0) {
+        const int generations = state_->countRows("generation");
+        if (generations > 0 && !study::keepsScores(*present, settings, generations)) {
             return base::Error{
                 "The study " + path().string() +
-                " has generations that were made with its settings. Only evolution.generations and the "
-                "validation and feeder settings can change now; make a new study for the others."};
+                " has generations that were made with its settings. Only evolution.generations, corners of the "
+                "operating box in generations to come (evolution.cornerShare, evolution.cornersFrom and "
+                "corners in evolution.objectives) and the validation and feeder settings can change now; "
+                "make a new study for the others."};
         }
         SQLite::Transaction transaction(*state_->database, SQLite::TransactionBehavior::IMMEDIATE);
         writeSettings(*state_->database, settings);

@@ -199,7 +199,7 @@ objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Tr
     evaluation.isVaried = !places.empty() || (outcomes.empty() && inputs.settings.evolution.conditions ==
                                                                       TrialConditions::varied);
     evaluation.hasCorners = outcomes.empty()
-                                ? evaluation.isVaried && inputs.settings.evolution.cornerShare > 0.0
+                                ? evaluation.isVaried && cornerShareIn(inputs.settings.evolution, 0) > 0.0
                                 : std::ranges::any_of(places, trial::isCorner);
     evaluation.track = &track;
     evaluation.symmetry = &inputs.part->symmetry;

@@ -29,6 +29,12 @@ bool isBetter(const SelectionEntry& a, const SelectionEntry& b, bool fallsAreFor
     return rank(a) < rank(b);
 }
 
+/// Whether trials of learning were in corners of the operating box, which are harder than others.
+bool isLearnedInCorners(const IndividualRecord& record) {
+    const objectives::Score* corners = objectives::findScore(record.fitness, objectives::kCorners);
+    return corners != nullptr && corners->value > 0.0;
+}
+
 }  // namespace
 
 int countCornerTrials(const Settings& settings) {
@@ -65,7 +71,8 @@ bool forgivesFalls(const EvolutionSettings& settings) {
 const Individual* findBestWinner(std::span<const Individual> winners, bool fallsAreForgiven) {
     const auto worth = [&](const Individual& winner) {
         const auto success = fallsAreForgiven ? std::nullopt : winner.record.success();
-        return std::make_pair(success ? success->share() : -1.0, winner.record.fitness.total);
+        return std::make_tuple(isLearnedInCorners(winner.record), success ? success->share() : -1.0,
+                               winner.record.fitness.total);
     };
     // The first of the greatest ones.
     const auto best =
@@ -121,6 +128,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
         objectives::Evaluation evaluation =
             makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own, places);
         evaluation.oriented = entry.oriented;
+        if (cornerTrials > 0) evaluation.corners = entry.corners;
         entry.fitness = objectives::measureAll(evaluation, summed);
         record.entries.push_back(std::move(entry));
     }

@@ -23,7 +23,8 @@ bool forgivesFalls(const EvolutionSettings& settings);
 
 /// The winner that is best by what was counted while learning: the greatest success, then the highest
 /// fitness, then the earliest generation; where falls are forgiven fitness comes first. A success that is not
-/// known is below any. Null if there are no winners.
+/// known is below any, and one over the box alone below those that count its corners, too, which are harder.
+/// Null if there are no winners.
 const Individual* findBestWinner(std::span<const Individual> winners, bool fallsAreForgiven);
 
 /// Those trials of each winner that are in corners of the operating box: none where nothing varies.

@@ -1,8 +1,13 @@
 #include "core/study/settings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
+
+#include "core/study/operating_box.h"
 
 namespace trapwright::study {
 
@@ -14,6 +19,20 @@ constexpr double kLargestStep = 0.3e-3;  // [s]
 
 bool isSame(const std::optional<base::Quaternion>& a, const std::optional<base::Quaternion>& b) {
     return a.has_value() == b.has_value() && (!a || a->coeffs() == b->coeffs());
+}
+
+/// The generation; none: the largest number.
+int firstWithCorners(const EvolutionSettings& settings) {
+    const bool hasCorners = settings.conditions == TrialConditions::varied && settings.cornerShare > 0.0;
+    return hasCorners ? settings.cornersFrom : std::numeric_limits<int>::max();
+}
+
+/// What counts in the sum besides; empty too where a name is wrong.
+objectives::ObjectiveList listWithoutCorners(const EvolutionSettings& settings) {
+    auto list = objectives::readObjectives(settings.objectives);
+    if (!list) return {};
+    std::erase(*list, objectives::findObjective(objectives::kCorners));
+    return *std::move(list);
 }
 
 }  // namespace
@@ -57,9 +76,16 @@ void takePoseWeights(PartSettings& part, const PartSettings& other) {
     part.droppedCounts = other.droppedCounts;
 }
 
-bool keepsScores(const Settings& before, const Settings& after) {
+bool keepsScores(const Settings& before, const Settings& after, int generations) {
     Settings same = after;
     same.evolution.generations = before.evolution.generations;
+    if (firstWithCorners(before.evolution) >= generations &&
+        firstWithCorners(after.evolution) >= generations &&
+        listWithoutCorners(before.evolution) == listWithoutCorners(after.evolution)) {
+        same.evolution.objectives = before.evolution.objectives;
+        same.evolution.cornerShare = before.evolution.cornerShare;
+        same.evolution.cornersFrom = before.evolution.cornersFrom;
+    }
     takePoseWeights(same.part, before.part);
     same.validation = before.validation;
     // Where success counts in F, what success is counts as well.
@@ -69,6 +95,31 @@ bool keepsScores(const Settings& before, const Settings& after) {
     same.feeder = before.feeder;
     if (before.evolution.conditions == TrialConditions::nominal) same.box = before.box;
     return same == before;
+}
+
+double cornerShareIn(const EvolutionSettings& settings, int generation) {
+    return generation >= firstWithCorners(settings) ? settings.cornerShare : 0.0;
+}
+
+Settings learnInCorners(const Settings& settings, int generation) {
+    constexpr double kShare = 0.6;
+    constexpr int kGenerations = 20;
+    Settings next = settings;
+    EvolutionSettings& evolution = next.evolution;
+    evolution.cornerShare = kShare;
+    evolution.cornersFrom = generation;
+    if (listWithoutCorners(evolution) == objectives::readObjectives(evolution.objectives).value())
+        evolution.objectives += fmt::format(", {}", objectives::kCorners);
+    evolution.generations = std::max(evolution.generations, generation + kGenerations);
+    return next;
+}
+
+bool canLearnInCorners(const Settings& settings, int generation) {
+    if (settings.evolution.conditions != TrialConditions::varied) return false;
+    for (std::size_t c = 0; c < trial::kConditions; ++c)
+        if (varies(settings.simulation, settings.box, static_cast<trial::Condition>(c)))
+            return firstWithCorners(settings.evolution) > generation;
+    return false;
 }
 
 }  // namespace trapwright::study

@@ -42,8 +42,9 @@ struct EvolutionSettings {
     // Whose sum a search maximises (objectives::readObjectives).
     std::string objectives{objectives::kPaperObjectives};
     TrialConditions conditions = TrialConditions::varied;  // nominal in the paper
-    // Of trials that vary: those in corners of the operating box.
+    // Of trials that vary: those in corners of the operating box, from that generation on.
     double cornerShare = 0.0;
+    int cornersFrom = 0;
     trial::OrientationDistance orientationDistance = trial::OrientationDistance::symmetric;
     bool simulateOverlapping = false;  // tracks with F_C < 0
     int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody
@@ -143,9 +144,20 @@ struct Settings {
 /// Takes from `other` how the stable poses count.
 void takePoseWeights(PartSettings& part, const PartSettings& other);
 
-/// Whether scores that were made with `before` still hold with `after`: only the number of generations, the
-/// weights of the stable poses and what concerns selection, validation and the real feeder differ.
-bool keepsScores(const Settings& before, const Settings& after);
+/// Whether scores of the first so many generations that were made with `before` still hold with `after`: only
+/// the number of generations, the weights of the stable poses and what concerns selection, validation, the
+/// real feeder and corners of the operating box in generations to come differ.
+bool keepsScores(const Settings& before, const Settings& after, int generations);
+
+/// The share of the trials of a generation that are in corners of the operating box.
+double cornerShareIn(const EvolutionSettings& settings, int generation);
+/// From this generation on corners of the operating box are learned, too: three of five trials are there, and
+/// their success counts. Learning ends twenty generations later at the soonest. (By then good tracks have all
+/// trials right all over the box: decisions.md#operating-box.)
+Settings learnInCorners(const Settings& settings, int generation);
+/// Whether that changes something: trials vary over a box that has corners, and none is there in that
+/// generation yet.
+bool canLearnInCorners(const Settings& settings, int generation);
 
 /// The box that trials of selection and validation vary over; none where they are nominal.
 std::optional<trial::OperatingBox> boxOfJudging(const Settings& settings);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -229,17 +231,31 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
     }
     const EvolutionSettings& evolution = settings.evolution;
     const bool isVaried = evolution.conditions == TrialConditions::varied;
+    const bool countsCorners = summed && std::ranges::any_of(*summed, [](const auto* objective) {
+                                   return objective->key == objectives::kCorners;
+                               });
     if (evolution.cornerShare > 0.0 && !isVaried)
         recommendations.push_back(
             "evolution.cornerShare does nothing while evolution.conditions is nominal, because no trial "
             "varies over the operating box; varied is recommended, or a share of 0.");
-    if (summed && (evolution.cornerShare == 0.0 || !isVaried) &&
-        std::ranges::any_of(*summed, [](const auto* objective) { return objective->key == "corners"; }))
+    if (countsCorners && (evolution.cornerShare == 0.0 || !isVaried))
         recommendations.push_back(
-            "evolution.objectives counts corners of the operating box, but no trial is in one, so that it "
-            "counts the success of all; an evolution.cornerShare above 0 with varied evolution.conditions, "
-            "or "
-            "another objective, is recommended.");
+            "evolution.objectives counts corners of the operating box, but no trial is in one, so that it is "
+            "0; an evolution.cornerShare above 0 with varied evolution.conditions, or another objective, is "
+            "recommended.");
+    if (evolution.cornerShare > 0.0 && evolution.cornersFrom > 0 && isVaried) {
+        if (evolution.cornersFrom >= evolution.generations)
+            recommendations.push_back(fmt::format(
+                "Trials are in corners of the operating box from generation {} on (evolution.cornersFrom), "
+                "but learning ends with generation {}; more evolution.generations are recommended.",
+                evolution.cornersFrom, evolution.generations - 1));
+        if (summed && !countsCorners)
+            recommendations.push_back(fmt::format(
+                "From generation {} on (evolution.cornersFrom) trials are harder than before, but nothing in "
+                "evolution.objectives counts that they are, so that tracks from before would be taken for "
+                "the best; to add corners is recommended.",
+                evolution.cornersFrom));
+    }
     const double fall = calcTypicalFall(settings.track);
     if (fall > 0.5 * settings.track.segmentHeight) {
         recommendations.push_back(

@@ -90,6 +90,7 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.text("evolution.objectives", s.evolution.objectives);
     v.choice("evolution.conditions", s.evolution.conditions, kConditionChoices);
     v.number({"evolution.cornerShare", none, 0.0, 1.0}, s.evolution.cornerShare);
+    v.count({"evolution.cornersFrom", 0, 1000000}, s.evolution.cornersFrom);
     v.choice("evolution.orientationDistance", s.evolution.orientationDistance,
              Choices<trial::OrientationDistance, 2>{{{"symmetric", trial::OrientationDistance::symmetric},
                                                      {"plain", trial::OrientationDistance::plain}}});

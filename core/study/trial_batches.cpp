@@ -75,6 +75,7 @@ TrialScene makeScene(const Settings& settings, const Specimens& specimens,
             specimens.varied,
             settings.evolution.conditions,
             settings.evolution.cornerShare,
+            settings.evolution.cornersFrom,
             settings.validation.conditions};
 }
 
@@ -86,9 +87,9 @@ TrialScene makeScene(const Settings& settings, const std::shared_ptr<const part:
 trial::TrialBatch makeLearningBatch(const TrialScene& scene, const IndividualId& individual, int trials,
                                     int first) {
     const IndividualId stream{individual.generation, scene.commonRandomNumbers ? 0 : individual.individual};
-    trial::TrialBatch batch =
-        makeBatch(scene, scene.simulation->start, keyOf(scene, stream, first, base::Purpose::trialStart),
-                  trials, scene.whileLearning, scene.cornerShare);
+    trial::TrialBatch batch = makeBatch(
+        scene, scene.simulation->start, keyOf(scene, stream, first, base::Purpose::trialStart), trials,
+        scene.whileLearning, individual.generation >= scene.cornersFrom ? scene.cornerShare : 0.0);
     double& stuckTime = batch.termination.stuckTime;
     stuckTime = std::min(stuckTime, scene.learningStuckTime.value_or(stuckTime));
     batch.step = scene.learningStep;

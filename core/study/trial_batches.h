@@ -27,7 +27,8 @@ struct TrialScene {
     const trial::OperatingBox* box = nullptr;
     std::vector<std::shared_ptr<const part::Part>> specimens{};
     TrialConditions whileLearning = TrialConditions::nominal;
-    double cornerShare = 0.0;                                 // of makeLearningBatch
+    double cornerShare = 0.0;                                 // of makeLearningBatch ...
+    int cornersFrom = 0;                                      // ... from that generation on
     TrialConditions whileJudging = TrialConditions::nominal;  // selection and validation
 };
 

@@ -209,6 +209,34 @@ class LearningTest : public QObject {
         QVERIFY2(changed.code == 2 && changed.errors.contains("Only evolution.generations"), changed.all());
     }
 
+    /// Corners of the operating box from a generation on: whether that was known from the start or is asked
+    /// for then, the bits are the same.
+    void cornersAreLearnedLater() {
+        const QStringList planned{"--set", "evolution.cornerShare=0.6",
+                                  "--set", "evolution.cornersFrom=2",
+                                  "--set", "evolution.objectives=F_C, F_D, F_O, corners"};
+        QVERIFY(learn(quickStudy("whole.trap", 22) + planned).code == 0);
+        const Ran early = learn(quickStudy("asked.trap", 2) + QStringList{"--corners"});
+        QVERIFY2(early.code == 2 && early.errors.contains("no study asked.trap yet"), early.all());
+        QVERIFY(learn(quickStudy("asked.trap", 2)).code == 0);
+        const Ran ran = learn({"evolve", "asked.trap", "--resume", "--corners", "--json"});
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonArray generations = ran.json()["generations"].toArray();
+        QCOMPARE(generations.size(), 22);
+        QVERIFY(!generations[1].toObject()["best"].toObject().contains("corners"));
+        QVERIFY(generations[2].toObject()["best"].toObject().contains("corners"));
+        const Ran same = learn({"dump", "asked.trap", "--compare", "whole.trap"});
+        QVERIFY2(same.code == 0 && same.output.contains("The same designs and scores."), same.all());
+        // Once they are learned they stay.
+        const Ran back = learn({"evolve", "asked.trap", "--resume", "--set", "evolution.cornerShare=0"});
+        QVERIFY2(back.code == 2 && back.errors.contains("Only evolution.generations"), back.all());
+        QVERIFY(
+            learn(quickStudy("level.trap", 1) + QStringList{"--set", "evolution.conditions=nominal"}).code ==
+            0);
+        const Ran level = learn({"evolve", "level.trap", "--resume", "--corners"});
+        QVERIFY2(level.code == 2 && level.errors.contains("nominal"), level.all());
+    }
+
     /// Other searches and other traps than the paper's: learned, resumed, exported like it.
     void otherSearchesAndTraps_data() {
         QTest::addColumn<QString>("search");

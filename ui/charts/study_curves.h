@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <optional>
 #include <vector>
 
 #include "core/study/records.h"
@@ -14,6 +15,7 @@ struct StudyCurves {
     std::vector<study::CheckRecord> checks;           // in any order; none if one engine does everything
     std::vector<double> trialsPerSecond;              // slot i for summaries[i]; NaN or missing: not known
     std::vector<objectives::Score> attainable{};      // objectives::listAttainable of the part
+    std::optional<int> cornersFrom{};                 // the generation whose trials are harder from there on
 };
 
 }  // namespace trapwright::charts

@@ -24,6 +24,7 @@ constexpr double kPercent = 100.0;
 const CurveStyle kBest{SeriesColour::first, Qt::SolidLine, Marker::circle};
 const CurveStyle kMean{SeriesColour::second, Qt::DashLine, Marker::square};
 const CurveStyle kAttainable{SeriesColour::neutral, Qt::DotLine, Marker::none};
+const CurveStyle kCorners{SeriesColour::neutral, Qt::DotLine, Marker::none};
 const CurveStyle kThird{SeriesColour::third, Qt::DashDotLine, Marker::triangle};
 
 QString studyKey(std::size_t study) {
@@ -63,6 +64,24 @@ void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies,
         sheet.legend.push_back({studyKey(i), studies[i].name,
                                 Text::tr("The curves of the study %1.").arg(studies[i].name), style});
     }
+}
+
+/// Where trials in corners of the operating box begin, so that nobody takes what falls there for a loss. With
+/// two studies where the first that has them begins with them.
+void markCorners(ChartSheet& sheet, const std::vector<StudyCurves>& studies) {
+    const auto has = std::find_if(studies.begin(), studies.end(), [](const StudyCurves& study) {
+        return study.cornersFrom && !study.summaries.empty() &&
+               study.summaries.back().index >= *study.cornersFrom;
+    });
+    if (has == studies.end()) return;
+    // Between the last without and the first with them.
+    for (PlotSheet& plot : sheet.plots)
+        plot.mark = XMark{*has->cornersFrom - 0.5, kCorners};
+    const auto study = static_cast<std::size_t>(has - studies.begin());
+    sheet.legend.push_back({"cornersFrom", withStudy(Text::tr("corners from here"), studies, study),
+                            Text::tr("From here on a share of the trials is in corners of the operating box, "
+                                     "which are harder than the others."),
+                            kCorners, true, true});
 }
 
 ChartSheet makeSheet() {
@@ -258,6 +277,7 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
     sheet.legend.push_back({"mean", Text::tr("mean of top 30 %"),
                             Text::tr("The mean success of the best 30 % of each generation."), kMean});
     addStudies(sheet, studies);
+    markCorners(sheet, studies);
     return sheet;
 }
 
@@ -293,6 +313,7 @@ ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
              "can exceed it by chance."),
          kAttainable});
     addStudies(sheet, studies);
+    markCorners(sheet, studies);
     return sheet;
 }
 

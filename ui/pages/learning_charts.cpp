@@ -96,11 +96,9 @@ void LearningCharts::compareWith(const std::filesystem::path& study) {
                 emit failed(what, QString::fromStdString(message));
             };
         }
-        charts::StudyCurves other{QString::fromStdString(curves->name),
-                                  std::move(curves->summaries),
-                                  std::move(curves->checks),
-                                  {},
-                                  std::move(curves->attainable)};
+        charts::StudyCurves other{
+            QString::fromStdString(curves->name), std::move(curves->summaries), std::move(curves->checks), {},
+            std::move(curves->attainable),        curves->cornersFrom};
         other.trialsPerSecond = speedsOf(other.summaries);
         return [this, what, other = std::move(other)] {
             if (other.summaries.empty()) {
@@ -130,7 +128,8 @@ void LearningCharts::showStudies() {
     if (session_) {
         const std::vector<study::GenerationSummary>& summaries = session_->runs().summaries();
         studies.push_back({look::toText(session_->path().stem()), summaries, session_->runs().checks(),
-                           speedsOf(summaries), session_->design().attainable()});
+                           speedsOf(summaries), session_->design().attainable(),
+                           session::findLaterCorners(session_->design().settings().evolution)});
         if (other_) studies.push_back(*other_);
     }
     for (charts::StudyChart* chart : charts_)

@@ -32,6 +32,12 @@ RunActions::RunActions(QObject* parent)
       start_(makeAction(this, "run.start", "start", tr("&Start learning"), Qt::Key_F5,
                         tr("Continue from the last saved generation"))),
       draft_(makeAction(this, "run.draft", "draft", tr("&Draft in 10 minutes"), Qt::SHIFT | Qt::Key_F5, {})),
+      corners_(makeAction(
+          this, "run.corners", "corners", tr("Learn in &corners"), {},
+          tr("From the next generation on, for 20 and more, three of five parts meet corners of the "
+             "operating "
+             "box, where every condition is at an end of its range: least friction with least stroke, say. "
+             "Tracks that are good all over the box become as good there."))),
       pause_(makeAction(this, "run.pause", "pause", tr("&Pause"), Qt::Key_F6,
                         tr("Wait in the middle of the generation; nothing is lost"))),
       stopAfterGeneration_(makeAction(this, "run.stopAfterGeneration", "stop-after",
@@ -49,6 +55,7 @@ RunActions::RunActions(QObject* parent)
         }
     });
     connect(draft_, &QAction::triggered, this, &RunActions::startDraft);
+    connect(corners_, &QAction::triggered, this, &RunActions::startCorners);
     estimateDelay_->setSingleShot(true);
     estimateDelay_->setInterval(kEstimateDelay);
     connect(estimateDelay_, &QTimer::timeout, this, [this] {
@@ -91,6 +98,14 @@ void RunActions::startDraft() {
     emit started();
 }
 
+void RunActions::startCorners() {
+    if (!runs_) return;
+    const int next = static_cast<int>(runs_->summaries().size());
+    design_->changeSettings(study::learnInCorners(design_->settings(), next), tr("Learn in corners"));
+    runs_->startLearning();
+    emit started();
+}
+
 void RunActions::update() {
     const RunState state = runs_ ? runs_->state() : RunState::idle;
     const bool paused = state == RunState::paused;
@@ -115,6 +130,8 @@ void RunActions::update() {
     const auto draft = runs_ ? runs_->draft() : std::nullopt;
     const bool timed = runs_ && runs_->estimatedSeconds() > 0.0;
     draft_->setEnabled(idle && obstacle.isEmpty() && draft.has_value());
+    corners_->setEnabled(runs_ && idle && design_->problems().empty() && generations > 0 &&
+                         study::canLearnInCorners(design_->settings(), static_cast<int>(generations)));
     if (!obstacle.isEmpty()) {
         draft_->setToolTip(obstacle);
     } else if (draft) {

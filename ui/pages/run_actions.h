@@ -28,6 +28,8 @@ class RunActions : public QObject {
     QAction* start() { return start_; }
     /// Takes over the settings of a draft and learns with them. Its tool tip tells how long that takes here.
     QAction* draft() { return draft_; }
+    /// Has corners of the operating box learned from the next generation on (study::learnInCorners).
+    QAction* corners() { return corners_; }
     QAction* pause() { return pause_; }
     QAction* stopAfterGeneration() { return stopAfterGeneration_; }
     QAction* stopNow() { return stopNow_; }
@@ -39,12 +41,14 @@ class RunActions : public QObject {
  private:
     void update();
     void startDraft();
+    void startCorners();
 
     QPointer<session::StudyDesign> design_;
     QPointer<session::StudyRuns> runs_;
     QTimer* estimateDelay_;
     QAction* start_;
     QAction* draft_;
+    QAction* corners_;
     QAction* pause_;
     QAction* stopAfterGeneration_;
     QAction* stopNow_;

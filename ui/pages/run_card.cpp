@@ -6,6 +6,7 @@
 #include <QProgressBar>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <QtMath>
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -30,6 +31,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
       title_(new QLabel(this)),
       detail_(new QLabel(this)),
       standstill_(new QLabel(this)),
+      corners_(makeButton(run.corners(), "evolve.corners")),
       remade_(new QLabel(this)),
       speed_(new QLabel(this)),
       bar_(new QProgressBar(this)),
@@ -74,6 +76,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     draft->addWidget(makeButton(run.draft(), "evolve.draft"));
     draft->addWidget(draftTime_);
     connect(run.draft(), &QAction::changed, this, &RunCard::showDraft);
+    connect(run.corners(), &QAction::changed, this, &RunCard::showStandstill);
 
     auto* buttons = new QGridLayout;
     buttons->setSpacing(6);
@@ -91,6 +94,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     layout->addWidget(title_);
     layout->addWidget(detail_);
     layout->addWidget(standstill_);
+    layout->addWidget(corners_);
     layout->addWidget(remade_);
     layout->addWidget(bar_);
     layout->addWidget(speed_);
@@ -101,7 +105,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     update();
 }
 
-QWidget* RunCard::makeButton(QAction* action, const QString& name) {
+QToolButton* RunCard::makeButton(QAction* action, const QString& name) {
     auto* button = new QToolButton(this);
     button->setDefaultAction(action);
     button->setObjectName(name);
@@ -171,15 +175,24 @@ void RunCard::showSuccess() {
                                                           .arg(generation));
         return;
     }
-    success_->show(success,
-                   success
-                       ? tr("%1 of %2 parts, %3").arg(success->successes).arg(success->trials).arg(generation)
-                       : generation);
+    if (!success) {
+        success_->show(success, generation);
+        return;
+    }
+    const double inCorners =
+        study::cornerShareIn(runs_->design().settings().evolution, best->generation) * success->trials;
+    QString parts = tr("%1 of %2 parts").arg(success->successes).arg(success->trials);
+    if (inCorners >= 1.0) parts += tr(", %1 of them in corners of the box").arg(qFloor(inCorners));
+    success_->show(success, tr("%1, %2").arg(parts, generation));
 }
 
 void RunCard::showStandstill() {
     const std::optional<int> since = runs_ ? study::findStandstill(runs_->summaries()) : std::nullopt;
     standstill_->setVisible(since.has_value());
+    // What there is to do next, once this search has done what it can.
+    const bool isDone = runs_ && (since || static_cast<int>(runs_->summaries().size()) >=
+                                               runs_->design().settings().evolution.generations);
+    corners_->setVisible(isDone && run_.corners()->isEnabled());
     if (since) standstill_->setText(tr("Nothing was gained since generation %1.").arg(*since));
 }
 

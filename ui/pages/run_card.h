@@ -5,6 +5,7 @@
 
 class QLabel;
 class QProgressBar;
+class QToolButton;
 
 namespace trapwright::session {
 class StudyRuns;
@@ -30,7 +31,7 @@ class RunCard : public QWidget {
     void settingsWanted();
 
  private:
-    QWidget* makeButton(QAction* action, const QString& name);
+    QToolButton* makeButton(QAction* action, const QString& name);
     void update();
     void announce();
     void showSuccess();
@@ -46,6 +47,7 @@ class RunCard : public QWidget {
     QLabel* title_;
     QLabel* detail_;
     QLabel* standstill_;
+    QToolButton* corners_;
     QLabel* remade_;
     QLabel* speed_;
     QProgressBar* bar_;

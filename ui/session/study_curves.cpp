@@ -15,7 +15,14 @@ base::Result<StoredCurves> loadCurves(const std::filesystem::path& study) {
     auto checks = file->loadChecks();
     if (!checks) return checks.error();
     return StoredCurves{study.stem().string(), std::move(*summaries), std::move(*checks),
-                        objectives::listAttainable(study::makeTask(design->settings, *design->part))};
+                        objectives::listAttainable(study::makeTask(design->settings, *design->part)),
+                        findLaterCorners(design->settings.evolution)};
+}
+
+std::optional<int> findLaterCorners(const study::EvolutionSettings& settings) {
+    const int from = settings.cornersFrom;
+    if (from == 0 || study::cornerShareIn(settings, from) == 0.0) return std::nullopt;
+    return from;
 }
 
 }  // namespace trapwright::session

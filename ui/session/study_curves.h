@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,11 @@ struct StoredCurves {
     std::vector<study::GenerationSummary> summaries;
     std::vector<study::CheckRecord> checks;
     std::vector<objectives::Score> attainable;  // objectives::listAttainable of the part
+    std::optional<int> cornersFrom;             // findLaterCorners
 };
+
+/// The generation from which trials are in corners of the operating box; none: in all, or in none.
+std::optional<int> findLaterCorners(const study::EvolutionSettings& settings);
 
 /// Reads them from a study, which may be learning in another process. May be called on any thread.
 base::Result<StoredCurves> loadCurves(const std::filesystem::path& study);

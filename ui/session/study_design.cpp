@@ -5,6 +5,7 @@
 #include <QUndoCommand>
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -134,7 +135,10 @@ void StudyDesign::changeSettings(const study::Settings& settings, const QString&
     next.part = state_->settings.part;
     study::takePoseWeights(next.part, settings.part);
     if (next == state_->settings) return;
-    if (locked() && !study::keepsScores(state_->settings, next)) {
+    // A run has its settings already, for all generations to come.
+    const int generations =
+        state_->run != nullptr ? std::numeric_limits<int>::max() : static_cast<int>(state_->summaries.size());
+    if (locked() && !study::keepsScores(state_->settings, next, generations)) {
         state_->fail(what, lockedMessage());
         return;
     }

@@ -236,7 +236,11 @@ void StudyRuns::tellState() {
 
 void StudyRuns::startLearning() {
     // What was changed before may no longer be undone: the scores to come belong to it.
-    if (!state_->locked() && state_->problems.empty()) state_->undo.clear();
+    const study::EvolutionSettings& evolution = state_->settings.evolution;
+    const int next = static_cast<int>(state_->summaries.size());
+    const bool beginsCorners =
+        study::cornerShareIn(evolution, next) > 0.0 && study::cornerShareIn(evolution, next - 1) == 0.0;
+    if ((!state_->locked() || beginsCorners) && state_->problems.empty()) state_->undo.clear();
     startRun(RunState::learning, tr("The study could not learn"),
              [this, settings = state_->settings, part = state_->part.part,
               threads = state_->threads](Run& run) { return learn(run, settings, part, threads); });

@@ -375,12 +375,15 @@ class ObjectivesTest : public QObject {
         const objectives::Objective& corners = *objectives::findObjective("corners");
         evaluation.hasCorners = false;
         QVERIFY(!corners.applies(evaluation));
-        QVERIFY(std::abs(corners.measure(evaluation).value - 8.0 / 12.0) < 1e-12);  // of all
+        QCOMPARE(corners.measure(evaluation).value, 0.0);  // nothing is known of them
         evaluation.places = places;
         evaluation.hasCorners = true;
         QVERIFY(corners.applies(evaluation));
         QVERIFY(std::abs(corners.measure(evaluation).value - 0.75) < 1e-12);
         QVERIFY(std::abs(corners.measure(evaluation).error - std::sqrt(0.1875 / 3.0)) < 1e-12);
+        evaluation.corners = stats::Count{9, 10};  // of a selection, which tries them apart
+        QVERIFY(std::abs(corners.measure(evaluation).value - 0.9) < 1e-12);
+        evaluation.corners.reset();
         QVERIFY(std::abs(objectives::findObjective("success")->measure(evaluation).value - 8.0 / 12.0) <
                 1e-12);
     }
@@ -426,12 +429,19 @@ class ObjectivesTest : public QObject {
         constexpr int kSets = 600;
         std::map<std::string, std::vector<objectives::Score>> scores;
         base::Random random({21, 0, 0, 0, base::Purpose::test});
+        // All in one corner, so that all objectives are of the same trials.
+        trial::BoxPlace corner = trial::kMiddle;
+        corner[static_cast<std::size_t>(trial::Condition::friction)] = 1.0;
+        const std::vector<trial::BoxPlace> places(60, corner);
         for (int set = 0; set < kSets; ++set) {
             std::vector<Outcome> outcomes;
             outcomes.reserve(60);
             for (int i = 0; i < 60; ++i)
                 outcomes.push_back(drawOutcome(random));
-            for (const objectives::Score& score : judge.judge(outcomes).scores)
+            Evaluation evaluation = judge.evaluation(outcomes);
+            evaluation.places = places;
+            for (const objectives::Score& score :
+                 objectives::measureAll(evaluation, paperObjectives()).scores)
                 scores[score.key].push_back(score);
         }
         for (const objectives::Objective& objective : objectives::allObjectives()) {

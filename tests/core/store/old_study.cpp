@@ -106,6 +106,8 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 20)
+        database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.cornersFrom')");
     if (version < 19)
         database.exec(
             "ALTER TABLE generation DROP COLUMN mended_generation; "

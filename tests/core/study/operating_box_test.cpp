@@ -277,6 +277,14 @@ class OperatingBoxTest : public QObject {
             QVERIFY(first.contactOf(first.trials[i]).kineticFriction !=
                     plain.contactOf(plain.trials[i]).kineticFriction);
         }
+        // Corners from a generation on: before it all is as without them.
+        study::Settings later = settings;
+        later.evolution.cornerShare = 0.6;
+        later.evolution.cornersFrom = 3;
+        const study::TrialScene cornered = study::makeScene(later, inputs.part, track);
+        QVERIFY(study::listPlaces(study::makeLearningBatch(cornered, {2, 3}, 40)) == places);
+        const std::vector<BoxPlace> in = study::listPlaces(study::makeLearningBatch(cornered, {3, 3}, 40));
+        QCOMPARE(std::ranges::count_if(in, trial::isCorner), 24);
         const trial::TrialBatch judged = study::makeSelectionBatch(varied, {2, 3}, 40);
         QVERIFY(study::listPlaces(judged) != places);
         QVERIFY(study::listPlaces(study::makeSelectionBatch(nominal, {2, 3}, 40)).empty());

@@ -103,9 +103,9 @@ class SettingsCheckTest : public QObject {
         before.evolution.objectives = objectives.toStdString();
         Settings after = before;
         after.validation.trialsPerPose = 7;
-        QVERIFY(study::keepsScores(before, after));
+        QVERIFY(study::keepsScores(before, after, 5));
         after.validation.tolerance = 0.5 * before.validation.tolerance;
-        QCOMPARE(study::keepsScores(before, after), kept);
+        QCOMPARE(study::keepsScores(before, after, 5), kept);
     }
 
     // What the presets were before there was a library, to the last bit.
@@ -294,6 +294,44 @@ class SettingsCheckTest : public QObject {
         QVERIFY(std::abs(study::calcTypicalFall(settings.track) - fall) < 1e-12);
     }
 
+    // Corners of the box are learned from a generation to come on, and nothing else changes with that.
+    void cornersCanBeLearnedLater() {
+        Settings before;
+        before.evolution.generations = 30;
+        const Settings after = study::learnInCorners(before, 20);
+        QCOMPARE(study::cornerShareIn(after.evolution, 19), 0.0);
+        QCOMPARE(study::cornerShareIn(after.evolution, 20), 0.6);
+        QCOMPARE(after.evolution.objectives, std::string("F_C, F_D, F_O, corners"));
+        QCOMPARE(after.evolution.generations, 40);
+        QVERIFY(study::findProblems(after).empty() && study::findRecommendations(after).empty());
+        QVERIFY(study::keepsScores(before, after, 20));
+        QVERIFY(study::keepsScores(after, before, 20));
+        QVERIFY(!study::keepsScores(before, after, 21));
+        QVERIFY(!study::keepsScores(after, before, 21));  // one has been learned in corners
+        Settings other = after;
+        other.evolution.objectives = "F_C, F_O, corners";
+        QVERIFY(!study::keepsScores(before, other, 20));
+        other.evolution.objectives = "F_C, F_O, F_D, corners";
+        QVERIFY(!study::keepsScores(before, other, 20));  // another order gives other bits
+        // They can once, where there are some.
+        QVERIFY(study::canLearnInCorners(before, 20));
+        QVERIFY(study::canLearnInCorners(after, 19));
+        QVERIFY(!study::canLearnInCorners(after, 20));
+        Settings level = before;
+        level.box = {};
+        level.box.friction = level.box.restitution = level.box.halfStroke = 0.0;
+        level.box.sizeBelow = level.box.sizeAbove = 0.0;
+        QVERIFY(!study::canLearnInCorners(level, 20));
+        before.evolution.conditions = study::TrialConditions::nominal;
+        QVERIFY(!study::canLearnInCorners(before, 20));
+        QCOMPARE(study::cornerShareIn(study::learnInCorners(before, 20).evolution, 30), 0.0);
+        // What counts already is not counted twice, and more generations stay.
+        Settings counted;
+        counted.evolution.objectives = "F_C, corners, F_O";
+        QCOMPARE(study::learnInCorners(counted, 20).evolution.objectives, counted.evolution.objectives);
+        QCOMPARE(study::learnInCorners(counted, 20).evolution.generations, counted.evolution.generations);
+    }
+
     // What is set and does nothing is told.
     void cornersNeedTrialsThatVary() {
         Settings settings;
@@ -311,6 +349,13 @@ class SettingsCheckTest : public QObject {
         settings.evolution.cornerShare = 0.3;
         settings.evolution.conditions = study::TrialConditions::nominal;
         QVERIFY(isTold("no trial varies"));
+        settings.evolution.conditions = study::TrialConditions::varied;
+        settings.evolution.cornersFrom = 100;
+        QVERIFY(isTold("From generation 100 on"));
+        settings.evolution.objectives = "F_C, F_D, F_O, corners";
+        QVERIFY(study::findRecommendations(settings).empty());
+        settings.evolution.generations = 100;
+        QVERIFY(isTold("learning ends with generation 99"));
     }
 
     void partMustFit_data() {

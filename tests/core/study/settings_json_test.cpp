@@ -51,6 +51,7 @@ Settings unusualSettings() {
                    "success, F_C",
                    study::TrialConditions::nominal,
                    0.1 / 0.7,
+                   23,
                    trial::OrientationDistance::plain,
                    true,
                    4,

@@ -208,7 +208,7 @@ class TargetTest : public QObject {
         // Another goal is another task.
         study::Settings other = settings;
         other.target.poses = "5";
-        QVERIFY(!study::keepsScores(settings, other));
+        QVERIFY(!study::keepsScores(settings, other, 5));
     }
 
     void itIsTold() {

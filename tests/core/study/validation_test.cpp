@@ -80,6 +80,12 @@ class ValidationTest : public QObject {
         QCOMPARE(bestOf({winner(0, std::nullopt, 10, 5.0), winner(1, 0, 10, -5.0)}), 1);
         QCOMPARE(bestOf({winner(0, 0, 0, 5.0), winner(1, 0, 10, -5.0)}), 1);
         QCOMPARE(bestOf({winner(0, std::nullopt, 10, -2.0), winner(1, std::nullopt, 10, -1.0)}), 1);
+        // What holds in corners of the box, where trials are harder, is better than what was not tried there.
+        std::vector<study::Individual> later{winner(0, 10, 10, 3.0), winner(1, 8, 10, 2.0)};
+        later[0].record.fitness.scores = {{"corners", 0.0}};
+        QCOMPARE(bestOf(later), 0);
+        later[1].record.fitness.scores = {{"corners", 0.7}};
+        QCOMPARE(bestOf(later), 1);
         // Where parts that fall come again, fitness counts.
         const std::vector<study::Individual> winners{winner(0, 9, 10, -3.0), winner(1, 2, 10, -1.0)};
         QCOMPARE(study::findBestWinner(winners, true)->generation, 1);

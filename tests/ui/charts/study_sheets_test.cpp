@@ -95,6 +95,23 @@ class StudySheetsTest : public QObject {
         QVERIFY(isOn(charts::fitnessSheet({study}), "F_O"));
     }
 
+    // Where trials become harder there is a line, which nobody can switch off.
+    void cornersFromAGenerationOnAreMarked() {
+        StudyCurves study = someStudy("a", 0.5);
+        QVERIFY(!charts::successSheet({study}).plots[0].mark);
+        study.cornersFrom = 3;  // it has three, from 0
+        QVERIFY(!charts::successSheet({study}).plots[0].mark);
+        study.cornersFrom = 2;
+        for (const ChartSheet& sheet : {charts::successSheet({study}), charts::fitnessSheet({study})}) {
+            for (const PlotSheet& plot : sheet.plots)
+                QCOMPARE(plot.mark.value().x, 1.5);
+            QCOMPARE(sheet.legend.back().text, QString("corners from here"));
+            QVERIFY(sheet.legend.back().fixed);
+        }
+        const ChartSheet two = charts::successSheet({someStudy("b", 0.5), study});
+        QCOMPARE(two.legend.back().text, QString("corners from here, a"));
+    }
+
     void strategyIsLogarithmic() {
         const ChartSheet sheet = charts::searchSheet({someStudy("a", 0.5)});
         QCOMPARE(sheet.plots.size(), std::size_t{1});

@@ -12,6 +12,7 @@
 #include <QTableView>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <QUndoStack>
 #include <QtTest>
 #include <cmath>
 
@@ -178,6 +179,42 @@ class EvolvePageTest : public QObject {
         QVERIFY(since.has_value());
         QVERIFY(label->isVisible());
         QCOMPARE(label->text(), QString("Nothing was gained since generation %1.").arg(*since));
+    }
+
+    // What is learned goes on in corners of the operating box, at a click.
+    void whatIsLearnedGoesOnInCorners() {
+        session::SessionFixture studies;
+        QVERIFY(makeStudy(studies));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        study::Settings settings = user.session()->design().settings();
+        settings.evolution.conditions = study::TrialConditions::varied;
+        settings.evolution.trialsPerEvaluation = 10;
+        user.session()->design().changeSettings(settings, "Varied");
+        const auto* corners = user.find<QToolButton>("evolve.corners");
+        QVERIFY(!corners->isVisible());
+        user.click("evolve.start");
+        QVERIFY(waitUntil([&] { return user.text("evolve.state") == "All 6 generations learned"; }));
+        QVERIFY(corners->isVisible());
+        user.click("evolve.corners");
+        QCOMPARE(user.state(), RunState::learning);
+        QVERIFY(!corners->isVisible());
+        const study::EvolutionSettings& now = user.session()->design().settings().evolution;
+        QCOMPARE(now.cornersFrom, kGenerations);
+        QCOMPARE(now.generations, kGenerations + 20);
+        QVERIFY(!user.session()->design().undoStack()->canUndo());
+        QVERIFY(user.waitForGenerations(kGenerations + 2));
+        user.click("evolve.stopNow");
+        QVERIFY(user.waitFor(RunState::idle));
+        const study::Individual& best = *user.session()->runs().bestWinner();
+        QVERIFY(best.generation >= kGenerations);
+        QVERIFY(user.text("evolve.successSource").contains("6 of them in corners of the box"));
+        QVERIFY(!corners->isVisible());
+        // While it learns, and once some generations have been learned so, there is no way back.
+        settings = user.session()->design().settings();
+        settings.evolution.cornerShare = 0.0;
+        user.session()->design().changeSettings(settings, "Back");
+        QVERIFY(user.session()->design().settings().evolution.cornerShare > 0.0);
     }
 
     // One trial in each generation is lost by the quick engine; learning goes on and tells it.
