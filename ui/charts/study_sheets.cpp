@@ -24,7 +24,7 @@ constexpr double kPercent = 100.0;
 const CurveStyle kBest{SeriesColour::first, Qt::SolidLine, Marker::circle};
 const CurveStyle kMean{SeriesColour::second, Qt::DashLine, Marker::square};
 const CurveStyle kAttainable{SeriesColour::neutral, Qt::DotLine, Marker::none};
-const CurveStyle kCorners{SeriesColour::neutral, Qt::DotLine, Marker::none};
+const CurveStyle kCorners{SeriesColour::neutral, Qt::DashDotDotLine, Marker::none};
 const CurveStyle kThird{SeriesColour::third, Qt::DashDotLine, Marker::triangle};
 
 QString studyKey(std::size_t study) {
