@@ -389,26 +389,12 @@ constexpr const char* kVersion20 = R"sql(
 UPDATE study SET settings = json_set(settings, '$.evolution.cornersFrom', 0);
 )sql";
 
-constexpr std::array<Migration, 20> kMigrations = {{{1, kVersion1},
-                                                    {2, kVersion2},
-                                                    {3, kVersion3},
-                                                    {4, kVersion4},
-                                                    {5, kVersion5},
-                                                    {6, kVersion6},
-                                                    {7, kVersion7},
-                                                    {8, kVersion8, &turnGenesIntoDesigns},
-                                                    {9, kVersion9},
-                                                    {10, kVersion10},
-                                                    {11, kVersion11},
-                                                    {12, kVersion12},
-                                                    {13, kVersion13},
-                                                    {14, kVersion14},
-                                                    {15, kVersion15},
-                                                    {16, kVersion16},
-                                                    {17, kVersion17},
-                                                    {18, kVersion18},
-                                                    {19, kVersion19},
-                                                    {20, kVersion20}}};
+constexpr std::array<Migration, 20> kMigrations = {
+    {{1, kVersion1},   {2, kVersion2},   {3, kVersion3},   {4, kVersion4},
+     {5, kVersion5},   {6, kVersion6},   {7, kVersion7},   {8, kVersion8, &turnGenesIntoDesigns},
+     {9, kVersion9},   {10, kVersion10}, {11, kVersion11}, {12, kVersion12},
+     {13, kVersion13}, {14, kVersion14}, {15, kVersion15}, {16, kVersion16},
+     {17, kVersion17}, {18, kVersion18}, {19, kVersion19}, {20, kVersion20}}};
 
 }  // namespace
 

@@ -308,7 +308,8 @@ base::Status StudyFile::changeSettings(const study::Settings& settings) {
         if (generations > 0 && !study::keepsScores(*present, settings, generations)) {
             return base::Error{
                 "The study " + path().string() +
-                " has generations that were made with its settings. Only evolution.generations, corners of the "
+                " has generations that were made with its settings. Only evolution.generations, corners of "
+                "the "
                 "operating box in generations to come (evolution.cornerShare, evolution.cornersFrom and "
                 "corners in evolution.objectives) and the validation and feeder settings can change now; "
                 "make a new study for the others."};
