@@ -17,7 +17,10 @@
 #include "core/study/evaluator.h"
 #include "core/study/field_text.h"
 #include "core/study/presets.h"
+#include "core/study/runner.h"
+#include "core/workflow/learning.h"
 #include "core/workflow/proposal.h"
+#include "core/workflow/study_design.h"
 #include "sim/engines/registry.h"
 
 namespace trapwright::app {
@@ -141,7 +144,7 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || surface || settingsFile || paper || sorting || time;
+           contact || surface || settingsFile || paper || sorting || time || beginWith;
 }
 
 bool SettingOptions::given() const {
@@ -149,22 +152,25 @@ bool SettingOptions::given() const {
 }
 
 void addCreationOptions(Command command, CreationOptions& options) {
-    command.addOption("--preset", options.preset, "Start from the paper's Table 1: cuboid or cone");
-    command.addOption("--part", options.part.part, "The part: a file, or the name of a bundled one");
+    const Option preset =
+        command.addOption("--preset", options.preset, "Start from the paper's Table 1: cuboid or cone");
+    const Option part =
+        command.addOption("--part", options.part.part, "The part: a file, or the name of a bundled one");
     addPartOptions(command, options.part);
     const Option contact = command.addOption("--contact", options.contact,
                                              "Friction and restitution, how far they may be off, and density "
                                              "by pair: abs-on-printed-plastic, steel-on-steel-sheet ... "
                                              "`trapwright materials` lists them");
-    command
-        .addOption("--surface", options.surface,
-                   "What the track's surface is made of, for friction and restitution with the part's "
-                   "material, and how far "
-                   "they may be off: "
-                   "printed-pla, steel-sheet ...")
-        .excludes(contact);
-    command.addOption("--settings", options.settingsFile,
-                      "Settings in JSON, as `trapwright settings` prints them");
+    const Option surface =
+        command
+            .addOption("--surface", options.surface,
+                       "What the track's surface is made of, for friction and restitution with the part's "
+                       "material, and how far "
+                       "they may be off: "
+                       "printed-pla, steel-sheet ...")
+            .excludes(contact);
+    const Option settings = command.addOption("--settings", options.settingsFile,
+                                              "Settings in JSON, as `trapwright settings` prints them");
     const Option paper =
         command.addFlag("--paper", options.paper, "The paper's own choices where the defaults go past it");
     const Option sorting =
@@ -174,14 +180,25 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "A track that throws out what lies wrong, in proportion to the part: for parts that nothing "
                 "turns into one way")
             .excludes(paper);
-    command
-        .addOption(
-            "--time", options.time,
-            "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
-            "part, and how much of it for this time on this machine")
-        .type("DURATION")
-        .excludes(paper)
-        .excludes(sorting);
+    const Option time =
+        command
+            .addOption(
+                "--time", options.time,
+                "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
+                "part, and how much of it for this time on this machine")
+            .type("DURATION")
+            .excludes(paper)
+            .excludes(sorting);
+    Option beginWith =
+        command
+            .addOption(
+                "--begin-with", options.beginWith,
+                "Begin with the tracks of another study, its part and its settings, changed by --set and "
+                "what follows: so that what is learned need not be learned again where friction, drive or "
+                "what is wanted is another")
+            .type("STUDY");
+    for (const Option& other : {preset, part, contact, surface, settings, paper, sorting, time})
+        beginWith.excludes(other);
 }
 
 void addSettingOptions(Command command, SettingOptions& options) {
@@ -232,8 +249,38 @@ Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options) {
     return true;
 }
 
+namespace {
+
+/// A study with part, settings and tracks of another one.
+Attempt<store::StudyFile> createFrom(const std::string& path, const std::string& other,
+                                     const SettingOptions& options, const Console& console) {
+    const auto from = store::StudyFile::openReadOnly(other);
+    if (!from) return describeStudyFailure(from.error(), ExitCode::badInput);
+    auto design = workflow::loadDesign(*from);
+    if (!design) return Failure{ExitCode::badInput, design.error().message};
+    const auto known = workflow::collectTracks(*from);
+    if (!known) return Failure{ExitCode::badInput, known.error().message};
+    design->settings.evolution.firstGeneration = search::ga::FirstGeneration::known;
+    const auto settings = applySettings(design->settings, options);
+    if (!settings) return settings.error();
+    if (const auto checked = study::checkInputs({*settings, design->part, nullptr}); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+    if (const std::string problem = study::findKnownProblem(*settings, *known); !problem.empty())
+        return Failure{ExitCode::usage, problem};
+    for (const std::string& recommendation : study::findRecommendations(*settings))
+        console.note(recommendation);
+    auto file = store::StudyFile::create(path, *settings, design->stored, kProgram);
+    if (!file) return describeCreateFailure(path, file.error());
+    if (const auto saved = file->saveKnownTracks(*known, *settings); !saved)
+        return describeStudyFailure(saved.error(), ExitCode::badInput);
+    return std::move(*file);
+}
+
+}  // namespace
+
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& options, const Console& console) {
+    if (creation.beginWith) return createFrom(path, *creation.beginWith, options, console);
     auto settings = startingSettings(creation);
     if (!settings) return settings.error();
     PartRequest request = completeRequest(creation.part, *settings, creation);
@@ -274,6 +321,8 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
 
     if (const auto checked = study::checkInputs({*applied, loaded->part, nullptr}); !checked)
         return Failure{ExitCode::usage, checked.error().message};
+    if (const std::string problem = study::findKnownProblem(*applied, {}); !problem.empty())
+        return Failure{ExitCode::usage, problem};
     // What had to be done to a bundled part concerns nobody.
     if (!loaded->bundled)
         for (const std::string& note : loaded->notes)

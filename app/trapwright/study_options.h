@@ -24,6 +24,8 @@ struct CreationOptions {
     bool paper = false;
     bool sorting = false;
     std::optional<std::string> time;  // that the user has: "10min"
+    // A study whose part, settings and tracks it begins with; instead of all of the above.
+    std::optional<std::string> beginWith;
 
     /// Whether the user gave any of them.
     [[nodiscard]] bool given() const;

@@ -27,6 +27,8 @@ std::optional<double> findNumber(std::span<const NamedNumber> numbers, std::stri
 struct Proposal {
     Design design;
     std::vector<NamedNumber> traits{};  // what else the search knows of it, as its method lists them
+
+    friend bool operator==(const Proposal&, const Proposal&) = default;
 };
 
 /// How a proposal did.
@@ -48,9 +50,9 @@ class Search {
     Search& operator=(const Search&) = delete;
     virtual ~Search() = default;
 
-    /// Designs that the first ask() shall have among its own; before that. A search that cannot makes nothing
-    /// of it.
-    virtual void begin(std::span<const Design> /*designs*/) {}
+    /// Designs that the first ask() shall have among its own; before that. What traits it knows and are given
+    /// it takes over, others are its own. A search that cannot makes nothing of it.
+    virtual void begin(std::span<const Proposal> /*proposals*/) {}
     /// The next designs, all of the design space; the same until they are told of. At least one.
     virtual std::vector<Proposal> ask() = 0;
     /// One judgement for each of them, in their order.

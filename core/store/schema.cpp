@@ -389,12 +389,26 @@ constexpr const char* kVersion20 = R"sql(
 UPDATE study SET settings = json_set(settings, '$.evolution.cornersFrom', 0);
 )sql";
 
-constexpr std::array<Migration, 20> kMigrations = {
+// Tracks of another study that the first generation can begin with; there were none.
+constexpr const char* kVersion21 = R"sql(
+CREATE TABLE known_track (
+    number INTEGER PRIMARY KEY,     -- from 0, best first
+    study TEXT NOT NULL,            -- name of its file
+    design BLOB NOT NULL
+);
+CREATE TABLE known_trait (          -- what the search that found it knew of it
+    number INTEGER NOT NULL, key TEXT NOT NULL, value REAL NOT NULL,
+    PRIMARY KEY (number, key)
+);
+)sql";
+
+constexpr std::array<Migration, 21> kMigrations = {
     {{1, kVersion1},   {2, kVersion2},   {3, kVersion3},   {4, kVersion4},
      {5, kVersion5},   {6, kVersion6},   {7, kVersion7},   {8, kVersion8, &turnGenesIntoDesigns},
      {9, kVersion9},   {10, kVersion10}, {11, kVersion11}, {12, kVersion12},
      {13, kVersion13}, {14, kVersion14}, {15, kVersion15}, {16, kVersion16},
-     {17, kVersion17}, {18, kVersion18}, {19, kVersion19}, {20, kVersion20}}};
+     {17, kVersion17}, {18, kVersion18}, {19, kVersion19}, {20, kVersion20},
+     {21, kVersion21}}};
 
 }  // namespace
 

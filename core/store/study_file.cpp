@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "core/base/file.h"
+#include "core/search/design_space.h"
 #include "core/store/packing.h"
 #include "core/store/schema.h"
 #include "core/store/study_state.h"
@@ -334,6 +335,62 @@ base::Status StudyFile::changePart(const StoredPart& part, const study::Settings
         transaction.commit();
         return base::success();
     });
+}
+
+base::Status StudyFile::saveKnownTracks(const study::KnownTracks& tracks, const study::Settings& settings) {
+    return state_->save("The tracks to begin with could not be saved", [&]() -> base::Status {
+        if (state_->countRows("generation") > 0) {
+            return base::Error{"The study " + path().string() +
+                               " has begun already. Make a new study to begin with other tracks."};
+        }
+        SQLite::Database& database = *state_->database;
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        database.exec("DELETE FROM known_track; DELETE FROM known_trait");
+        SQLite::Statement row(database, "INSERT INTO known_track VALUES (?, ?, ?)");
+        SQLite::Statement trait(database, "INSERT INTO known_trait VALUES (?, ?, ?)");
+        for (int i = 0; i < static_cast<int>(tracks.tracks.size()); ++i) {
+            const search::Proposal& track = tracks.tracks[static_cast<std::size_t>(i)];
+            const std::string design = search::packDesign(track.design);
+            row.reset();
+            row.bind(1, i);
+            row.bind(2, tracks.study);
+            row.bind(3, design.data(), static_cast<int>(design.size()));
+            row.exec();
+            for (const search::NamedNumber& one : track.traits) {
+                trait.reset();
+                SQLite::bind(trait, i, one.key, one.value);
+                trait.exec();
+            }
+        }
+        writeSettings(database, settings);
+        transaction.commit();
+        return base::success();
+    });
+}
+
+base::Result<study::KnownTracks> StudyFile::loadKnownTracks() const {
+    return guarded(
+        path(), "The tracks to begin with could not be read", [&]() -> base::Result<study::KnownTracks> {
+            SQLite::Statement rows(*state_->database,
+                                   "SELECT number, study, design FROM known_track ORDER BY number");
+            SQLite::Statement traits(*state_->database,
+                                     "SELECT key, value FROM known_trait WHERE number = ? ORDER BY rowid");
+            study::KnownTracks known;
+            while (rows.executeStep()) {
+                known.study = rows.getColumn(1).getString();
+                auto design = search::unpackDesign(readBlob(rows, 2));
+                if (!design || (!known.tracks.empty() && design->size() != known.tracks[0].design.size()))
+                    return damagedValue(path(), "a track to begin with");
+                search::Proposal& track = known.tracks.emplace_back();
+                track.design = std::move(*design);
+                traits.reset();
+                traits.bind(1, rows.getColumn(0).getInt());
+                while (traits.executeStep())
+                    track.traits.push_back(
+                        {traits.getColumn(0).getString(), traits.getColumn(1).getDouble()});
+            }
+            return known;
+        });
 }
 
 base::Status StudyFile::checkInPlace() const {

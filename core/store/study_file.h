@@ -150,6 +150,12 @@ class StudyFile {
     /// Oldest first.
     [[nodiscard]] base::Result<std::vector<study::PhysicalValidation>> loadPhysicalValidations() const;
 
+    /// Keeps tracks of another study instead of those that there were, and the settings with them (the first
+    /// generation may begin with these tracks from now on). An error if there are generations.
+    base::Status saveKnownTracks(const study::KnownTracks& tracks, const study::Settings& settings);
+    /// None: without designs.
+    [[nodiscard]] base::Result<study::KnownTracks> loadKnownTracks() const;
+
     /// Adds a drop test, with the current time if it has none.
     base::Status addDropTest(const study::DropRecord& record);
     /// Oldest first, also those of a part that has been changed since (study::holdsFor).

@@ -75,6 +75,7 @@ struct StudyInputs {
     unsigned threads = 1;  // for building tracks; the engine has its own
     /// Trials that the engines of this run could not finish; null: nobody asks.
     std::shared_ptr<trial::RemadeTrials> remade = nullptr;
+    KnownTracks known{};  // of the first generation; workflow::learn finds them
 };
 
 /// What counts in F. The settings must be without problems (findProblems).

@@ -28,6 +28,14 @@ inline bool isSameIndividual(const IndividualId& a, const IndividualId& b) {
     return a == b;
 }
 
+/// Tracks of another study that a first generation can begin with, best first, as its search knew them.
+struct KnownTracks {
+    std::string study;  // its file's name
+    std::vector<search::Proposal> tracks;
+
+    friend bool operator==(const KnownTracks&, const KnownTracks&) = default;
+};
+
 /// One evaluated individual of a generation.
 struct IndividualRecord {
     search::Design design;

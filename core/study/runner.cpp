@@ -1,5 +1,8 @@
 #include "core/study/runner.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 
 #include "core/search/ranking.h"
@@ -82,6 +85,28 @@ GenerationRecord completeGeneration(int index, std::vector<IndividualRecord> ind
     return record;
 }
 
+std::string findKnownProblem(const Settings& settings, const KnownTracks& known) {
+    if (settings.evolution.firstGeneration != search::ga::FirstGeneration::known) return {};
+    if (known.tracks.empty())
+        return "evolution.firstGeneration is known, but this study has no tracks of another one to begin "
+               "with. "
+               "Choose graded, or have a new study made that begins with tracks (evolve --begin-with; Change "
+               "in a new study).";
+    const std::size_t wanted = designSpace(settings.track).dimensions.size();
+    const std::size_t had = known.tracks.front().design.size();
+    if (wanted == had) return {};
+    return fmt::format(
+        "evolution.firstGeneration is known, but the tracks of {} are made of {} numbers, and these settings "
+        "of "
+        "track need {}. Choose graded, or the traps, track.crossSections, track.pointsPerSection and "
+        "track.encoding of that study.",
+        known.study, had, wanted);
+}
+
+std::size_t countKnown(const EvolutionSettings& settings) {
+    return static_cast<std::size_t>(std::max(settings.populationSize / 2, 1));
+}
+
 LearningState stateAfter(const GenerationRecord& last) {
     return {last.index, last.searchState};
 }
@@ -98,11 +123,20 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
     }
 
     if (!last && isPlanned(settings.evolution)) {
-        const auto designs = planDesigns(inputs, countPlanned(settings.evolution), events.planned, control);
+        auto designs = planDesigns(inputs, countPlanned(settings.evolution), events.planned, control);
         if (control.run.cancelled()) return LearningEnd::cancelled;
         if (control.stopRequested()) return LearningEnd::stopped;
         if (!designs) return designs.error();
-        search->begin(*designs);
+        std::vector<search::Proposal> proposals;
+        for (search::Design& design : *designs)
+            proposals.push_back({std::move(design)});
+        search->begin(proposals);
+    }
+    if (!last && settings.evolution.firstGeneration == search::ga::FirstGeneration::known) {
+        if (std::string problem = findKnownProblem(settings, inputs.known); !problem.empty())
+            return base::Error{"The settings cannot be used:\n" + problem};
+        const std::vector<search::Proposal>& tracks = inputs.known.tracks;
+        search->begin(std::span(tracks).first(std::min(tracks.size(), countKnown(settings.evolution))));
     }
     for (int index = last ? last->index + 1 : 0;
          index < control.generationsOr(settings.evolution.generations); ++index) {

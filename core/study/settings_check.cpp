@@ -256,6 +256,12 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
                 "the best; to add corners is recommended.",
                 evolution.cornersFrom));
     }
+    if (evolution.firstGeneration == search::ga::FirstGeneration::known &&
+        evolution.search != search::Method::genetic)
+        recommendations.push_back(
+            "evolution.firstGeneration is known, but only the genetic search begins with tracks that are "
+            "known; "
+            "genetic is recommended as evolution.search.");
     const double fall = calcTypicalFall(settings.track);
     if (fall > 0.5 * settings.track.segmentHeight) {
         recommendations.push_back(

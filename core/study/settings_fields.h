@@ -83,9 +83,10 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"evolution.mutationFloor", none, 0.0, 1.0}, s.evolution.mutationFloor);
     v.choice("evolution.strategyScope", s.evolution.strategyScope, search::ga::kStrategyScopes);
     v.choice("evolution.firstGeneration", s.evolution.firstGeneration,
-             Choices<search::ga::FirstGeneration, 3>{{{"graded", search::ga::FirstGeneration::graded},
+             Choices<search::ga::FirstGeneration, 4>{{{"graded", search::ga::FirstGeneration::graded},
                                                       {"random", search::ga::FirstGeneration::random},
-                                                      {"planned", search::ga::FirstGeneration::planned}}});
+                                                      {"planned", search::ga::FirstGeneration::planned},
+                                                      {"known", search::ga::FirstGeneration::known}}});
     v.count({"evolution.plannedTraps", 32, 1000000}, s.evolution.plannedTraps);
     v.text("evolution.objectives", s.evolution.objectives);
     v.choice("evolution.conditions", s.evolution.conditions, kConditionChoices);

@@ -1,15 +1,24 @@
 #include "core/workflow/learning.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
+#include "core/study/selection.h"
+
 namespace trapwright::workflow {
 
-Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& inputs,
+Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& given,
                              const trial::EngineRegistry& engines, const LearnEvents& events,
                              const study::LearningControl& control) {
     const auto last = file.loadLearningState();
     if (!last) return Failure{FailureKind::reading, last.error().message};
+    auto known = file.loadKnownTracks();
+    if (!known) return Failure{FailureKind::reading, known.error().message};
+    if (std::string problem = study::findKnownProblem(given.settings, *known); !*last && !problem.empty())
+        return Failure{FailureKind::settings, std::move(problem)};
+    study::StudyInputs inputs = given;
+    inputs.known = std::move(*known);
     const auto started = WinnerChecks::start(file, inputs, engines, control.checks);
     if (!started) return started.error();
     WinnerChecks* const checks = started->get();
@@ -53,6 +62,48 @@ Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& i
     report.trials = control.run.done() - doneBefore;
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return report;
+}
+
+base::Result<study::KnownTracks> collectTracks(const store::StudyFile& from) {
+    const auto winners = from.loadWinners();
+    if (!winners) return winners.error();
+    if (winners->empty())
+        return base::Error{"The study " + from.path().string() +
+                           " has learned no tracks yet. Choose a study that has."};
+    study::KnownTracks known{from.path().filename().string(), {}};
+    const auto add = [&](const study::IndividualRecord& record) {
+        const bool isKnown = std::ranges::any_of(
+            known.tracks, [&](const search::Proposal& track) { return track.design == record.design; });
+        if (!isKnown) known.tracks.push_back({record.design, record.traits});
+    };
+    const auto chosen = from.loadChosenWinner();
+    if (!chosen) return chosen.error();
+    if (*chosen) {
+        const auto track = from.loadIndividual(**chosen);
+        if (!track) return track.error();
+        add(*track);
+    }
+    const auto selections = from.loadSelections();
+    if (!selections) return selections.error();
+    if (!selections->empty()) {
+        for (const study::SelectionEntry& entry : selections->back().entries) {
+            const auto track = from.loadIndividual(entry);
+            if (!track) return track.error();
+            add(*track);
+        }
+    }
+    // Their relatives, so that there is something to breed from. Those that were mended are nearly one.
+    auto last = from.loadGeneration(winners->back().generation);
+    while (last && last->mendedFrom)
+        last = from.loadGeneration(last->index - 1);
+    if (!last) return last.error();
+    std::vector<study::Individual> all;
+    for (std::size_t i = 0; i < last->individuals.size(); ++i)
+        all.push_back({{last->index, static_cast<int>(i)}, std::move(last->individuals[i])});
+    const int count = static_cast<int>(all.size());
+    for (const study::Individual& individual : study::rankWinners(std::move(all), count))
+        add(individual.record);
+    return known;
 }
 
 }  // namespace trapwright::workflow

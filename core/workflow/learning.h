@@ -35,4 +35,8 @@ Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& i
                              const trial::EngineRegistry& engines, const LearnEvents& events,
                              const study::LearningControl& control);
 
+/// The tracks of a study that another one can begin with: its final track, those of its last selection, and
+/// all of its last generation, in that order and each once. An error if it has none, or cannot be read.
+base::Result<study::KnownTracks> collectTracks(const store::StudyFile& from);
+
 }  // namespace trapwright::workflow

@@ -237,6 +237,32 @@ class LearningTest : public QObject {
         QVERIFY2(level.code == 2 && level.errors.contains("nominal"), level.all());
     }
 
+    /// A study begins with the tracks of another one, under other physics, and goes on as any.
+    void beginsWithTheTracksOfAnother() {
+        QVERIFY(learn(quickStudy("first.trap", 3)).code == 0);
+        const QStringList as{"--begin-with", "first.trap", "--set", "simulation.contact.restitution=0.3",
+                             "--generations"};
+        QVERIFY(learn(QStringList{"evolve", "whole.trap"} + as + QStringList{"3"}).code == 0);
+        QVERIFY(learn(QStringList{"new", "pieces.trap"} + as + QStringList{"1"}).code == 0);
+        QVERIFY(learn({"evolve", "pieces.trap"}).code == 0);
+        const Ran ran = learn({"evolve", "pieces.trap", "--resume", "--generations", "3"});
+        QVERIFY2(ran.code == 0, ran.all());
+        QCOMPARE(dumpOf("pieces.trap"), dumpOf("whole.trap"));
+        // Its first generation has designs of the other's last.
+        const QList<QByteArray> last = dumpOf("first.trap").split('\n').mid(16, 8);
+        const QByteArray design = dumpOf("whole.trap").split('\n')[0].split(' ')[2];
+        QVERIFY(std::any_of(last.begin(), last.end(),
+                            [&](const QByteArray& line) { return line.split(' ')[2] == design; }));
+        const Ran other =
+            learn({"evolve", "other.trap", "--begin-with", "first.trap", "--set", "track.crossSections=7"});
+        QVERIFY2(other.code == 2 && other.errors.contains("first.trap"), other.all());
+        QVERIFY(!QFile::exists(folder_->filePath("other.trap")));
+        const Ran nowhere = learn({"evolve", "other.trap", "--begin-with", "nowhere.trap"});
+        QVERIFY2(nowhere.code == 3 && nowhere.errors.contains("nowhere.trap"), nowhere.all());
+        const Ran both = learn({"evolve", "other.trap", "--begin-with", "first.trap", "--preset", "cone"});
+        QVERIFY2(both.code == 2, both.all());
+    }
+
     /// Other searches and other traps than the paper's: learned, resumed, exported like it.
     void otherSearchesAndTraps_data() {
         QTest::addColumn<QString>("search");

@@ -18,7 +18,7 @@ struct RawText {
     std::string_view key;
     const char* label;
     const char* help;
-    std::array<const char*, 3> choices = {};
+    std::array<const char*, 4> choices = {};
 };
 
 // Marks the texts for translation.
@@ -60,7 +60,7 @@ const RawText kTexts[] = {
     {"evolution.strategyScope", TEXT("Rates adapt"), TEXT("What has crossover and mutation rates of its own, that adapt themselves: each individual, as in the paper, or each of its genes (points, single numbers, strategy values)."), {TEXT("Individual"), TEXT("Gene by gene")}},
     {"evolution.smoothingLimit", TEXT("Most smoothing"), TEXT("The share of points that may be smoothed away at most; 1 in the paper.")},
     {"evolution.mutationFloor", TEXT("Least mutation"), TEXT("The least that the chance which adapts itself can be; 0 in the paper.")},
-    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops, cut-outs and gaps are tried by themselves first, and learning begins with the best chains of them."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned")}},
+    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops, cut-outs and gaps are tried by themselves first, and learning begins with the best chains of them; or half of it tracks of another study, as Change in a new study on this page takes them along."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned"), TEXT("Known tracks")}},
     {"evolution.plannedTraps", TEXT("Planned traps"), TEXT("How many drops, cut-outs and gaps are tried by themselves before a planned first generation. It takes most of the time; more find better chains.")},
     {"evolution.conditions", TEXT("Learn under"), TEXT("Whether every part meets what is set here, or each another friction, restitution, stroke and size out of the operating box. Tracks learned so hold where the real feeder is not quite what was set."), {TEXT("As set"), TEXT("Varied")}},
     {"evolution.cornerShare", TEXT("Share in corners"), TEXT("How many of the parts that meet varied conditions meet corners of the operating box, where every condition is at an end of its range: least friction with least stroke, say. 0: none. Best from late generations on, when good tracks have all other trials right; the objective corners has to count then.")},

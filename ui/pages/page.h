@@ -84,7 +84,7 @@ class Page : public QWidget {
     void studyWanted(const trapwright::workflow::LoadedPart& part);
     /// A new study with the settings and the part of the open one, and no generations, shall be opened in its
     /// place.
-    void forkWanted();
+    void forkWanted(bool withTracks);
 
  private:
     PageFace face_;

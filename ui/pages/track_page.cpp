@@ -1,8 +1,10 @@
 #include "ui/pages/track_page.h"
 
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QEvent>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
@@ -147,11 +149,20 @@ QWidget* TrackPage::makeHead() {
     auto* fork = new QPushButton(tr("Change in a new study"), locked_);
     fork->setObjectName("track.fork");
     fork->setToolTip(tr("A new study with the same part and settings, and no generations"));
-    connect(fork, &QPushButton::clicked, this, &Page::forkWanted);
-    auto* lockedLayout = new QHBoxLayout(locked_);
+    auto* withTracks = new QCheckBox(tr("Begin with these tracks"), locked_);
+    withTracks->setObjectName("track.forkTracks");
+    withTracks->setToolTip(tr(
+        "Half of the first generation are tracks of this study: the final one, the last comparison and the "
+        "last generation. So little is learned anew where friction, drive or what is wanted is another. The "
+        "numbers that a track is made of (traps, sections, points) must stay"));
+    connect(fork, &QPushButton::clicked, this,
+            [this, withTracks] { emit forkWanted(withTracks->isChecked()); });
+    auto* lockedLayout = new QGridLayout(locked_);
     lockedLayout->setContentsMargins(0, 0, 0, 0);
-    lockedLayout->addWidget(reason, 1);
-    lockedLayout->addWidget(fork);
+    lockedLayout->setColumnStretch(0, 1);
+    lockedLayout->addWidget(reason, 0, 0, 2, 1);
+    lockedLayout->addWidget(fork, 0, 1);
+    lockedLayout->addWidget(withTracks, 1, 1);
 
     title_ = new QLabel(head);
     QFont font = title_->font();

@@ -28,6 +28,7 @@ struct StudyRecords {
     std::vector<study::DropRecord> dropTests;
     std::optional<study::Individual> chosen;  // by the user
     std::vector<study::RobustnessRecord> robustness;
+    study::KnownTracks known;  // of another study, to begin with
 };
 
 struct OpenedStudy {

@@ -2,6 +2,7 @@
 
 #include <future>
 
+#include "core/workflow/learning.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_feeder.h"
 #include "ui/session/study_replays.h"
@@ -116,17 +117,30 @@ base::Status StudySession::saveAs(const std::filesystem::path& path) {
     return base::success();
 }
 
-base::Result<std::unique_ptr<StudySession>> StudySession::fork(const std::filesystem::path& path) const {
-    auto file =
-        store::StudyFile::create(path, state_->settings, *state_->part.stored, state_->environment.program);
+base::Result<std::unique_ptr<StudySession>> StudySession::fork(const std::filesystem::path& path,
+                                                               bool withTracks) const {
+    study::Settings settings = state_->settings;
+    study::KnownTracks known = state_->known;
+    if (withTracks) {
+        if (!state_->reader) return state_->cannotRead();
+        auto collected = workflow::collectTracks(*state_->reader);
+        if (!collected) return collected.error();
+        known = std::move(*collected);
+        settings.evolution.firstGeneration = search::ga::FirstGeneration::known;
+    }
+    auto file = store::StudyFile::create(path, settings, *state_->part.stored, state_->environment.program);
     if (!file) return file.error();
+    if (!known.tracks.empty()) {
+        if (const auto saved = file->saveKnownTracks(known, settings); !saved) return saved.error();
+    }
     // Its weights may be those of the drop test.
     const auto drops = design_->dropTest();
     if (drops) {
         if (const auto added = file->addDropTest(*drops); !added) return added.error();
     }
-    auto study = readNewStudy(std::move(*file), {state_->settings, *state_->part.stored, state_->part.part});
+    auto study = readNewStudy(std::move(*file), {settings, *state_->part.stored, state_->part.part});
     if (study && drops) study->records.dropTests = {*drops};
+    if (study) study->records.known = std::move(known);
     return makeSession(std::move(study), state_->environment);
 }
 

@@ -70,8 +70,10 @@ class StudySession : public QObject {
     /// Copies the study to a new file and goes on with that one. An error if something goes on, or if the
     /// path exists.
     base::Status saveAs(const std::filesystem::path& path);
-    /// A new study with the same part and settings and no generations.
-    [[nodiscard]] base::Result<std::unique_ptr<StudySession>> fork(const std::filesystem::path& path) const;
+    /// A new study with the same part and settings and no generations. `withTracks`: the first of them begins
+    /// with tracks of this one; an error if it has none.
+    [[nodiscard]] base::Result<std::unique_ptr<StudySession>> fork(const std::filesystem::path& path,
+                                                                   bool withTracks = false) const;
 
     /// Disconnects this one from all signals of the session and of its parts.
     void leave(const QObject* listener) const;

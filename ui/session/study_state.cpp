@@ -1,6 +1,7 @@
 #include "ui/session/study_state.h"
 
 #include "core/base/parallel.h"
+#include "core/study/runner.h"
 
 namespace trapwright::session {
 
@@ -53,6 +54,9 @@ void StudyState::end() {
 void StudyState::findProblems() {
     problems = study::findProblems(settings);
     for (std::string& problem : study::findPartProblems(settings, *part.part))
+        problems.push_back(std::move(problem));
+    // Once they are learned from nobody looks at them.
+    if (std::string problem = study::findKnownProblem(settings, known); !problem.empty() && summaries.empty())
         problems.push_back(std::move(problem));
     recommendations = study::findRecommendations(settings);
 }

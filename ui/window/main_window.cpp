@@ -179,8 +179,9 @@ void MainWindow::connectPage(pages::Page& page) {
             showPage(std::exchange(pageAfterImport_, kFirstPage));
         });
     });
-    connect(&page, &pages::Page::forkWanted, this, [this] {
-        whenClosable([this] { report(tr("No new study can be made"), desk_.forkToDraft()); });
+    connect(&page, &pages::Page::forkWanted, this, [this](bool withTracks) {
+        whenClosable(
+            [this, withTracks] { report(tr("No new study can be made"), desk_.forkToDraft(withTracks)); });
     });
     if (QWidget* bar = page.sceneBar()) frame_->addBar(page.face().name, bar);
 }

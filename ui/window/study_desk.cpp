@@ -96,10 +96,10 @@ void StudyDesk::openExample(const workflow::ExampleStudy& example,
     });
 }
 
-base::Status StudyDesk::forkToDraft() {
+base::Status StudyDesk::forkToDraft(bool withTracks) {
     const auto path = newDraftPath(session_->design().part()->name);
     if (!path) return path.error();
-    auto forked = session_->fork(*path);
+    auto forked = session_->fork(*path, withTracks);
     if (!forked) return forked.error();
     adopt(std::move(*forked));
     return base::success();

@@ -48,7 +48,8 @@ class StudyDesk : public QObject {
     /// A copy of a learned study that comes with the program, as a draft, opened as by open().
     void openExample(const workflow::ExampleStudy& example,
                      const std::function<void(const base::Status&)>& opened);
-    base::Status forkToDraft();
+    /// `withTracks`: StudySession::fork.
+    base::Status forkToDraft(bool withTracks);
     /// Deletes a draft's file if `keepDraft` is false.
     void close(bool keepDraft);
     /// A draft that nobody wants: its file goes as soon as another study takes its place, or it is closed.

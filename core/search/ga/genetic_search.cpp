@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <tuple>
@@ -73,8 +74,8 @@ MethodInfo describeGeneticSearch(StrategyScope scope) {
 GeneticSearch::GeneticSearch(DesignSpace space, const SearchParameters& parameters)
     : space_(std::move(space)), layout_(layOut(space_, parameters.genetic.scope)), parameters_(parameters) {}
 
-void GeneticSearch::begin(std::span<const Design> designs) {
-    first_.assign(designs.begin(), designs.end());
+void GeneticSearch::begin(std::span<const Proposal> proposals) {
+    first_.assign(proposals.begin(), proposals.end());
 }
 
 std::vector<Proposal> GeneticSearch::ask() {
@@ -88,8 +89,10 @@ std::vector<Proposal> GeneticSearch::ask() {
             asked_ = createPopulation(layout_, parameters_.populationSize, parameters_.seed);
             if (parameters_.genetic.first != FirstGeneration::random)
                 gradePopulation(asked_, space_, parameters_.seed);
-            for (std::size_t i = 0; i < std::min(first_.size(), asked_.size()); ++i)
-                encodeDesign(first_[i], space_, asked_[i]);
+            for (std::size_t i = 0; i < std::min(first_.size(), asked_.size()); ++i) {
+                encodeDesign(first_[i].design, space_, asked_[i]);
+                takeStrategy(first_[i].traits, asked_[i].strategy);
+            }
         } else {
             asked_ = nextGeneration(population_, scores_, layout_, parameters_.genetic, smooth,
                                     parameters_.seed, generation_);
@@ -157,6 +160,22 @@ base::Status GeneticSearch::load(std::string_view state) {
     scores_ = std::move(scores);
     asked_.clear();
     return base::success();
+}
+
+void GeneticSearch::takeStrategy(std::span<const NamedNumber> traits, Bits& strategy) const {
+    // In the order of decodeStrategy.
+    constexpr std::array kKeys = {"p_x", "p_dm", "p_s", "p_x2", "p_dm2", "p_x3", "p_dm3"};
+    std::vector<double> values = decodeGray(strategy, kStrategyBits);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::optional<double> known = findNumber(traits, kKeys[i]);
+        if (!known) continue;
+        // As limitStrategy() scaled it.
+        const double limit = parameters_.genetic.transition.smoothingLimit;
+        const bool isSmoothing = i == 2;
+        if (!isSmoothing) values[i] = std::clamp(*known, 0.0, 1.0);
+        if (isSmoothing && limit > 0.0) values[i] = std::clamp(*known / limit, 0.0, 1.0);
+    }
+    strategy = encodeGray(values, kStrategyBits);
 }
 
 StrategyValues GeneticSearch::strategyOf(const Chromosome& chromosome) const {

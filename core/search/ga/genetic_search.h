@@ -23,8 +23,9 @@ class GeneticSearch : public Search {
  public:
     GeneticSearch(DesignSpace space, const SearchParameters& parameters);
 
-    /// The first individuals of generation 0 have these designs, as many as there are individuals at most.
-    void begin(std::span<const Design> designs) override;
+    /// The first individuals of generation 0 have these designs, as many as there are individuals at most,
+    /// and the strategy values among their traits.
+    void begin(std::span<const Proposal> proposals) override;
     std::vector<Proposal> ask() override;
     void tell(std::span<const Judgement> judgements) override;
     [[nodiscard]] std::vector<NamedNumber> report() const override;
@@ -32,12 +33,13 @@ class GeneticSearch : public Search {
     base::Status load(std::string_view state) override;
 
  private:
+    void takeStrategy(std::span<const NamedNumber> traits, Bits& strategy) const;
     [[nodiscard]] StrategyValues strategyOf(const Chromosome& chromosome) const;
 
     DesignSpace space_;
     ChromosomeLayout layout_;
     SearchParameters parameters_;
-    std::vector<Design> first_;           // of begin()
+    std::vector<Proposal> first_;         // of begin()
     std::uint32_t generation_ = 0;        // of the next ask()
     std::vector<Chromosome> population_;  // the last that was told of; none at first
     std::vector<double> scores_;          // theirs

@@ -11,9 +11,10 @@ namespace trapwright::search::ga {
 
 /// How generation 0 is drawn.
 enum class FirstGeneration {
-    random,  // every bit at random (the paper's)
-    graded,  // from nearly level to rough, from rarely mutating to often (gradePopulation)
-    planned  // the same, and designs that were put together before (Search::begin)
+    random,   // every bit at random (the paper's)
+    graded,   // from nearly level to rough, from rarely mutating to often (gradePopulation)
+    planned,  // the same, and designs that were put together before (Search::begin)
+    known     // the same, and designs of another study
 };
 
 /// How the first generation is drawn, and how each follows from the one before.

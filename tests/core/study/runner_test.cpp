@@ -93,6 +93,24 @@ class RunnerTest : public QObject {
         QVERIFY2(first < 0.0 && last > 0.5 * first, qPrintable(QString("%1 -> %2").arg(first).arg(last)));
     }
 
+    void knownTracksMustFitTheSettings() {
+        study::StudyInputs inputs = fake::waveInputs();
+        QVERIFY(study::findKnownProblem(inputs.settings, {}).empty());
+        inputs.settings.evolution.firstGeneration = search::ga::FirstGeneration::known;
+        const auto tells = [&](const char* words) {
+            return study::findKnownProblem(inputs.settings, inputs.known).find(words) != std::string::npos;
+        };
+        QVERIFY(tells("no tracks of another one"));
+        const std::size_t numbers = study::designSpace(inputs.settings.track).dimensions.size();
+        inputs.known = {"other.trap", {{search::Design(numbers, 0.5)}}};
+        QVERIFY(study::findKnownProblem(inputs.settings, inputs.known).empty());
+        inputs.settings.track.crossSections += 1;
+        QVERIFY(tells("the tracks of other.trap are made of"));
+        std::vector<GenerationRecord> saved;
+        const auto refused = learn(inputs, saved);
+        QVERIFY(!refused.ok() && saved.empty());
+    }
+
     void countsAddUp() {
         std::vector<GenerationRecord> saved;
         study::StudyInputs inputs = fake::waveInputs();

@@ -124,6 +124,48 @@ class LearningTest : public QObject {
         }
     }
 
+    // The final track first, then those of the last comparison, then their relatives, each once; a study that
+    // begins with them has half of its first generation from there, and begins as good as the other ended.
+    void aStudyBeginsWithTheTracksOfAnother() {
+        const fake::WaveStudy from("native", 6);
+        QVERIFY(fake::messageOf(workflow::collectTracks(*from.file)).contains("no tracks yet"));
+        QVERIFY(workflow::learn(*from.file, from.inputs, fake::lawEngines(), {}, {}).ok());
+        VERIFY_OK(from.file->chooseWinner(study::IndividualId{1, 3}));
+        const auto known = workflow::collectTracks(*from.file);
+        VERIFY_OK(known);
+        QCOMPARE(known->study, from.file->path().filename().string());
+        QVERIFY(known->tracks.front().design == from.file->loadIndividual({1, 3}).value().design);
+        const study::GenerationRecord end = from.file->loadGeneration(5).value();
+        for (const study::IndividualRecord& last : end.individuals)
+            QCOMPARE(std::ranges::count(known->tracks, last.design, &search::Proposal::design), 1);
+
+        fake::WaveStudy study("native", 3);
+        study.inputs.settings.evolution.firstGeneration = search::ga::FirstGeneration::known;
+        const auto none = workflow::learn(*study.file, study.inputs, fake::lawEngines(), {}, {});
+        QVERIFY(!none.ok() && none.error().message.find("no tracks of another one") != std::string::npos);
+        VERIFY_OK(study.file->saveKnownTracks(*known, study.inputs.settings));
+        QVERIFY(study.file->loadKnownTracks().value() == *known);
+        QVERIFY(workflow::learn(*study.file, study.inputs, fake::lawEngines(), {}, {}).ok());
+        const study::GenerationRecord first = study.file->loadGeneration(0).value();
+        const std::size_t half = first.individuals.size() / 2;
+        QCOMPARE(study::countKnown(study.inputs.settings.evolution), half);
+        for (std::size_t i = 0; i < half; ++i)
+            QVERIFY(first.individuals[i].design == known->tracks[i].design);
+        QVERIFY(first.individuals[half].design != known->tracks[half].design);
+        // With the rates that they had adapted.
+        for (std::size_t i = 0; i < half; ++i)
+            for (const search::NamedNumber& rate : first.individuals[i].traits)
+                QVERIFY(std::abs(rate.value - search::findNumber(known->tracks[i].traits, rate.key).value()) <
+                        1e-4);
+        const double before = from.file->loadSummaries().value()[0].statistics.topMean.total;
+        const double ended = from.file->loadSummaries().value()[5].statistics.topMean.total;
+        QVERIFY(first.statistics.topMean.total - before > 0.5 * (ended - before));
+        // Once it has begun they stay.
+        QVERIFY(fake::messageOf(study.file->saveKnownTracks({}, study.inputs.settings))
+                    .contains("has begun already"));
+        QVERIFY(study.file->loadKnownTracks().value() == *known);
+    }
+
     void failuresTellTheirKind() {
         fake::WaveStudy study("hybrid", 2);
         auto reader = store::StudyFile::openReadOnly(study.path);

@@ -525,6 +525,35 @@ class EvolvePageTest : public QObject {
         QCOMPARE(user.session()->design().settings().evolution.populationSize, kIndividuals);
     }
 
+    // What was learned need not be learned again in the new study.
+    void aNewStudyBeginsWithTheTracks() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        const int last = user.saved() - 1;
+        const study::GenerationRecord known = user.session()->runs().loadGeneration(last).value();
+        user.click("rail.track");
+        QVERIFY(waitUntil([&] { return user.find<QWidget>("track.locked")->isVisible(); }));
+        user.click("track.forkTracks");
+        user.click("track.fork");
+        QVERIFY(waitUntil([&] { return user.saved() == 0; }));
+        study::Settings settings = user.session()->design().settings();
+        QVERIFY(settings.evolution.firstGeneration == search::ga::FirstGeneration::known);
+        settings.simulation.contact.restitution = 0.31;
+        user.session()->design().changeSettings(settings, "Bouncier");
+        QVERIFY(user.session()->design().problems().empty());
+        user.click("track.start");
+        QVERIFY(user.waitForGenerations(1));
+        user.click("evolve.stopNow");
+        QVERIFY(user.waitFor(RunState::idle));
+        const study::GenerationRecord first = user.session()->runs().loadGeneration(0).value();
+        for (std::size_t i = 0; i < first.individuals.size() / 2; ++i)
+            QVERIFY(std::ranges::any_of(known.individuals, [&](const study::IndividualRecord& one) {
+                return one.design == first.individuals[i].design;
+            }));
+    }
+
     void everyControlHasANameAndTakesKeys() {
         session::SessionFixture studies;
         QVERIFY(makeLearned(studies, "a.trap"));

@@ -205,6 +205,38 @@ class StudySessionTest : public QObject {
         QVERIFY((*forked)->design().part()->mesh.vertices == session->design().part()->mesh.vertices);
     }
 
+    void forkBeginsWithTheTracksIfItShall() {
+        const auto session = fixture_->create("a.trap", smallSettings(2));
+        QVERIFY(session);
+        QVERIFY(fake::messageOf(session->fork(fixture_->path("none.trap"), true)).contains("no tracks yet"));
+        QVERIFY(learnToTheEnd(*session));
+        {
+            const auto forked = session->fork(fixture_->path("b.trap"), true);
+            VERIFY_OK(forked);
+            StudySession& other = **forked;
+            QVERIFY(other.design().problems().empty());
+            // Another way of making tracks has none that are known ...
+            study::Settings settings = other.design().settings();
+            settings.track.crossSections += 1;
+            other.design().changeSettings(settings, "More sections");
+            QCOMPARE(other.design().problems().size(), std::size_t{1});
+            QVERIFY(other.design().problems()[0].find("a.trap") != std::string::npos);
+            settings.track.crossSections -= 1;
+            settings.simulation.contact.restitution = 0.31;
+            other.design().changeSettings(settings, "Other physics");
+            QVERIFY(other.design().problems().empty());
+        }
+        // ... and what the study begins with is in its file.
+        const auto opened = fixture_->open("b.trap");
+        QVERIFY(opened && opened->design().problems().empty());
+        QVERIFY(learnToTheEnd(*opened));
+        const study::GenerationRecord last = session->runs().loadGeneration(1).value();
+        const study::GenerationRecord first = opened->runs().loadGeneration(0).value();
+        QVERIFY(std::ranges::any_of(last.individuals, [&](const study::IndividualRecord& one) {
+            return one.design == first.individuals[0].design;
+        }));
+    }
+
     void opensInTheBackground() {
         auto session = fixture_->create("a.trap", smallSettings(1));
         QVERIFY(session && learnToTheEnd(*session));
