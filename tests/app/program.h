@@ -16,7 +16,7 @@ namespace trapwright::test {
 inline constexpr int kPatience = 60000;  // [ms]
 
 struct Ran {
-    int code = -1;  // exit status; -1 if a signal ended it
+    int code = -1;  // exit status; -1 if a signal ended it, or we did because it took too long
     QByteArray output;
     QByteArray errors;
 
@@ -37,10 +37,17 @@ inline std::unique_ptr<QProcess> start(const QString& folder, const QStringList&
 
 inline Ran finish(QProcess& process) {
     Ran ran;
-    if (!process.waitForFinished(kPatience)) process.kill();
-    if (process.exitStatus() == QProcess::NormalExit) ran.code = process.exitCode();
+    const bool finished = process.waitForFinished(kPatience);
+    if (!finished) {
+        process.kill();
+        process.waitForFinished(kPatience);
+    }
+    if (finished && process.exitStatus() == QProcess::NormalExit) ran.code = process.exitCode();
     ran.output = process.readAllStandardOutput();
     ran.errors = process.readAllStandardError();
+    if (!finished)
+        ran.errors +=
+            "\nThe test ended it: it took longer than " + QByteArray::number(kPatience / 1000) + " s.\n";
     return ran;
 }
 
