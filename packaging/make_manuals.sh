@@ -38,7 +38,9 @@ page trapwright "design tracks for vibratory part feeders" --include="$see" "$pr
 
 printf '[see also]\n.BR trapwright (1)\n' > "$see"
 for command in "${commands[@]}"; do
-    subject=$("$program" "$command" --help | head -n 1)
+    # Whole, then its first line: who stops reading (head) ends a program that has more to say.
+    subject=$("$program" "$command" --help)
+    subject=${subject%%$'\n'*}
     page "trapwright-$command" "${subject%%[.:]*}" --include="$see" "$program $command"
 done
 if [[ -n $studio ]]; then

@@ -128,7 +128,7 @@ for page in trapwright trapwright-studio ${commands//[[:space:]]/ }; do
     grep -q OPTIONS page.txt || { echo "man $page has no options"; exit 1; }
     [[ ! -s faults.txt ]] || { cat faults.txt; exit 1; }
 done
-man trapwright evolve | grep -q -- --resume
+man trapwright evolve | grep -- --resume > /dev/null
 echo "> $(wc -w <<< "$commands") commands with a manual page each, and both programs"
 INSIDE
 }
