@@ -108,6 +108,12 @@ bool varies(const SimulationSettings& simulation, const trial::OperatingBox& box
     return range.high > range.low;
 }
 
+bool hasRoom(const SimulationSettings& simulation, const trial::OperatingBox& box) {
+    return std::ranges::any_of(trial::conditionTexts(), [&](const trial::ConditionText& text) {
+        return varies(simulation, box, text.condition);
+    });
+}
+
 double conditionAt(const SimulationSettings& simulation, const trial::OperatingBox& box, Condition condition,
                    double share) {
     const Range range = rangeOf(simulation, box, condition);

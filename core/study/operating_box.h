@@ -26,6 +26,8 @@ std::shared_ptr<const part::Part> makeSpecimenAt(const trial::OperatingBox& box,
 
 /// Whether the box has room in this direction about these settings.
 bool varies(const SimulationSettings& simulation, const trial::OperatingBox& box, trial::Condition condition);
+/// Whether it has room in any: then it has corners, too.
+bool hasRoom(const SimulationSettings& simulation, const trial::OperatingBox& box);
 
 /// What a condition is at this share of its range, in SI: a coefficient of kinetic friction, of restitution,
 /// m, m/s, Hz, rad; of the part what its extents are more than drawn [m].

@@ -39,10 +39,7 @@ bool isLearnedInCorners(const IndividualRecord& record) {
 
 int countCornerTrials(const Settings& settings) {
     if (settings.validation.conditions == TrialConditions::nominal) return 0;
-    for (const trial::ConditionText& text : trial::conditionTexts())
-        if (varies(settings.simulation, settings.box, text.condition))
-            return settings.validation.selectionCornerTrials;
-    return 0;
+    return hasRoom(settings.simulation, settings.box) ? settings.validation.selectionCornerTrials : 0;
 }
 
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) {

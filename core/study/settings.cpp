@@ -115,11 +115,8 @@ Settings learnInCorners(const Settings& settings, int generation) {
 }
 
 bool canLearnInCorners(const Settings& settings, int generation) {
-    if (settings.evolution.conditions != TrialConditions::varied) return false;
-    for (std::size_t c = 0; c < trial::kConditions; ++c)
-        if (varies(settings.simulation, settings.box, static_cast<trial::Condition>(c)))
-            return firstWithCorners(settings.evolution) > generation;
-    return false;
+    return settings.evolution.conditions == TrialConditions::varied &&
+           hasRoom(settings.simulation, settings.box) && firstWithCorners(settings.evolution) > generation;
 }
 
 }  // namespace trapwright::study
