@@ -122,9 +122,9 @@ class Bisection {
     base::RunControl control_;
 };
 
-bool canBeSimulated(std::span<const TrialBatch> batches, const std::string& engine) {
-    return std::ranges::none_of(
-        batches, [&](const TrialBatch& batch) { return findSinglePartProblem(batch, engine).has_value(); });
+bool canBeSimulated(std::span<const TrialBatch> batches) {
+    return std::ranges::none_of(batches,
+                                [](const TrialBatch& batch) { return findProblem(batch).has_value(); });
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ base::Result<Outcomes> BackedEngine::run(std::span<const TrialBatch> batches,
             outcomes[b].resize(batches[b].trials.size());
     } else {
         // What is wrong with the batches is no matter of a trial.
-        if (!canBeSimulated(batches, name())) return made;
+        if (!canBeSimulated(batches)) return made;
         Bisection bisection(*engine_, batches, control);
         if (!bisection.run(places)) return base::Error{"The simulation was cancelled."};
         outcomes = std::move(bisection.outcomes);
@@ -193,7 +193,7 @@ base::Result<Trajectory> BackedEngine::replay(const TrialBatch& batch, std::size
     auto own = engine_->replay(batch, index, interval, control);
     if (control.cancelled() || index >= batch.trials.size()) return own;
     if (own && !findFault(batch, batch.trials[index], own->outcome)) return own;
-    if (!own && !canBeSimulated({&batch, 1}, name())) return own;
+    if (!own && !canBeSimulated({&batch, 1})) return own;
     const auto reference = reference_.make({options_.threads, 0.0});
     return reference->replay(makeAgain(batch, index), 0, interval, std::move(control));
 }

@@ -20,7 +20,9 @@ std::optional<base::Error> findProblem(const part::Part& part) {
 
 /// `number`: the trial's place in its batch.
 std::optional<base::Error> findProblem(const TrialBatch& batch, const TrialSpec& trial, std::size_t number) {
-    if (trial.parts.empty()) return base::Error{fmt::format("Trial {} of the batch has no part.", number)};
+    // Nobody may come while a short stream lasts.
+    if (trial.parts.empty() && batch.termination.until == 0.0)
+        return base::Error{fmt::format("Trial {} of the batch has no part.", number)};
     const bool known = std::ranges::all_of(
         trial.parts, [&](const PartStart& start) { return start.part < batch.parts.size(); });
     if (!known)
@@ -29,19 +31,20 @@ std::optional<base::Error> findProblem(const TrialBatch& batch, const TrialSpec&
     return std::nullopt;
 }
 
-std::optional<base::Error> findSinglePartProblem(const TrialSpec& trial, std::size_t number,
-                                                 std::string_view engine) {
+std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, const TrialSpec& trial,
+                                                 std::size_t number, std::string_view engine) {
     if (trial.parts.size() != 1)
         return base::Error{
             fmt::format("The engine '{}' simulates one part at a time, and trial {} has {}. "
-                        "Parts do not touch each other in it yet: give each a trial of its "
-                        "own.",
+                        "Parts do not touch each other in it: give each a trial of its own.",
                         engine, number, trial.parts.size())};
     if (trial.parts.front().time != 0.0)
         return base::Error{
             fmt::format("The engine '{}' simulates parts that are there from the begin on, "
                         "and that of trial {} comes after {} s. Let it come at 0 s.",
                         engine, number, trial.parts.front().time)};
+    if (batch.termination.until > 0.0)
+        return base::Error{fmt::format("The engine '{}' simulates no streams.", engine)};
     return std::nullopt;
 }
 
@@ -67,14 +70,14 @@ std::optional<base::Error> findProblem(const TrialBatch& batch, std::size_t inde
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::string_view engine) {
     if (auto problem = findProblem(batch)) return problem;
     for (std::size_t i = 0; i < batch.trials.size(); ++i)
-        if (auto problem = findSinglePartProblem(batch.trials[i], i, engine)) return problem;
+        if (auto problem = findSinglePartProblem(batch, batch.trials[i], i, engine)) return problem;
     return std::nullopt;
 }
 
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::size_t index,
                                                  std::string_view engine) {
     if (auto problem = findProblem(batch, index)) return problem;
-    return findSinglePartProblem(batch.trials[index], index, engine);
+    return findSinglePartProblem(batch, batch.trials[index], index, engine);
 }
 
 }  // namespace trapwright::trial

@@ -23,6 +23,9 @@ struct Termination {
     double timeLimit = 10.0;      // simulated [s]
     double stuckTime = 1.5;       // without stuckProgress: stuck [s]
     double stuckProgress = 1e-3;  // along the track [m]
+    /// Above 0 the trial is a stream (decisions.md#streams): it lasts until this time, whatever its parts do.
+    /// Who stands still stays where it is, in the way of others, and there is no other time limit. [s]
+    double until = 0.0;
 };
 
 /// Where and how one part of a trial starts: in this pose of the track at its mean position (room axes),
@@ -33,7 +36,8 @@ struct PartStart {
     base::Vec3 velocity =
         base::Vec3::Zero();  // of the centre of mass in the room; at rest when learning [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
-    double time = 0.0;                                // when it is put there [s]
+    /// When it comes; above 0, if others are where it would be, as soon as they are gone. [s]
+    double time = 0.0;
 };
 
 /// One simulated run to be made.
@@ -83,11 +87,16 @@ struct TrialBatch {
     }
 };
 
+/// Whether a trial is of one part from time 0 on, which is what learning is made of.
+[[nodiscard]] inline bool isOfOnePart(const TrialBatch& batch, const TrialSpec& trial) {
+    return trial.parts.size() == 1 && trial.parts.front().time == 0.0 && batch.termination.until == 0.0;
+}
+
 /// Why no engine can simulate this batch, or its trial `index` alone; none if it can.
 std::optional<base::Error> findProblem(const TrialBatch& batch);
 std::optional<base::Error> findProblem(const TrialBatch& batch, std::size_t index);
 
-/// Likewise for an engine that simulates one part at a time, from time 0 on.
+/// Likewise for an engine that simulates trials of one part only (isOfOnePart).
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::string_view engine);
 std::optional<base::Error> findSinglePartProblem(const TrialBatch& batch, std::size_t index,
                                                  std::string_view engine);

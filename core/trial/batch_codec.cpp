@@ -79,8 +79,8 @@ void serialize(Archive& archive, T& contact) {
 
 template <class Archive, base::OrConst<Termination> T>
 void serialize(Archive& archive, T& termination) {
-    auto& [timeLimit, stuckTime, stuckProgress] = termination;
-    archive(timeLimit, stuckTime, stuckProgress);
+    auto& [timeLimit, stuckTime, stuckProgress, until] = termination;
+    archive(timeLimit, stuckTime, stuckProgress, until);
 }
 
 template <class Archive, base::OrConst<PartStart> T>
@@ -103,20 +103,26 @@ void serialize(Archive& archive, T& batch) {
 
 template <class Archive, base::OrConst<PartOutcome> T>
 void serialize(Archive& archive, T& outcome) {
-    auto& [ending, initial, farthest, time] = outcome;
-    archive(ending, initial, farthest, time);
+    auto& [ending, initial, farthest, time, entered] = outcome;
+    archive(ending, initial, farthest, time, entered);
+}
+
+template <class Archive, base::OrConst<Stop> T>
+void serialize(Archive& archive, T& stop) {
+    auto& [part, from, to] = stop;
+    archive(part, from, to);
 }
 
 template <class Archive, base::OrConst<Outcome> T>
 void serialize(Archive& archive, T& outcome) {
-    auto& [parts] = outcome;
-    archive(parts);
+    auto& [parts, stops] = outcome;
+    archive(parts, stops);
 }
 
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

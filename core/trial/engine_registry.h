@@ -31,6 +31,8 @@ struct EngineKind {
     /// The largest relative error of energy and angular momentum that a body may show which tumbles freely
     /// for 10 s.
     double freeMotionTolerance = 1e-3;
+    /// Whether it simulates trials of several parts, which touch each other, and streams of them.
+    bool takesStreams = true;
     std::string about{};  // what sets one that is certifying apart, for people
 };
 

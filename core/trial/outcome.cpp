@@ -38,7 +38,7 @@ std::size_t countParts(std::span<const Outcome> outcomes) {
 }
 
 bool endAlike(const PartOutcome& a, const PartOutcome& b) {
-    return a.ending == b.ending && a.farthest == b.farthest && a.time == b.time;
+    return a.ending == b.ending && a.farthest == b.farthest && a.time == b.time && a.entered == b.entered;
 }
 
 std::string describe(const OutcomeMaker& maker) {

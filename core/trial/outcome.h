@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,13 +24,26 @@ struct PartOutcome {
     base::Pose initial;   // at the start
     base::Pose farthest;  // when it had come farthest along the track (paper, section 3.4)
     double time = 0.0;    // of the trial, simulated, when it ended [s]
+    /// When it was put on the track; none: there was no room for it before the trial was over, and it timed
+    /// out without poses. [s]
+    std::optional<double> entered = 0.0;
 
     friend bool operator==(const PartOutcome&, const PartOutcome&) = default;
+};
+
+/// A part of a stream stood still for Termination::stuckTime or longer.
+struct Stop {
+    std::size_t part = 0;  // its place in TrialSpec::parts
+    double from = 0.0;     // when it last came on [s]
+    double to = 0.0;       // when it did so again, or was gone, or the trial over [s]
+
+    friend bool operator==(const Stop&, const Stop&) = default;
 };
 
 /// How one trial ended.
 struct Outcome {
     std::vector<PartOutcome> parts;  // in the order of TrialSpec::parts
+    std::vector<Stop> stops;         // of a stream, in the order in which they ended
 
     friend bool operator==(const Outcome&, const Outcome&) = default;
 };
@@ -69,14 +83,15 @@ struct PartState {
     base::Pose track;                                 // as in PartOutcome, relative to the vibrating track
     base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
-    int contacts = 0;                                 // that carried an impulse in the step before
+    int contacts = 0;      // that carried an impulse in the step before
+    std::size_t part = 0;  // its place in TrialSpec::parts
 };
 
 /// One moment of a replay.
 struct TrajectorySample {
     double time = 0.0;                      // [s]
     base::Vec3 drive = base::Vec3::Zero();  // displacement of the track at the bowl radius in (x, y, z) [m]
-    std::vector<PartState> parts;           // in the order of TrialSpec::parts
+    std::vector<PartState> parts;      // those on the track, in the order of TrialSpec::parts
     std::vector<ContactForce> forces;  // of all contacts that carried an impulse in the step before, mean
                                        // over that step; if the engine has no steps, now
 };

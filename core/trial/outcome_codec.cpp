@@ -12,9 +12,11 @@
 #include "core/base/compression.h"
 
 // The bytes: kVersion, the Layout as one byte, with kCounted the number of parts of all trials together in
-// four, then compressed (core/base/compression.h) the unit of time, with kCounted how many parts each trial
-// has, and the planes. A plane has one byte of every part, so that what is alike lies together: first all
-// signs and exponents of a number, last the ends of its mantissas, which nothing makes smaller.
+// four, with kStreamed that of all stops, then compressed (core/base/compression.h) the unit of time, with
+// kCounted how many parts each trial has, the planes, and with kStreamed when each part came, or that it
+// never did, and the planes of the stops: trial, part, from, to. A plane has one byte of every part, so that
+// what is alike lies together: first all signs and exponents of a number, last the ends of its mantissas,
+// which nothing makes smaller.
 
 namespace trapwright::trial {
 
@@ -33,7 +35,11 @@ struct Layout {
 
 constexpr int kTicked = 1;
 constexpr int kUnit = 2;
-constexpr int kCounted = 4;  // not every trial has one part
+constexpr int kCounted = 4;   // not every trial has one part
+constexpr int kStreamed = 8;  // there are stops, or parts that came later than at 0 s or never
+
+constexpr std::size_t kBytesOfEntry = 9;
+constexpr std::size_t kBytesOfStop = 24;
 
 std::size_t bytesEach(const Layout& layout) {
     return std::size_t{1} + (layout.tickedTimes ? 5 : 8) + 24 + (layout.unitRotations ? 25 : 32);
@@ -227,6 +233,55 @@ void takeRotations(PlaneReader& planes, const Layout& layout, const std::vector<
     }
 }
 
+void addEntries(std::span<const PartOutcome> outcomes, std::vector<std::string>& planes) {
+    Planes came(planes, 1);
+    for (const PartOutcome& outcome : outcomes)
+        came.add(outcome.entered ? 1 : 0);
+    Planes times(planes, 8);
+    for (const PartOutcome& outcome : outcomes)
+        times.add(bitsOf(outcome.entered.value_or(0.0)));
+}
+
+void addStops(std::span<const Outcome> outcomes, std::vector<std::string>& planes) {
+    Planes trials(planes, 4);
+    for (std::size_t i = 0; i < outcomes.size(); ++i)
+        for (std::size_t k = 0; k < outcomes[i].stops.size(); ++k)
+            trials.add(i);
+    Planes parts(planes, 4);
+    for (const Outcome& outcome : outcomes)
+        for (const Stop& stop : outcome.stops)
+            parts.add(stop.part);
+    for (double Stop::*time : {&Stop::from, &Stop::to}) {
+        Planes times(planes, 8);
+        for (const Outcome& outcome : outcomes)
+            for (const Stop& stop : outcome.stops)
+                times.add(bitsOf(stop.*time));
+    }
+}
+
+void takeEntries(PlaneReader& planes, std::vector<PartOutcome>& outcomes) {
+    const std::vector<std::uint64_t> came = planes.take(1);
+    const std::vector<std::uint64_t> times = planes.take(8);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        outcomes[i].entered.reset();
+        if (came[i] != 0) outcomes[i].entered = std::bit_cast<double>(times[i]);
+    }
+}
+
+/// False if they are of no trial or no part.
+bool takeStops(PlaneReader planes, std::size_t count, std::vector<Outcome>& outcomes) {
+    const std::vector<std::uint64_t> trials = planes.take(4);
+    const std::vector<std::uint64_t> parts = planes.take(4);
+    const std::vector<std::uint64_t> from = planes.take(8);
+    const std::vector<std::uint64_t> to = planes.take(8);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (trials[i] >= outcomes.size() || parts[i] >= outcomes[trials[i]].parts.size()) return false;
+        outcomes[trials[i]].stops.push_back(
+            {parts[i], std::bit_cast<double>(from[i]), std::bit_cast<double>(to[i])});
+    }
+    return true;
+}
+
 /// A number in four bytes, the least one first.
 void appendWord(std::string& bytes, std::uint32_t word) {
     for (int i = 0; i < 4; ++i)
@@ -256,10 +311,12 @@ std::vector<Outcome> group(std::vector<PartOutcome> parts, std::span<const std::
 
 std::size_t countPackable(std::span<const Outcome> outcomes) {
     std::size_t parts = 0;
+    std::size_t stops = 0;
     std::size_t trials = 0;
     while (trials < outcomes.size() && trials < kMostPacked) {
         parts += outcomes[trials].parts.size();
-        if (parts > kMostPacked) break;
+        stops += outcomes[trials].stops.size();
+        if (parts > kMostPacked || stops > kMostPacked) break;
         ++trials;
     }
     return trials;
@@ -270,11 +327,16 @@ std::string packOutcomes(std::span<const Outcome> outcomes) {
     std::vector<PartOutcome> parts;
     std::string counts;
     bool single = true;
+    std::size_t stops = 0;
     for (const Outcome& outcome : outcomes) {
+        stops += outcome.stops.size();
         parts.insert(parts.end(), outcome.parts.begin(), outcome.parts.end());
         appendWord(counts, static_cast<std::uint32_t>(outcome.parts.size()));
         single = single && outcome.parts.size() == 1;
     }
+    const bool streamed = stops > 0 || std::ranges::any_of(parts, [](const PartOutcome& part) {
+                              return !part.entered || bitsOf(*part.entered) != 0;
+                          });
     const Layout layout = findLayout(parts);
     const std::uint32_t unit = findUnit(parts, layout);
 
@@ -289,11 +351,17 @@ std::string packOutcomes(std::span<const Outcome> outcomes) {
             positions.add(bitsOf(outcome.farthest.position[axis]));
     }
     addRotations(parts, layout, planes);
+    if (streamed) {
+        addEntries(parts, planes);
+        addStops(outcomes, planes);
+    }
 
     std::string bytes(1, static_cast<char>(kVersion));
     bytes.push_back(static_cast<char>((layout.tickedTimes ? kTicked : 0) |
-                                      (layout.unitRotations ? kUnit : 0) | (single ? 0 : kCounted)));
+                                      (layout.unitRotations ? kUnit : 0) | (single ? 0 : kCounted) |
+                                      (streamed ? kStreamed : 0)));
     if (!single) appendWord(bytes, static_cast<std::uint32_t>(parts.size()));
+    if (streamed) appendWord(bytes, static_cast<std::uint32_t>(stops));
     return bytes + base::compress(planes);
 }
 
@@ -301,20 +369,24 @@ base::Result<std::vector<Outcome>> unpackOutcomes(std::string_view bytes, std::s
     const base::Error damaged{"These bytes are not " + std::to_string(count) + " outcomes of trials.",
                               base::ErrorKind::damaged};
     if (count > kMostPacked || bytes.size() < 2 || bytes.front() != kVersion ||
-        (bytes[1] & ~(kTicked | kUnit | kCounted)) != 0)
+        (bytes[1] & ~(kTicked | kUnit | kCounted | kStreamed)) != 0)
         return damaged;
     const Layout layout{(bytes[1] & kTicked) != 0, (bytes[1] & kUnit) != 0};
     const bool counted = (bytes[1] & kCounted) != 0;
+    const bool streamed = (bytes[1] & kStreamed) != 0;
     bytes.remove_prefix(2);
     std::size_t partCount = count;
-    if (counted) {
+    std::size_t stopCount = 0;
+    for (std::size_t* number : {counted ? &partCount : nullptr, streamed ? &stopCount : nullptr}) {
+        if (number == nullptr) continue;
         if (bytes.size() < 4) return damaged;
-        partCount = readWord(bytes);
+        *number = readWord(bytes);
         bytes.remove_prefix(4);
-        if (partCount > kMostPacked) return damaged;
+        if (*number > kMostPacked) return damaged;
     }
     const std::size_t before = 4 + (counted ? 4 * count : 0);
-    const auto unpacked = base::decompress(bytes, before + partCount * bytesEach(layout));
+    const std::size_t ofParts = partCount * (bytesEach(layout) + (streamed ? kBytesOfEntry : 0));
+    const auto unpacked = base::decompress(bytes, before + ofParts + stopCount * kBytesOfStop);
     if (!unpacked) return damaged;
     const std::string_view plain = *unpacked;
     std::vector<std::uint32_t> counts(count, 1);
@@ -340,7 +412,11 @@ base::Result<std::vector<Outcome>> unpackOutcomes(std::string_view bytes, std::s
             parts[i].farthest.position[axis] = std::bit_cast<double>(numbers[i]);
     }
     takeRotations(planes, layout, codes, parts);
-    return group(std::move(parts), counts);
+    if (streamed) takeEntries(planes, parts);
+    std::vector<Outcome> outcomes = group(std::move(parts), counts);
+    if (!takeStops(PlaneReader(plain.substr(before + ofParts), stopCount), stopCount, outcomes))
+        return damaged;
+    return outcomes;
 }
 
 }  // namespace trapwright::trial

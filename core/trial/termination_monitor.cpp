@@ -29,20 +29,36 @@ std::optional<Ending> TerminationMonitor::update(std::size_t part, double time, 
     progress.lastX = x;
     if (!progress.started) {
         progress = {true, time, x, x, time};
+        outcome.entered = time;
         outcome.initial = here;
         outcome.farthest = here;
     }
     if (x > outcome.farthest.position.x()) outcome.farthest = here;
     if (x >= progress.markedX + termination_.stuckProgress) {
+        noteStop(part, progress, time);
         progress.markedX = x;
         progress.markedTime = time;
     }
     const std::optional<Ending> ending = findEnding(progress, time, here.position);
     if (ending) {
+        noteStop(part, progress, time);
         outcome.ending = *ending;
         --running_;
     }
     return ending;
+}
+
+void TerminationMonitor::leaveOut(std::size_t part, double time) {
+    PartOutcome& outcome = outcome_.parts[part];
+    outcome.ending = Ending::timedOut;
+    outcome.time = time;
+    outcome.entered.reset();
+    --running_;
+}
+
+void TerminationMonitor::noteStop(std::size_t part, const Progress& progress, double time) {
+    if (termination_.until > 0.0 && time - progress.markedTime >= termination_.stuckTime)
+        outcome_.stops.push_back({part, progress.markedTime, time});
 }
 
 std::optional<Ending> TerminationMonitor::findEnding(const Progress& progress, double time,
@@ -52,6 +68,8 @@ std::optional<Ending> TerminationMonitor::findEnding(const Progress& progress, d
     const bool aside =
         std::abs(position.y()) > track_->width || position.x() < track_->begin() - track_->width;
     if (position.z() < 0.0 || aside) return Ending::fellOff;
+    if (termination_.until > 0.0)
+        return time >= termination_.until ? std::optional(Ending::timedOut) : std::nullopt;
     if (time - progress.markedTime >= termination_.stuckTime) return Ending::stuck;
     if (time - progress.startTime >= termination_.timeLimit) return Ending::timedOut;
     return std::nullopt;

@@ -24,6 +24,9 @@ class TerminationMonitor {
     /// farthest.
     std::optional<Ending> update(std::size_t part, double time, const base::Pose& pose);
 
+    /// A part that never came, because there was no room for it, is not waited for any more.
+    void leaveOut(std::size_t part, double time);
+
     /// The trial is over when all runs are; outcome() is then complete.
     [[nodiscard]] bool isOver() const { return running_ == 0; }
     [[nodiscard]] const Outcome& outcome() const { return outcome_; }
@@ -42,6 +45,8 @@ class TerminationMonitor {
 
     [[nodiscard]] std::optional<Ending> findEnding(const Progress& progress, double time,
                                                    const base::Vec3& position) const;
+    /// Notes that a part of a stream stood still since it was marked, if it did so for long enough.
+    void noteStop(std::size_t part, const Progress& progress, double time);
 
     const track::Track* track_;
     Termination termination_;

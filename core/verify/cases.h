@@ -26,6 +26,12 @@ std::vector<Row> runRidgeSlide(const trial::EngineKind& kind, const base::RunCon
 std::vector<Row> runThinWall(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runStillTrack(const trial::EngineKind& kind, const base::RunControl& control);
 
+std::vector<Row> runCollision(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runStack(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runColumn(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runClimbing(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runHeap(const trial::EngineKind& kind, const base::RunControl& control);
+
 std::vector<Row> runStablePoses(const trial::EngineKind& kind, const base::RunControl& control);
 
 }  // namespace trapwright::verify

@@ -51,18 +51,11 @@ double findDeepest(const trial::Trajectory& trajectory, const part::Part& part) 
     return deepest;
 }
 
-/// Largest rise of the energy above what it has been, as a share of the kinetic and lift energy at hand.
-double findEnergyGain(const trial::TrialBatch& scene, const trial::Trajectory& trajectory) {
+/// The same as a share of the kinetic and lift energy at hand.
+double findEnergyGainShare(const trial::TrialBatch& scene, const trial::Trajectory& trajectory) {
     const double first = calcEnergy(scene, trajectory.samples.front());
-    double least = first;
-    double gain = 0.0;
-    for (const trial::TrajectorySample& sample : trajectory.samples) {
-        const double energy = calcEnergy(scene, sample);
-        gain = std::max(gain, energy - least);
-        least = std::min(least, energy);
-    }
-    const double scale = first - scene.parts[0]->massProperties.mass * scene.gravity * 15.0 * kMillimetre;
-    return gain / scale;
+    return findEnergyGain(scene, trajectory) /
+           (first - scene.parts[0]->massProperties.mass * scene.gravity * 15.0 * kMillimetre);
 }
 
 /// Energy may rise by this share: overlaps of a few micrometres are lifted out.
@@ -107,7 +100,7 @@ std::vector<Row> runRidgeDrop(const trial::EngineKind& kind, const base::RunCont
                    : Vec3(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
         const trial::Trajectory trajectory = replayScene(*engine, scene, 2e-4, control);
         deepest = std::max(deepest, findDeepest(trajectory, *scene.parts[0]));
-        gain = std::max(gain, findEnergyGain(scene, trajectory));
+        gain = std::max(gain, findEnergyGainShare(scene, trajectory));
     }
     return {{"dropped on a ridge at 1 m/s, 40 ways: overlap", "< 0.1 mm",
              fmt::format("{:.4f} mm", deepest * 1e3), deepest < 1e-4},
@@ -130,7 +123,7 @@ std::vector<Row> runRidgeSlide(const trial::EngineKind& kind, const base::RunCon
         scene.trials[0].parts[0].velocity = Vec3(0.8, 0.0, 0.0);
         const trial::Trajectory trajectory = replayScene(*engine, scene, 2e-4, control);
         deepest = std::max(deepest, findDeepest(trajectory, *scene.parts[0]));
-        gain = std::max(gain, findEnergyGain(scene, trajectory));
+        gain = std::max(gain, findEnergyGainShare(scene, trajectory));
         least = std::min(least, trajectory.samples.back().parts[0].room.position.x());
     }
     return {{"sliding over a ridge at 0.8 m/s: overlap", "< 0.1 mm, gets across",

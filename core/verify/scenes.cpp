@@ -25,22 +25,54 @@ std::vector<double> spread(double from, double to, int count) {
 
 }  // namespace
 
-std::shared_ptr<const part::Part> makeCuboid(const Vec3& size, double density) {
+namespace {
+
+/// The hull of these corners, whose centre of mass is the origin.
+std::shared_ptr<part::Part> makeConvex(const std::vector<Vec3>& corners, double density) {
     auto part = std::make_shared<part::Part>();
-    part->name = "cuboid";
     part->density = density;
+    part->hull = geometry::computeConvexHull(corners).value();
+    part->pieces = {part->hull};
+    part->mesh = geometry::toMesh(part->hull);
+    part->massProperties = geometry::calcMassProperties(part->mesh, density);
+    for (const Vec3& corner : corners)
+        part->boundingRadius = std::max(part->boundingRadius, corner.norm());
+    return part;
+}
+
+}  // namespace
+
+std::shared_ptr<const part::Part> makeCuboid(const Vec3& size, double density) {
     std::vector<Vec3> corners;
     corners.reserve(8);
     for (int i = 0; i < 8; ++i)
         corners.emplace_back(
             Vec3((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1).cwiseProduct(0.5 * size));
-    part->hull = geometry::computeConvexHull(corners).value();
-    part->pieces = {part->hull};
-    part->mesh = geometry::toMesh(part->hull);
-    part->massProperties = geometry::calcMassProperties(part->mesh, density);
-    part->boundingRadius = 0.5 * size.norm();
+    const auto part = makeConvex(corners, density);
+    part->name = "cuboid";
     part->symmetry.name = "D2";
     part->symmetry.rotations = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    return part;
+}
+
+std::shared_ptr<const part::Part> makePrism(const std::vector<Vec2>& profile, double width, double density) {
+    // The centre of mass of a prism lies over that of its profile (shoelace formula).
+    double area = 0.0;
+    Vec2 centre = Vec2::Zero();
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const Vec2& from = profile[i];
+        const Vec2& to = profile[(i + 1) % profile.size()];
+        const double twice = from.x() * to.y() - to.x() * from.y();
+        area += twice;
+        centre += twice * (from + to) / 3.0;
+    }
+    centre /= area;
+    std::vector<Vec3> corners;
+    for (const Vec2& point : profile)
+        for (const double side : {-0.5, 0.5})
+            corners.emplace_back(point.x() - centre.x(), side * width, point.y() - centre.y());
+    const auto part = makeConvex(corners, density);
+    part->name = "prism";
     return part;
 }
 
@@ -139,11 +171,22 @@ trial::Trajectory replayScene(const trial::Engine& engine, const trial::TrialBat
     return std::move(trajectory).value();
 }
 
+double findEnergyGain(const trial::TrialBatch& scene, const trial::Trajectory& trajectory) {
+    const double first = calcEnergy(scene, trajectory.samples.front());
+    double least = first;
+    double gain = 0.0;
+    for (const trial::TrajectorySample& sample : trajectory.samples) {
+        const double energy = calcEnergy(scene, sample);
+        gain = std::max(gain, energy - least);
+        least = std::min(least, energy);
+    }
+    return gain;
+}
+
 double calcEnergy(const trial::TrialBatch& scene, const trial::TrajectorySample& sample) {
     double energy = 0.0;
-    for (std::size_t i = 0; i < sample.parts.size(); ++i) {
-        const trial::PartState& part = sample.parts[i];
-        const std::size_t kind = scene.trials[0].parts[i].part;
+    for (const trial::PartState& part : sample.parts) {
+        const std::size_t kind = scene.trials[0].parts[part.part].part;
         const geometry::MassProperties& mass = scene.parts[kind]->massProperties;
         const Vec3 spin = part.room.rotation.conjugate() * part.angularVelocity;
         energy += 0.5 * mass.mass * part.velocity.squaredNorm() + 0.5 * spin.dot(mass.inertia * spin) +

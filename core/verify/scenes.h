@@ -17,6 +17,11 @@ std::shared_ptr<const part::Part> makeCuboid(const base::Vec3& size, double dens
 /// The bundled cuboid of the paper: 4 x 8 x 12 mm, ABS.
 std::shared_ptr<const part::Part> makePaperCuboid();
 
+/// A prism along y, as wide as that, of a convex profile in (x, z), counter-clockwise seen from -y; the
+/// origin is its centre of mass.
+std::shared_ptr<const part::Part> makePrism(const std::vector<base::Vec2>& profile, double width,
+                                            double density);
+
 /// A linear track whose surface is z = height(x, y), sampled at the given x and y. Start at the first x + 60
 /// mm, finish at the last x.
 std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, const std::vector<double>& ys,
@@ -44,6 +49,9 @@ trial::TrialBatch makeStillScene(std::shared_ptr<const track::Track> track,
 /// engine fails.
 trial::Trajectory replayScene(const trial::Engine& engine, const trial::TrialBatch& scene, double interval,
                               const base::RunControl& control);
+
+/// Largest rise of the energy above what it has been, without anything that drives. [J]
+double findEnergyGain(const trial::TrialBatch& scene, const trial::Trajectory& trajectory);
 
 /// Kinetic and potential energy of a sample, over the height 0. [J]
 double calcEnergy(const trial::TrialBatch& scene, const trial::TrajectorySample& sample);

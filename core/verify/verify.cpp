@@ -22,6 +22,11 @@ std::vector<Case> allCases() {
             {"thin-wall", runThinWall},
             {"still-track", runStillTrack},
             {"step-halved", runStepHalved},
+            {"collision", runCollision, true},
+            {"stack", runStack, true},
+            {"column", runColumn, true},
+            {"climbing", runClimbing, true},
+            {"heap", runHeap, true},
             {"stable-poses", runStablePoses}};
 }
 
@@ -30,6 +35,7 @@ bool runCases(const trial::EngineKind& kind, const std::string& filter, const ba
     bool passed = true;
     for (const Case& test : allCases()) {
         if (test.name.find(filter) == std::string::npos) continue;
+        if (test.hasSeveralParts && !kind.takesStreams) continue;
         if (control.cancelled()) return false;
         try {
             for (const Row& row : test.run(kind, control)) {

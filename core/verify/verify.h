@@ -21,9 +21,10 @@ struct Row {
 struct Case {
     std::string name;
     std::function<std::vector<Row>(const trial::EngineKind&, const base::RunControl&)> run;
+    bool hasSeveralParts = false;  // for engines that can (EngineKind::takesStreams)
 };
 
-/// Every case that any engine must pass, in the order of decisions.md#engines-in-agreement.
+/// Every case that an engine must pass, in the order of decisions.md#engines-in-agreement.
 std::vector<Case> allCases();
 
 /// Runs the cases whose names contain `filter` (all if empty), handing out each case's rows as they come.

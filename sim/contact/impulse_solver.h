@@ -63,6 +63,11 @@ class ImpulseSolver {
 
     /// Forgets all impulses: nothing touches any more.
     void release() { remembered_.clear(); }
+    /// Forgets the impulses of one body: it is not there any more.
+    void forget(trial::Body body) {
+        std::erase_if(remembered_,
+                      [body](const Remembered& old) { return old.bodyA == body || old.bodyB == body; });
+    }
     [[nodiscard]] bool released() const { return remembered_.empty(); }
 
     static constexpr int kMaxContacts = 12;

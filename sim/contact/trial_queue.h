@@ -25,7 +25,7 @@ struct LikeTrials {
     std::vector<Member> members;
 };
 
-/// All trials of the batches, each of one part.
+/// All trials of the batches that are of one part.
 inline std::vector<LikeTrials> groupLikeTrials(std::span<const trial::TrialBatch> batches) {
     std::vector<LikeTrials> groups;
     const auto findGroup = [&](const trial::TrialBatch& batch, const part::Part& part) -> LikeTrials& {
@@ -39,12 +39,26 @@ inline std::vector<LikeTrials> groupLikeTrials(std::span<const trial::TrialBatch
     };
     for (std::size_t b = 0; b < batches.size(); ++b) {
         for (std::size_t i = 0; i < batches[b].trials.size(); ++i) {
+            if (!isOfOnePart(batches[b], batches[b].trials[i])) continue;
             LikeTrials& group = findGroup(batches[b], batches[b].partOf(batches[b].trials[i]));
             if (group.members.empty() || group.members.back().batch != b) group.members.push_back({b, {}});
             group.members.back().trials.push_back(i);
         }
     }
     return groups;
+}
+
+/// Places of all trials of the batches that are not of one part.
+struct StreamPlace {
+    std::size_t batch = 0;
+    std::size_t trial = 0;
+};
+inline std::vector<StreamPlace> listStreams(std::span<const trial::TrialBatch> batches) {
+    std::vector<StreamPlace> places;
+    for (std::size_t b = 0; b < batches.size(); ++b)
+        for (std::size_t i = 0; i < batches[b].trials.size(); ++i)
+            if (!isOfOnePart(batches[b], batches[b].trials[i])) places.push_back({b, i});
+    return places;
 }
 
 /// Like trials, handed out one by one to the threads of an engine. A `Scene` is what an engine prepares for

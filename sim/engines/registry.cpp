@@ -13,11 +13,12 @@ using trial::EngineRole;
 
 template <class EngineType>
 trial::EngineKind describe(std::string title, EngineRole role, double freeMotionTolerance,
-                           std::string about = {}) {
+                           bool takesStreams = true, std::string about = {}) {
     const auto make = [](const trial::EngineOptions& options) {
         return std::make_unique<EngineType>(options);
     };
-    return {EngineType::kName, make, std::move(title), role, freeMotionTolerance, std::move(about)};
+    return {EngineType::kName,   make,         std::move(title), role,
+            freeMotionTolerance, takesStreams, std::move(about)};
 }
 
 }  // namespace
@@ -25,9 +26,9 @@ trial::EngineKind describe(std::string title, EngineRole role, double freeMotion
 const trial::EngineRegistry& registry() {
     static const trial::EngineRegistry engines({
         describe<simbody::SimbodyEngine>("Simbody", EngineRole::reference, 1e-6),
-        describe<native::NativeEngine>("Native", EngineRole::quick, 1e-3),
+        describe<native::NativeEngine>("Native", EngineRole::quick, 1e-3, false),
         describe<simbody::CertifyingEngine>(
-            "Simbody, certifying", EngineRole::certifying, 1e-3,
+            "Simbody, certifying", EngineRole::certifying, 1e-3, false,
             "the continuous contact law under an error-controlled integrator, some hundred times slower"),
     });
     return engines;

@@ -137,8 +137,7 @@ void FreeBodies::beginStep(double dt) {
 
 base::Pose FreeBodies::pose(int slot) const {
     const double* q = model_->state.getQ().getContiguousScalarData() + static_cast<std::ptrdiff_t>(kQ) * slot;
-    return {base::Quaternion(q[0], q[1], q[2], q[3]),
-            fromSimbody(model_->bodies[slot].getBodyOriginLocation(model_->state))};
+    return {base::Quaternion(q[0], q[1], q[2], q[3]), {q[4], q[5], q[6]}};
 }
 
 BodyMotion FreeBodies::before(int slot) const {

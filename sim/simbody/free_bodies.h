@@ -30,7 +30,7 @@ class FreeBodies {
 
     /// Tells what gravity and gyroscopic torque do to all bodies in the coming step.
     void beginStep(double dt);
-    [[nodiscard]] base::Pose pose(int slot) const;             // at the step's begin
+    [[nodiscard]] base::Pose pose(int slot) const;             // at the step's begin, or after endStep
     [[nodiscard]] contact::BodyMotion before(int slot) const;  // motion of the step before
     [[nodiscard]] contact::BodyMotion free(int slot) const;    // before + unconstrained acceleration * dt
     [[nodiscard]] contact::BodyMotion now(int slot, double dt) const;  // at the pose's time, third order

@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "sim/contact/trial_queue.h"
 #include "sim/simbody/free_bodies.h"
+#include "sim/simbody/stream_run.h"
 #include "sim/simbody/trial_lane.h"
 
 namespace trapwright::simbody {
@@ -112,7 +113,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;
     for (const trial::TrialBatch& batch : batches) {
-        if (const auto problem = findSinglePartProblem(batch, kName)) return *problem;
+        if (const auto problem = findProblem(batch)) return *problem;
         outcomes.emplace_back(batch.trials.size());
     }
 
@@ -133,12 +134,54 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
         }
         if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     }
+    const std::vector<contact::StreamPlace> streams = contact::listStreams(batches);
+    try {
+        base::parallelFor(streams.size(), threads_, [&](std::size_t i, unsigned) {
+            const auto [b, trial] = streams[i];
+            const double step = batches[b].stepOf(step_, kDefaultStep);
+            StreamRun run(std::make_shared<const StreamScene>(batches[b]), trial, step);
+            trial::CostLaps laps(costs_.get());
+            for (long steps = 1; run.step(laps); ++steps)
+                if (steps % kStepsPerLook == 0 && !control.mayGoOn()) return;
+            outcomes[b][trial] = run.outcome();
+            control.advance(1);
+        });
+    } catch (const std::exception& e) {
+        return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
+    }
+    if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     return outcomes;
+}
+
+base::Result<trial::Trajectory> SimbodyEngine::replayStream(const trial::TrialBatch& batch, std::size_t index,
+                                                            double interval,
+                                                            base::RunControl control) const {
+    try {
+        const double step = batch.stepOf(step_, kDefaultStep);
+        StreamRun run(std::make_shared<const StreamScene>(batch), index, step);
+        trial::CostLaps laps(nullptr);
+        trial::Trajectory trajectory;
+        while (true) {
+            if (!control.mayGoOn()) return base::Error{"The replay was cancelled."};
+            const double time = run.time();
+            const bool goesOn = run.begin();
+            if (!goesOn || time + 0.5 * step >= static_cast<double>(trajectory.samples.size()) * interval)
+                trajectory.samples.push_back(run.sample());
+            if (!goesOn) break;
+            run.finish(laps);
+        }
+        trajectory.outcome = run.outcome();
+        control.advance(1);
+        return trajectory;
+    } catch (const std::exception& e) {
+        return base::Error{std::string("Simbody could not replay the trial: ") + e.what()};
+    }
 }
 
 base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                       double interval, base::RunControl control) const {
-    if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
+    if (const auto problem = findProblem(batch, index)) return *problem;
+    if (!isOfOnePart(batch, batch.trials[index])) return replayStream(batch, index, interval, control);
     try {
         const part::Part& part = batch.partOf(batch.trials[index]);
         const geometry::MassProperties& mass = part.massProperties;

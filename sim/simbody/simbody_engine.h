@@ -29,6 +29,10 @@ class SimbodyEngine : public trial::Engine {
                                                          base::RunControl control) const override;
 
  private:
+    [[nodiscard]] base::Result<trial::Trajectory> replayStream(const trial::TrialBatch& batch,
+                                                               std::size_t index, double interval,
+                                                               base::RunControl control) const;
+
     unsigned threads_;
     double step_;
     std::shared_ptr<trial::CostMeter> costs_;

@@ -22,9 +22,10 @@ TrialLane::TrialLane(std::shared_ptr<const Scene> scene, std::size_t trial, Free
       stepsPerCheck_(std::max(1L, std::lround(kCheckInterval / dt))),
       drive_(scene_->batch->driveOf(scene_->batch->trials[trial]), scene_->batch->track->shape,
              scene_->batch->trials[trial].phase),
-      contact_(scene_->track, scene_->body, drive_, scene_->batch->contactOf(scene_->batch->trials[trial]),
-               dt),
+      contact_(scene_->track, drive_,
+               {scene_->batch->contactOf(scene_->batch->trials[trial]), scene_->batch->partsContact}, dt),
       progress_(*scene_->batch->track, scene_->batch->termination, 1) {
+    contact_.add(0, scene_->body);
     // At rest in the room, where the track is at the drive's phase.
     const trial::PartStart& start = scene_->batch->trials[trial].parts.front();
     bodies.place(slot, drive_.placement(0.0).toRoom(start.pose), {start.velocity, start.angularVelocity}, dt);
@@ -37,9 +38,9 @@ std::optional<trial::Ending> TrialLane::step(FreeBodies& bodies, int slot, trial
         if (ending) return ending;
     }
     laps.end(&trial::Costs::integration);
-    const contact::StepResult result =
-        contact_.step(steps_, pose, bodies.inverseMass(), bodies.inverseInertia(), bodies.before(slot),
-                      bodies.free(slot), laps);
+    const contact::SteppedPart part{pose, bodies.inverseMass(), bodies.inverseInertia(), bodies.before(slot),
+                                    bodies.free(slot)};
+    const contact::StepResult result = contact_.step(steps_, {&part, 1}, laps).front();
     bodies.resolve(slot, result);
     carrying_ = result.carrying;
     ++steps_;

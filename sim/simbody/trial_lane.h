@@ -5,7 +5,7 @@
 
 #include "core/trial/batch.h"
 #include "core/trial/termination_monitor.h"
-#include "sim/contact/part_contact.h"
+#include "sim/contact/trial_contact.h"
 #include "sim/simbody/free_bodies.h"
 
 namespace trapwright::simbody {
@@ -42,7 +42,7 @@ class TrialLane {
     long steps_ = 0;
     long stepsPerCheck_;
     contact::DriveMotion drive_;
-    contact::PartContact contact_;
+    contact::TrialContact contact_;
     trial::TerminationMonitor progress_;
     int carrying_ = 0;
 };

@@ -56,7 +56,7 @@ bool isScored(const objectives::Objective& objective) {
 }
 
 Outcome finishedAfter(double way, double seconds, const base::Quaternion& rotation) {
-    Outcome outcome{{trial::PartOutcome()}};
+    Outcome outcome{{trial::PartOutcome()}, {}};
     outcome.parts[0].ending = trial::Ending::finished;
     outcome.parts[0].initial.position.x() = 60e-3;
     outcome.parts[0].farthest.position.x() = 60e-3 + way;
@@ -138,7 +138,7 @@ class ObjectivesTest : public QObject {
     // Paper, section 4.1: -1.3 is the last segment plus 30 percent of the one before.
     void distanceIsEquation3() {
         const Judge judge;
-        Outcome outcome{{trial::PartOutcome()}};
+        Outcome outcome{{trial::PartOutcome()}, {}};
         outcome.parts[0].ending = trial::Ending::stuck;
         // Sections at 0, 80, 110, 146, 182 mm, finish at 164 mm: half of the last segment and 0.8 of the one
         // before.
@@ -160,7 +160,7 @@ class ObjectivesTest : public QObject {
         judge.symmetry = testing::makeD2();
         const auto initial = drawRotations(8, 30);
         const auto final = drawRotations(9, 1);
-        std::vector<Outcome> outcomes(30, Outcome{{trial::PartOutcome()}});
+        std::vector<Outcome> outcomes(30, Outcome{{trial::PartOutcome()}, {}});
         for (std::size_t i = 0; i < 30; ++i) {
             outcomes[i].parts[0].ending = trial::Ending::finished;
             outcomes[i].parts[0].initial.rotation = initial[i];
@@ -189,7 +189,7 @@ class ObjectivesTest : public QObject {
         QCOMPARE(scoreOf(worst, "F_C"), -3.0);
         QVERIFY(std::abs(scoreOf(worst, "F_D") + 2.75) < 1e-12);
         // Even from equal starts to random ends.
-        std::vector<Outcome> outcomes(20, Outcome{{trial::PartOutcome()}});
+        std::vector<Outcome> outcomes(20, Outcome{{trial::PartOutcome()}, {}});
         const auto ends = drawRotations(10, 20);
         for (std::size_t i = 0; i < 20; ++i) {
             outcomes[i].parts[0].farthest.position.x() = judge.track.start;

@@ -60,7 +60,7 @@ class FakeEngine : public trial::Engine {
 
     [[nodiscard]] base::Result<trial::Trajectory> replay(const trial::TrialBatch& batch, std::size_t index,
                                                          double, base::RunControl) const override {
-        return trial::Trajectory{{}, {{law_(batch, batch.trials[index])}}};
+        return trial::Trajectory{{}, {{law_(batch, batch.trials[index])}, {}}};
     }
 
  private:

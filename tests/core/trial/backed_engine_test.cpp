@@ -61,7 +61,7 @@ class FaultyEngine : public trial::Engine {
         if (faults_.lost.contains(spec.stream.trial))
             part.farthest.position.z() = std::numeric_limits<double>::quiet_NaN();
         if (faults_.thrown.contains(spec.stream.trial)) part.farthest.position.x() = 1e6;
-        return {{part}};
+        return {{part}, {}};
     }
 
     std::string name_;

@@ -122,7 +122,7 @@ trial::TrialBatch makeBatch() {
     batch.drive = {next(), next(), next()};
     batch.contact = {next(), next(), next(), next(), 0x123456789ABCDEFU};
     batch.partsContact = {next(), next(), next()};
-    batch.termination = {next(), next(), next()};
+    batch.termination = {next(), next(), next(), next()};
     batch.gravity = next();
     batch.step = next();
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -144,7 +144,9 @@ std::vector<trial::Outcome> makeOutcomes() {
     std::vector<trial::Outcome> outcomes;
     for (const trial::Ending ending :
          {trial::Ending::finished, trial::Ending::fellOff, trial::Ending::stuck, trial::Ending::timedOut})
-        outcomes.push_back({{{ending, next.pose(), next.pose(), next()}}});
+        outcomes.push_back({{{ending, next.pose(), next.pose(), next(), next()}}, {}});
+    outcomes.back().parts.front().entered.reset();
+    outcomes.back().stops = {{0, next(), next()}, {1, next(), next()}};
     outcomes.back().parts.push_back(outcomes.front().parts.front());
     outcomes.emplace_back();
     return outcomes;
@@ -252,17 +254,18 @@ bool same(const trial::TrialBatch& a, const trial::TrialBatch& b) {
     return same(a.drive, b.drive) && same(a.contact, b.contact) && same(a.partsContact, b.partsContact) &&
            same(a.termination.timeLimit, b.termination.timeLimit) &&
            same(a.termination.stuckTime, b.termination.stuckTime) &&
-           same(a.termination.stuckProgress, b.termination.stuckProgress) && same(a.gravity, b.gravity) &&
+           same(a.termination.stuckProgress, b.termination.stuckProgress) &&
+           same(a.termination.until, b.termination.until) && same(a.gravity, b.gravity) &&
            same(a.step, b.step) && allSame(a.trials, b.trials, kSame);
 }
 
 bool same(const std::vector<trial::Outcome>& a, const std::vector<trial::Outcome>& b) {
     const auto samePart = [](const trial::PartOutcome& x, const trial::PartOutcome& y) {
         return x.ending == y.ending && same(x.initial, y.initial) && same(x.farthest, y.farthest) &&
-               same(x.time, y.time);
+               same(x.time, y.time) && x.entered == y.entered;
     };
     return allSame(a, b, [&](const trial::Outcome& x, const trial::Outcome& y) {
-        return allSame(x.parts, y.parts, samePart);
+        return allSame(x.parts, y.parts, samePart) && x.stops == y.stops;
     });
 }
 
@@ -395,8 +398,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 517, and this program "
-                         "knows version 5; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 518, and this program "
+                         "knows version 6; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

@@ -12,7 +12,7 @@ using testing::turn;
 namespace {
 
 trial::Outcome ended(trial::Ending ending, const base::Quaternion& rotation = base::Quaternion::Identity()) {
-    trial::Outcome outcome{{trial::PartOutcome()}};
+    trial::Outcome outcome{{trial::PartOutcome()}, {}};
     outcome.parts[0].ending = ending;
     outcome.parts[0].farthest.rotation = rotation;
     return outcome;

@@ -46,7 +46,7 @@ std::vector<Outcome> manyLikely(std::size_t count, double step = 2e-4) {
     base::Random random({.seed = 11, .trial = static_cast<std::uint32_t>(count)});
     std::vector<Outcome> outcomes;
     for (std::size_t i = 0; i < count; ++i)
-        outcomes.push_back({{likely(random, step)}});
+        outcomes.push_back({{likely(random, step)}, {}});
     return outcomes;
 }
 
@@ -93,6 +93,30 @@ class OutcomeCodecTest : public QObject {
         for (const Outcome& outcome : *back)
             QVERIFY(outcome.parts[0].initial == base::Pose());
         QCOMPARE(trial::packOutcomes(*back), bytes);
+    }
+
+    // Of streams, too: parts that came later or never, and who stood still when.
+    void streamsComeBack() {
+        base::Random random({.seed = 12});
+        std::vector<Outcome> outcomes(20);
+        for (std::size_t i = 0; i < outcomes.size(); ++i) {
+            for (std::size_t k = 0; k < 3 * i; ++k) {
+                PartOutcome& part = outcomes[i].parts.emplace_back(likely(random, 2e-4));
+                part.entered = k % 4 == 0 ? std::nullopt : std::optional(random.uniform(0.0, 60.0));
+            }
+            for (std::size_t k = 0; k < i / 4; ++k)
+                outcomes[i].stops.push_back({k, random.uniform(0.0, 30.0), random.uniform(30.0, 60.0)});
+        }
+        const std::string bytes = trial::packOutcomes(outcomes);
+        const auto back = trial::unpackOutcomes(bytes, outcomes.size());
+        QVERIFY(back.ok());
+        QVERIFY(*back == outcomes);
+        QCOMPARE(trial::packOutcomes(*back), bytes);
+        // Of single trials nothing of it is written.
+        QCOMPARE(trial::packOutcomes(manyLikely(1)).at(1) & 8, 0);
+        // A stop of a part that there is not.
+        outcomes[4].stops[0].part = 99;
+        QVERIFY(!trial::unpackOutcomes(trial::packOutcomes(outcomes), outcomes.size()).ok());
     }
 
     /// One such outcome among likely ones.

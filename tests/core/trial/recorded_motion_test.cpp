@@ -27,7 +27,9 @@ Trajectory makeRide(const track::FeederShape& shape, const base::Pose& onTrack) 
         // A second one rides with it, turned half about.
         for (const double angle : {0.0, base::kPi}) {
             const base::Quaternion half(Eigen::AngleAxisd(angle, Vec3::UnitX()));
-            sample.parts.push_back({{turn * onTrack.rotation * half, turn * onTrack.position + shift}, {}});
+            PartState& part = sample.parts.emplace_back();
+            part.room = {turn * onTrack.rotation * half, turn * onTrack.position + shift};
+            part.part = sample.parts.size() - 1;
         }
         sample.forces.resize(static_cast<std::size_t>(i));
         ride.samples.push_back(sample);
@@ -86,6 +88,33 @@ class RecordedMotionTest : public QObject {
         QVERIFY(motion.forcesAt(0.49).empty());
         QCOMPARE(motion.forcesAt(0.5).size(), std::size_t{1});
         QCOMPARE(motion.path(0, 0.1).size(), std::size_t{2});
+    }
+
+    // Of a stream: one comes at the second sample and is gone after the third, one never comes.
+    void partsComeAndGo() {
+        Trajectory stream;
+        stream.outcome.parts.resize(3);
+        for (int i = 0; i < 5; ++i) {
+            TrajectorySample& sample = stream.samples.emplace_back();
+            sample.time = i;
+            PartState state;
+            state.room.position = Vec3(i, 0.0, 0.0);
+            sample.parts.push_back(state);
+            state.part = 2;
+            state.room.position = Vec3(10.0 + i, 0.0, 0.0);
+            if (i == 1 || i == 2) sample.parts.push_back(state);
+        }
+        const RecordedMotion motion(stream, {});
+        const auto x = [&](std::size_t part, double time) { return motion.poseAt(part, time).position.x(); };
+        QVERIFY(motion.isThere(0, 0.0) && motion.isThere(0, 4.0));
+        QVERIFY(!motion.isThere(2, 0.9) && motion.isThere(2, 1.0) && motion.isThere(2, 2.9));
+        QVERIFY(!motion.isThere(2, 3.0));
+        QVERIFY(!motion.isThere(1, 2.0) && motion.poseAt(1, 2.0) == base::Pose());
+        QCOMPARE(x(0, 3.5), 3.5);
+        QCOMPARE(x(2, 0.0), 11.0);
+        QCOMPARE(x(2, 1.5), 11.5);
+        QCOMPARE(x(2, 4.0), 12.0);
+        QCOMPARE(motion.path(2, 0.1).size(), std::size_t{2});
     }
 
     void nothingIsNoMotion() {

@@ -99,13 +99,13 @@ class StudyTrialsTest : public QObject {
         stored.time = 3.2;
         stored.farthest.position.x() = 0.56;
         trial::PartOutcome replayed = stored;
-        QVERIFY(!workflow::findDifference({{stored}}, before, {{replayed}}, now));
+        QVERIFY(!workflow::findDifference({{stored}, {}}, before, {{replayed}, {}}, now));
         // Starts are no ends.
         replayed.initial.position.x() = 1e-3;
-        QVERIFY(!workflow::findDifference({{stored}}, before, {{replayed}}, now));
+        QVERIFY(!workflow::findDifference({{stored}, {}}, before, {{replayed}, {}}, now));
 
         const auto text = [&](const trial::OutcomeMaker& maker) {
-            const auto difference = workflow::findDifference({{stored}}, before, {{replayed}}, maker);
+            const auto difference = workflow::findDifference({{stored}, {}}, before, {{replayed}, {}}, maker);
             return difference ? QString::fromStdString(workflow::describe(*difference)) : QString();
         };
         replayed.farthest.position.x() = std::nextafter(0.56, 1.0);
