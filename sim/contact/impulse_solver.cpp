@@ -173,38 +173,55 @@ bool isOfSameBodies(const MovingContact& a, const MovingContact& b) {
 
 }  // namespace
 
-/// Parts that touch each other, directly or by others, and what they touch.
-struct ImpulseSolver::Island {
-    std::vector<int> bodies;
-    std::vector<int> contacts;  // in their order
+/// What solveTogether() works with, kept from step to step.
+struct ImpulseSolver::Workspace {
+    std::vector<ScaledBody> bodies;
+    std::vector<int> places;  // of all bodies, among these
+    std::vector<scalar::PairConstraint> rows;
+    scalar::PartMotions free;
 };
 
-void ImpulseSolver::reduce(std::span<const MovingContact> contacts, bool sameBodies) {
-    if (sameBodies) {
-        points_.clear();
-        for (const MovingContact& contact : contacts)
-            points_.push_back({contact.arm, contact.normal, contact.gap});
-        kept_.resize(kMaxContacts);
-        kept_.resize(static_cast<std::size_t>(reduceManifold(points_, kept_)));
-        return;
-    }
+ImpulseSolver::ImpulseSolver() : workspace_(std::make_unique<Workspace>()) {}
+ImpulseSolver::~ImpulseSolver() = default;
+ImpulseSolver::ImpulseSolver(ImpulseSolver&&) noexcept = default;
+ImpulseSolver& ImpulseSolver::operator=(ImpulseSolver&&) noexcept = default;
+
+void ImpulseSolver::reduce(std::span<const MovingContact> contacts) {
     kept_.clear();
-    std::vector<bool> taken(contacts.size(), false);
-    std::vector<int> own;
-    for (std::size_t first = 0; first < contacts.size(); ++first) {
-        if (taken[first]) continue;
-        own.clear();
+    for (std::size_t first = 0; first < contacts.size();) {
         points_.clear();
-        for (std::size_t i = first; i < contacts.size(); ++i) {
-            if (!isOfSameBodies(contacts[i], contacts[first])) continue;
-            taken[i] = true;
-            own.push_back(static_cast<int>(i));
-            points_.push_back({contacts[i].arm, contacts[i].normal, contacts[i].gap});
-        }
+        std::size_t end = first;
+        for (; end < contacts.size() && isOfSameBodies(contacts[end], contacts[first]); ++end)
+            points_.push_back({contacts[end].arm, contacts[end].normal, contacts[end].gap});
         std::array<int, kMaxContacts> kept;
         const int count = reduceManifold(points_, kept);
         for (int i = 0; i < count; ++i)
-            kept_.push_back(own[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])]);
+            kept_.push_back(static_cast<int>(first) + kept[static_cast<std::size_t>(i)]);
+        first = end;
+    }
+}
+
+void ImpulseSolver::findIslands(std::size_t bodies, std::span<const MovingContact> contacts) {
+    islandOf_.resize(bodies);
+    std::iota(islandOf_.begin(), islandOf_.end(), 0);
+    for (const int i : kept_) {
+        const MovingContact& contact = contacts[static_cast<std::size_t>(i)];
+        if (contact.bodyA == trial::kTrack) continue;
+        const auto ofA = islandOf_[static_cast<std::size_t>(contact.bodyA)];
+        const auto ofB = islandOf_[static_cast<std::size_t>(contact.bodyB)];
+        if (ofA != ofB)
+            std::replace(islandOf_.begin(), islandOf_.end(), std::max(ofA, ofB), std::min(ofA, ofB));
+    }
+    islands_.resize(bodies);
+    for (Island& island : islands_) {
+        island.bodies.clear();
+        island.contacts.clear();
+    }
+    for (std::size_t i = 0; i < bodies; ++i)
+        islands_[static_cast<std::size_t>(islandOf_[i])].bodies.push_back(static_cast<int>(i));
+    for (const int i : kept_) {
+        const auto body = static_cast<std::size_t>(contacts[static_cast<std::size_t>(i)].bodyB);
+        islands_[static_cast<std::size_t>(islandOf_[body])].contacts.push_back(i);
     }
 }
 
@@ -215,30 +232,14 @@ std::span<const StepResult> ImpulseSolver::solve(std::span<const MovingBody> bod
     for (const MovingBody& body : bodies)
         results_.push_back({body.free, body.free, 0});
     impulses_.clear();
+    impulseOf_.assign(contacts.size(), -1);
     next_.clear();
-    reduce(contacts, bodies.size() == 1);
+    reduce(contacts);
     if (bodies.size() == 1) {
         solveAlone(bodies, contacts, kept_, laws, dt);
     } else {
-        // Which island each body is on: that of the first body on it.
-        std::vector<int> island(bodies.size());
-        std::iota(island.begin(), island.end(), 0);
-        for (const int i : kept_) {
-            const MovingContact& contact = contacts[static_cast<std::size_t>(i)];
-            if (contact.bodyA == trial::kTrack) continue;
-            const auto ofA = island[static_cast<std::size_t>(contact.bodyA)];
-            const auto ofB = island[static_cast<std::size_t>(contact.bodyB)];
-            std::replace(island.begin(), island.end(), std::max(ofA, ofB), std::min(ofA, ofB));
-        }
-        std::vector<Island> islands(bodies.size());
-        for (std::size_t i = 0; i < bodies.size(); ++i)
-            islands[static_cast<std::size_t>(island[i])].bodies.push_back(static_cast<int>(i));
-        for (const int i : kept_) {
-            const MovingContact& contact = contacts[static_cast<std::size_t>(i)];
-            islands[static_cast<std::size_t>(island[static_cast<std::size_t>(contact.bodyB)])]
-                .contacts.push_back(i);
-        }
-        for (const Island& one : islands) {
+        findIslands(bodies.size(), contacts);
+        for (const Island& one : islands_) {
             if (one.contacts.empty()) continue;
             if (one.bodies.size() == 1)
                 solveAlone(bodies, contacts, one.contacts, laws, dt);
@@ -282,15 +283,16 @@ void ImpulseSolver::solveAlone(std::span<const MovingBody> bodies, std::span<con
 
 void ImpulseSolver::solveTogether(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
                                   const Island& island, const ContactLaws& laws, double dt) {
-    std::vector<ScaledBody> own;
-    for (const int body : island.bodies)
+    auto& [own, places, rows, free] = *workspace_;
+    own.clear();
+    places.resize(bodies.size());
+    for (const int body : island.bodies) {
+        places[static_cast<std::size_t>(body)] = static_cast<int>(own.size());
         own.emplace_back(bodies[static_cast<std::size_t>(body)]);
-    const auto placeOf = [&](trial::Body body) {
-        return static_cast<int>(std::ranges::find(island.bodies, body) - island.bodies.begin());
-    };
-    std::vector<scalar::PairConstraint> rows(island.contacts.size());
+    }
+    const auto placeOf = [&places](trial::Body body) { return places[static_cast<std::size_t>(body)]; };
+    rows.resize(island.contacts.size());
     const int count = static_cast<int>(rows.size());
-    scalar::PartMotions free;
     free.parts.resize(own.size());
     for (int moment = 0;; ++moment) {
         const bool last = moment + 1 == scalar::kMostMoments;
@@ -337,17 +339,18 @@ void ImpulseSolver::keep(const MovingContact& contact, int index, const scalar::
     if (row.normal <= 0.0) return;
     const Vec3 perMass = row.normal * fromTriple(row.axis[0]) + row.tangential.x * fromTriple(row.axis[1]) +
                          row.tangential.y * fromTriple(row.axis[2]);
-    const auto known = std::ranges::find(impulses_, index, &ContactImpulse::contact);
-    if (known != impulses_.end()) {
-        known->impulse += mass * perMass;
+    int& place = impulseOf_[static_cast<std::size_t>(index)];
+    if (place >= 0) {
+        impulses_[static_cast<std::size_t>(place)].impulse += mass * perMass;
         return;
     }
+    place = static_cast<int>(impulses_.size());
     impulses_.push_back({index, mass * perMass});
     ++results_[static_cast<std::size_t>(contact.bodyB)].carrying;
     if (contact.bodyA != trial::kTrack) ++results_[static_cast<std::size_t>(contact.bodyA)].carrying;
 }
 
-scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact, int moment) const {
+scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact, int moment) {
     scalar::MovingContact touch{toTriple(contact.arm),
                                 toTriple(contact.normal),
                                 contact.gap,
@@ -357,9 +360,13 @@ scalar::MovingContact ImpulseSolver::describe(const MovingContact& contact, int 
                                 0.0,
                                 {0.0, 0.0},
                                 false};
-    for (const Remembered& old : remembered_) {
+    // Contacts come in about the same order in each step.
+    for (std::size_t tried = 0; tried < remembered_.size(); ++tried, ++expected_) {
+        if (expected_ >= remembered_.size()) expected_ = 0;
+        const Remembered& old = remembered_[expected_];
         if (old.feature != contact.feature || old.bodyA != contact.bodyA || old.bodyB != contact.bodyB)
             continue;
+        ++expected_;
         touch.known = true;
         if (moment == 0) {
             touch.normalImpulse = old.normal;

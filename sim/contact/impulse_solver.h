@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -52,8 +53,14 @@ struct ContactImpulse {
 /// it were alone, bit for bit. One solver per running trial: it remembers impulses from step to step.
 class ImpulseSolver {
  public:
-    /// dt [s]. Of each two bodies, contacts that say the same are taken as one, and more than kMaxContacts
-    /// are thinned out. Slot i of the result is for body i; valid until the next call.
+    ImpulseSolver();
+    ~ImpulseSolver();
+    ImpulseSolver(ImpulseSolver&&) noexcept;
+    ImpulseSolver& operator=(ImpulseSolver&&) noexcept;
+
+    /// dt [s]. Contacts of the same two bodies stand one after the other; those of them that say the same are
+    /// taken as one, and more than kMaxContacts are thinned out. Slot i of the result is for body i; valid
+    /// until the next call.
     std::span<const StepResult> solve(std::span<const MovingBody> bodies,
                                       std::span<const MovingContact> contacts, const ContactLaws& laws,
                                       double dt);
@@ -72,8 +79,7 @@ class ImpulseSolver {
 
     static constexpr int kMaxContacts = 12;
 
- private:
-    /// What a contact's impulses were, per mass of B.
+    /// What a contact's impulses were in the last step, per mass of B.
     struct Remembered {
         trial::Body bodyA, bodyB;
         std::uint64_t feature;
@@ -81,23 +87,39 @@ class ImpulseSolver {
         scalar::Pair tangential;  // along the constraint's two tangents
         bool sliding;
     };
-    struct Island;
+    /// What the next step begins with: for an engine that solves some parts of a step elsewhere.
+    [[nodiscard]] std::vector<Remembered>& memory() { return remembered_; }
 
-    void reduce(std::span<const MovingContact> contacts, bool sameBodies);
+ private:
+    /// Parts that touch each other, directly or by others, and what they touch.
+    struct Island {
+        std::vector<int> bodies;
+        std::vector<int> contacts;  // in their order
+    };
+    struct Workspace;
+
+    void findIslands(std::size_t bodies, std::span<const MovingContact> contacts);
+
+    void reduce(std::span<const MovingContact> contacts);
     void solveAlone(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
                     std::span<const int> kept, const ContactLaws& laws, double dt);
     void solveTogether(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
                        const Island& island, const ContactLaws& laws, double dt);
     void keep(const MovingContact& contact, int index, const scalar::ContactConstraint& row, double mass,
               int moment);
-    [[nodiscard]] scalar::MovingContact describe(const MovingContact& contact, int moment) const;
+    [[nodiscard]] scalar::MovingContact describe(const MovingContact& contact, int moment);
 
     std::vector<StepResult> results_;
     std::vector<int> kept_;  // contacts that stand for all
     std::vector<scalar::ContactConstraint> rows_;
     std::vector<ManifoldPoint> points_;
+    std::vector<int> islandOf_;  // of each body: the first body on it
+    std::vector<Island> islands_;
     std::vector<Remembered> remembered_, next_;
+    std::size_t expected_ = 0;  // where remembered_ is likely to have the next contact
     std::vector<ContactImpulse> impulses_;
+    std::vector<int> impulseOf_;  // of each contact, its place in impulses_; -1: none
+    std::unique_ptr<Workspace> workspace_;
 };
 
 }  // namespace trapwright::contact

@@ -52,9 +52,9 @@ struct VertexOnFace {
     int face = -1;       // none: no contact
 };
 
-/// `edges`: the vertex's edges, away from it. All in the piece's frame.
-VertexOnFace testVertex(const BodyPiece& piece, const Vec3& vertex, std::span<const Vec3> edges,
-                        double margin) {
+/// `vertex`, in the piece's frame, is one of `other`, whose axes `turn` takes to the piece's.
+VertexOnFace testVertex(const BodyPiece& piece, const Vec3& vertex, const BodyPiece& other,
+                        const BodyVertex& own, const base::Mat3& turn, double margin) {
     VertexOnFace result;
     int nearest = 0;
     double outside = -std::numeric_limits<double>::infinity();
@@ -71,8 +71,12 @@ VertexOnFace testVertex(const BodyPiece& piece, const Vec3& vertex, std::span<co
     // The vertex's part must lie above the face: otherwise it passes beside it.
     const auto holds = [&](int f) {
         const Vec3& normal = piece.faces[static_cast<std::size_t>(f)].normal;
-        return std::ranges::all_of(
-            edges, [&](const Vec3& edge) { return normal.dot(edge) >= -scalar::kConeSlack; });
+        const std::span edges(other.vertexEdges.data() + own.firstEdge,
+                              static_cast<std::size_t>(own.edgeCount));
+        return std::ranges::all_of(edges, [&](const Vec3& edge) {
+            const Vec3 turned = turn * edge;
+            return normal.dot(turned) >= -scalar::kConeSlack;
+        });
     };
     if (holds(nearest)) {
         result.face = nearest;
@@ -92,19 +96,6 @@ VertexOnFace testVertex(const BodyPiece& piece, const Vec3& vertex, std::span<co
     return result;
 }
 
-/// The edges of a vertex as another frame has them, away from it.
-class TurnedEdges {
- public:
-    TurnedEdges(const BodyPiece& piece, const BodyVertex& vertex, const base::Mat3& turn) {
-        for (int e = 0; e < vertex.edgeCount; ++e)
-            edges_.push_back(turn * piece.vertexEdges[static_cast<std::size_t>(vertex.firstEdge + e)]);
-    }
-    [[nodiscard]] std::span<const Vec3> list() const { return edges_; }
-
- private:
-    std::vector<Vec3> edges_;
-};
-
 scalar::Edge toEdge(const BodyEdge& edge) {
     return {toTriple(edge.from),
             toTriple(edge.direction),
@@ -114,14 +105,16 @@ scalar::Edge toEdge(const BodyEdge& edge) {
 
 /// The same, in A's frame.
 BodyEdge moveEdge(const BodyEdge& edge, const Pose& bInA, const base::Mat3& turn) {
-    return {bInA.apply(edge.from), bInA.apply(edge.to),  turn * edge.direction,
-            edge.length,           {turn * edge.into[0], turn * edge.into[1]}};
+    return {bInA.apply(edge.from),
+            bInA.apply(edge.to),
+            turn * edge.direction,
+            edge.length,
+            {turn * edge.into[0], turn * edge.into[1]}};
 }
 
 double distance(const BodyEdge& a, const BodyEdge& b) {
-    const scalar::Triple between =
-        scalar::findBetween({toTriple(a.from), toTriple(a.direction), a.length},
-                            {toTriple(b.from), toTriple(b.direction), b.length});
+    const scalar::Triple between = scalar::findBetween({toTriple(a.from), toTriple(a.direction), a.length},
+                                                       {toTriple(b.from), toTriple(b.direction), b.length});
     return fromTriple(between).norm();
 }
 
@@ -155,8 +148,7 @@ void PairDetector::findContacts(const Pose& poseA, const Pose& poseB, double mov
             case Kind::vertexOfB: {
                 const BodyVertex& vertex = pieceB.vertices[featureB];
                 const Vec3 point = bInA.apply(vertex.position);
-                const VertexOnFace found =
-                    testVertex(pieceA, point, TurnedEdges(pieceB, vertex, turn).list(), margin);
+                const VertexOnFace found = testVertex(pieceA, point, pieceB, vertex, turn, margin);
                 clear = found.clear;
                 if (found.face >= 0)
                     contacts.push_back({point, pieceA.faces[static_cast<std::size_t>(found.face)].normal,
@@ -166,8 +158,7 @@ void PairDetector::findContacts(const Pose& poseA, const Pose& poseB, double mov
             case Kind::vertexOfA: {
                 const BodyVertex& vertex = pieceA.vertices[featureA];
                 const Vec3 point = turnBack * (vertex.position - bInA.position);
-                const VertexOnFace found =
-                    testVertex(pieceB, point, TurnedEdges(pieceA, vertex, turnBack).list(), margin);
+                const VertexOnFace found = testVertex(pieceB, point, pieceA, vertex, turnBack, margin);
                 clear = found.clear;
                 if (found.face >= 0)
                     contacts.push_back({vertex.position,

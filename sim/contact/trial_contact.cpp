@@ -10,15 +10,6 @@ namespace trapwright::contact {
 
 using base::Vec3;
 
-namespace {
-
-/// Added to what a part can travel in a step, so that contacts are there before they carry. [m]
-constexpr double kMargin = 5e-6;
-/// Parts whose balls are nearer than this are a pair. [m]
-constexpr double kNear = 2e-3;
-
-}  // namespace
-
 TrialContact::TrialContact(const ContactTrack& track, const DriveMotion& drive, const ContactLaws& laws,
                            double dt)
     : laws_(laws), drive_(drive), dt_(dt), track_(&track) {
@@ -30,11 +21,12 @@ TrialContact::TrialContact(const ContactTrack& track, const DriveMotion& drive, 
 void TrialContact::add(int slot, const ContactBody& body) {
     if (slot >= slotCount()) parts_.resize(static_cast<std::size_t>(slot) + 1);
     parts_[static_cast<std::size_t>(slot)].emplace(Part{Detector(*track_, body), &body, {}});
+    pairs_.add(slot, body);
 }
 
 void TrialContact::remove(int slot) {
     parts_[static_cast<std::size_t>(slot)].reset();
-    std::erase_if(pairs_, [slot](const Pair& pair) { return pair.a == slot || pair.b == slot; });
+    pairs_.remove(slot);
     solver_.forget(slot);
 }
 
@@ -47,7 +39,7 @@ void TrialContact::findTrackContacts(int slot, const SteppedPart& part) {
     const double turn = std::abs(next_.sine - now_.sine) * own.body->radius;
     const double reach = (part.free.velocity * dt_ - trackStep).norm() +
                          part.free.angularVelocity.norm() * dt_ * own.body->radius + turn;
-    own.detector.findContacts(now_.toTrack(part.pose), own.lastReach, 1.1 * reach + kMargin, found_);
+    own.detector.findContacts(now_.toTrack(part.pose), own.lastReach, 1.1 * reach + kTravelMargin, found_);
     if (laws_.track.roughness > 0.0) roughen(found_);
     for (Contact& contact : found_) {
         contact.bodyB = slot;
@@ -55,61 +47,32 @@ void TrialContact::findTrackContacts(int slot, const SteppedPart& part) {
         const Vec3 here = now_.toRoom(contact.point);
         stepContacts_.push_back({here - part.pose.position, now_.turn(contact.normal), contact.gap,
                                  (next_.toRoom(contact.point) - here) / dt_,
-                                 (here - before_.toRoom(contact.point)) / dt_, contact.feature,
-                                 contact.bodyA, contact.bodyB});
+                                 (here - before_.toRoom(contact.point)) / dt_, contact.feature, contact.bodyA,
+                                 contact.bodyB});
     }
 }
 
 void TrialContact::findPairContacts(std::span<const SteppedPart> parts) {
-    const auto place = [](int slot) { return static_cast<std::size_t>(slot); };
-    // Who is near whom; those that were are looked at first, so that they keep what they know.
-    std::size_t kept = 0;
-    for (int a = 0; a < slotCount(); ++a) {
-        if (!parts_[place(a)]) continue;
-        for (int b = a + 1; b < slotCount(); ++b) {
-            if (!parts_[place(b)]) continue;
-            const double balls = parts_[place(a)]->body->radius + parts_[place(b)]->body->radius;
-            const double near = balls + kNear;
-            const bool isNear =
-                (parts[place(b)].pose.position - parts[place(a)].pose.position).squaredNorm() < near * near;
-            const auto known = std::find_if(pairs_.begin() + static_cast<std::ptrdiff_t>(kept), pairs_.end(),
-                                            [&](const Pair& pair) { return pair.a == a && pair.b == b; });
-            if (!isNear) continue;
-            if (known == pairs_.end()) {
-                pairs_.insert(pairs_.begin() + static_cast<std::ptrdiff_t>(kept),
-                              {a, b,
-                               std::make_unique<PairDetector>(*parts_[place(a)]->body,
-                                                              *parts_[place(b)]->body)});
-            } else {
-                std::rotate(pairs_.begin() + static_cast<std::ptrdiff_t>(kept), known, known + 1);
-            }
-            ++kept;
-        }
+    positions_.clear();
+    for (const SteppedPart& part : parts)
+        positions_.push_back(part.pose.position);
+    if (pairs_.findNear(positions_).empty()) return;
+    nearParts_.resize(parts.size());
+    for (std::size_t slot = 0; slot < parts_.size(); ++slot) {
+        if (!parts_[slot]) continue;
+        const Part& own = *parts_[slot];
+        nearParts_[slot] = {parts[slot].pose, parts[slot].free.velocity, own.lastAdvance.velocity, own.turn,
+                            own.lastTurn};
     }
-    pairs_.resize(kept);
-
-    for (const Pair& pair : pairs_) {
-        const SteppedPart& a = parts[place(pair.a)];
-        const SteppedPart& b = parts[place(pair.b)];
-        const Part& ofA = *parts_[place(pair.a)];
-        const Part& ofB = *parts_[place(pair.b)];
-        const double moved = (ofB.lastAdvance.velocity - ofA.lastAdvance.velocity).norm() * dt_ +
-                             ofA.lastTurn + ofB.lastTurn;
-        const double reach = (b.free.velocity - a.free.velocity).norm() * dt_ + ofA.turn + ofB.turn;
-        found_.clear();
-        pair.detector->findContacts(a.pose, b.pose, moved, 1.1 * reach + kMargin, found_);
-        for (Contact& contact : found_) {
-            const Vec3 room = a.pose.apply(contact.point);
-            const Vec3 normal = a.pose.rotation * contact.normal;
-            contact.bodyA = pair.a;
-            contact.bodyB = pair.b;
-            contact.point = now_.toTrack(room);
-            contact.normal = now_.turnBack(normal);
-            points_.push_back(contact);
-            stepContacts_.push_back({room - b.pose.position, normal, contact.gap, Vec3::Zero(), Vec3::Zero(),
-                                     contact.feature, contact.bodyA, contact.bodyB,
-                                     room - a.pose.position});
-        }
+    partContacts_.clear();
+    pairs_.findContacts(nearParts_, dt_, partContacts_);
+    for (const PartContact& found : partContacts_) {
+        const Contact& contact = found.contact;
+        stepContacts_.push_back(describe(contact, parts[static_cast<std::size_t>(contact.bodyA)].pose,
+                                         parts[static_cast<std::size_t>(contact.bodyB)].pose));
+        points_.push_back(contact);
+        points_.back().point = now_.toTrack(contact.point);
+        points_.back().normal = now_.turnBack(contact.normal);
     }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,7 +10,7 @@
 #include "sim/contact/drive_motion.h"
 #include "sim/contact/impulse_solver.h"
 #include "sim/contact/manifold.h"
-#include "sim/contact/pair_detector.h"
+#include "sim/contact/part_pairs.h"
 
 namespace trapwright::contact {
 
@@ -59,11 +58,6 @@ class TrialContact {
         double lastReach = 0.0;  // the same by all motion relative to the track [m]
         double turn = 0.0;       // of the coming step, if nothing touches [m]
     };
-    /// Two parts that are near each other.
-    struct Pair {
-        int a, b;  // a < b
-        std::unique_ptr<PairDetector> detector;
-    };
 
     void findTrackContacts(int slot, const SteppedPart& part);
     void findPairContacts(std::span<const SteppedPart> parts);
@@ -77,7 +71,10 @@ class TrialContact {
     ImpulseSolver solver_;
     TrackPlacement before_, now_, next_;
     std::vector<std::optional<Part>> parts_;
-    std::vector<Pair> pairs_;
+    PartPairs pairs_;
+    std::vector<base::Vec3> positions_;
+    std::vector<NearPart> nearParts_;
+    std::vector<PartContact> partContacts_;
     std::vector<Contact> points_, found_;
     std::vector<ManifoldPoint> manifold_;
     std::vector<MovingContact> stepContacts_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -21,7 +22,7 @@ struct LikeTrials {
     };
 
     const trial::TrialBatch* batch = nullptr;  // one of theirs
-    const part::Part* part = nullptr;
+    const part::Part* part = nullptr;          // of trials of one part
     std::vector<Member> members;
 };
 
@@ -44,6 +45,26 @@ inline std::vector<LikeTrials> groupLikeTrials(std::span<const trial::TrialBatch
             if (group.members.empty() || group.members.back().batch != b) group.members.push_back({b, {}});
             group.members.back().trials.push_back(i);
         }
+    }
+    return groups;
+}
+
+/// All trials of the batches that are not of one part: like ones are of the same kinds of parts.
+inline std::vector<LikeTrials> groupLikeStreams(std::span<const trial::TrialBatch> batches) {
+    std::vector<LikeTrials> groups;
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+        const trial::TrialBatch& batch = batches[b];
+        LikeTrials::Member member{b, {}};
+        for (std::size_t i = 0; i < batch.trials.size(); ++i)
+            if (!isOfOnePart(batch, batch.trials[i])) member.trials.push_back(i);
+        if (member.trials.empty()) continue;
+        auto group = std::ranges::find_if(groups, [&](const LikeTrials& other) {
+            const trial::TrialBatch& like = *other.batch;
+            return like.parts == batch.parts && like.gravity == batch.gravity && like.step == batch.step &&
+                   like.drive.frequency == batch.drive.frequency;
+        });
+        if (group == groups.end()) group = groups.insert(group, LikeTrials{&batch, nullptr, {}});
+        group->members.push_back(std::move(member));
     }
     return groups;
 }

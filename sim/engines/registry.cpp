@@ -26,7 +26,7 @@ trial::EngineKind describe(std::string title, EngineRole role, double freeMotion
 const trial::EngineRegistry& registry() {
     static const trial::EngineRegistry engines({
         describe<simbody::SimbodyEngine>("Simbody", EngineRole::reference, 1e-6),
-        describe<native::NativeEngine>("Native", EngineRole::quick, 1e-3, false),
+        describe<native::NativeEngine>("Native", EngineRole::quick, 1e-3),
         describe<simbody::CertifyingEngine>(
             "Simbody, certifying", EngineRole::certifying, 1e-3, false,
             "the continuous contact law under an error-controlled integrator, some hundred times slower"),

@@ -92,10 +92,11 @@ inline PlacedLanes placeLanes(TrialLanes& group, int lane) {
     placed.turn = Real(group.model().dt) * spin;
     const Real reach = get(group, kStepPath, lane) + get(group, kStepTurned, lane);
     placed.gone = get(group, kGone, lane);
-    placed.margin = Real(1.1) * reach + Real(kMargin);
+    const Real pushed = get(group, kPushed, lane);
+    placed.margin = Real(1.1) * reach + Real(kMargin) + pushed;
     // An impulse at one contact may turn the part toward another: what comes within half of the step's reach
-    // counts.
-    placed.near = Real(0.5) * reach + Real(kMargin);
+    // counts. A part that is pushed may be pushed against all that it can reach.
+    placed.near = select(pushed > Real(0.0), Real(kUntouchable), Real(0.5) * reach + Real(kMargin));
     return placed;
 }
 
@@ -388,14 +389,14 @@ inline void lookAtFaces(TrialLanes& group, const PlacedLanes& placed, PairTable&
 }
 
 /// Fills the lists of contacts of a vector of lanes; returns the bits of those that an impulse acts on.
-inline std::uint32_t findContacts(TrialLanes& group, int lane) {
+inline std::uint32_t findContactsOf(TrialLanes& group, int lane) {
     const int width = static_cast<int>(hn::Lanes(Tag()));
     const int end = std::min(lane + width, group.count());
     for (int i = lane; i < end; ++i)
         group.found[static_cast<std::size_t>(i)].clear();
     const std::uint32_t there = (1U << static_cast<unsigned>(end - lane)) - 1U;
     const Real reach = get(group, kStepPath, lane) + get(group, kStepTurned, lane);
-    const Real margin = Real(1.1) * reach + Real(kMargin);
+    const Real margin = Real(1.1) * reach + Real(kMargin) + get(group, kPushed, lane);
     // When a lane's pairs are collected must not hang on its company: it tells their order.
     const Real gone = get(group, kGone, lane);
     const Mask leaves = calcNetWay(group, lane) + margin + Real(kReserve) >= get(group, kReach, lane) ||

@@ -42,26 +42,32 @@ void beginStepOf(TrialLanes& group) {
     }
 }
 
-void finishStepOf(TrialLanes& group) {
+void findContactsInAll(TrialLanes& group) {
     endLap(group, &trial::Costs::integration);
     const int width = static_cast<int>(hn::Lanes(Tag()));
     placeCentres(group);
     for (int first = 0; first < group.count(); first += width) {
-        const std::uint32_t carries = findContacts(group, first);
+        const std::uint32_t carries = findContactsOf(group, first);
         const int end = std::min(first + width, group.count());
         for (int lane = first; lane < end; ++lane) {
-            ContactList& found = group.found[static_cast<std::size_t>(lane)];
-            if (((carries >> static_cast<unsigned>(lane - first)) & 1U) == 0) {
+            const auto place = static_cast<std::size_t>(lane);
+            ContactList& found = group.found[place];
+            const bool isTouched = group.touched[place] != 0;
+            if (!isTouched && ((carries >> static_cast<unsigned>(lane - first)) & 1U) == 0) {
                 rememberIdle(group, lane);
                 continue;
             }
             found.sort();
             if (found.size() > kFew) reduceContacts(found);
             roughen(group, lane);
-            beginSolving(group, lane);
+            if (!isTouched) beginSolving(group, lane);
         }
     }
     endLap(group, &trial::Costs::detection);
+}
+
+void solveAndMoveOf(TrialLanes& group) {
+    const int width = static_cast<int>(hn::Lanes(Tag()));
     solveCarrying(group);
     endLap(group, &trial::Costs::law);
     for (int lane = 0; lane < group.count(); lane += width)
@@ -76,14 +82,24 @@ HWY_AFTER_NAMESPACE();
 namespace trapwright::native {
 
 HWY_EXPORT(beginStepOf);
-HWY_EXPORT(finishStepOf);
+HWY_EXPORT(findContactsInAll);
+HWY_EXPORT(solveAndMoveOf);
 
 void beginStep(TrialLanes& group) {
     HWY_DYNAMIC_DISPATCH(beginStepOf)(group);
 }
 
+void findContacts(TrialLanes& group) {
+    HWY_DYNAMIC_DISPATCH(findContactsInAll)(group);
+}
+
+void solveAndMove(TrialLanes& group) {
+    HWY_DYNAMIC_DISPATCH(solveAndMoveOf)(group);
+}
+
 void finishStep(TrialLanes& group) {
-    HWY_DYNAMIC_DISPATCH(finishStepOf)(group);
+    findContacts(group);
+    solveAndMove(group);
 }
 
 std::vector<std::string> instructionSets() {

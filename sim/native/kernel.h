@@ -12,6 +12,9 @@ namespace trapwright::native {
 void beginStep(TrialLanes& group);
 /// Second half: contacts, impulses, new poses.
 void finishStep(TrialLanes& group);
+/// The same in two: between them the impulses of lanes that are `touched` are whoever steps them's to find.
+void findContacts(TrialLanes& group);
+void solveAndMove(TrialLanes& group);
 
 /// The instruction set in use: "AVX3", "AVX2", "SSE4", "SCALAR".
 std::string instructionSet();

@@ -9,8 +9,10 @@
 #include "core/base/parallel.h"
 #include "core/trial/termination_monitor.h"
 #include "sim/contact/drive_motion.h"
+#include "sim/contact/traffic.h"
 #include "sim/contact/trial_queue.h"
 #include "sim/native/kernel.h"
+#include "sim/native/stream_trial.h"
 
 namespace trapwright::native {
 
@@ -21,16 +23,6 @@ namespace {
 constexpr int kLanes = 256;
 /// How many steps are made between two looks at the run control.
 constexpr int kStepsPerLook = 50;
-/// The ending is looked for this often. [s]
-constexpr double kCheckInterval = 2e-3;
-
-/// What all trials of one batch share.
-struct Scene {
-    explicit Scene(const trial::TrialBatch& b) : batch(&b), track(contact::prepareTrack(b.track->solid)) {}
-
-    const trial::TrialBatch* batch;
-    PackedTrack track;
-};
 
 using TrialQueue = contact::TrialQueue<Scene>;
 
@@ -55,7 +47,7 @@ class RunningTrials {
  public:
     RunningTrials(const LaneModel& model, int lanes)
         : group_(model, lanes),
-          stepsPerCheck_(static_cast<int>(std::max(1L, std::lround(kCheckInterval / model.step)))) {}
+          stepsPerCheck_(static_cast<int>(std::max(1L, std::lround(contact::kCheckInterval / model.step)))) {}
 
     void add(std::shared_ptr<const Scene> scene, std::size_t batch, std::size_t trial) {
         group_.add(scene->track, *scene->batch, scene->batch->trials[trial]);
@@ -136,26 +128,119 @@ bool isBowl(const trial::TrialBatch& batch) {
     return batch.track->shape.type == track::FeederType::bowl;
 }
 
-base::Vec3 three(const TrialLanes& group, int field, int lane) {
-    return {group.field(field)[lane], group.field(field + 1)[lane], group.field(field + 2)[lane]};
-}
-
 /// The moment at the begin of the coming step, whose first half is made.
 trial::TrajectorySample sampleOf(RunningTrials& trials, const contact::DriveMotion& drive) {
-    const TrialLanes& group = trials.group();
-    const double dt = group.model().step;
     trial::TrajectorySample sample;
     sample.time = trials.time(0);
     sample.drive = drive.displacement(sample.time);
-    trial::PartState& part = sample.parts.emplace_back();
-    part.room = group.poseInRoom(0);
-    part.room.rotation.normalize();
-    part.track = trials.run(0).progress.toTrackCoordinates(0, group.poseInTrack(0));
-    part.velocity = 0.5 * (three(group, kVelocityX, 0) + three(group, kAfterX, 0));
-    part.angularVelocity = three(group, kSpinX, 0) +
-                           dt * (0.375 * three(group, kTurnX, 0) + 0.125 * three(group, kTurnBeforeX, 0));
-    part.contacts = group.warmStarts[0].carrying;
+    sample.parts.push_back(describeState(trials.group(), 0, trials.run(0).progress, 0));
     return sample;
+}
+
+/// Parts that a stream is reckoned to have at once, at least: it begins with few.
+constexpr int kPartsOfStream = 16;
+
+/// A stream in the lanes of a thread.
+struct StreamRun {
+    StreamTrial trial;
+    std::size_t batch;
+    std::size_t index;
+};
+
+/// One thread's work, of streams: at most so many side by side.
+void runStreams(const StreamParts& kinds, double step, TrialQueue& queue, std::size_t most,
+                std::vector<std::vector<trial::Outcome>>& outcomes, trial::CostMeter* costs,
+                base::RunControl& control) {
+    trial::CostLaps laps(costs);
+    StreamLanes lanes(kinds);
+    if (costs != nullptr) lanes.measure(laps);
+    std::vector<std::unique_ptr<StreamRun>> runs;
+    const auto goesOn = [&](StreamRun& run) {
+        if (run.trial.look()) return true;
+        outcomes[run.batch][run.index] = run.trial.outcome();
+        run.trial.clear();
+        control.advance(1);
+        return false;
+    };
+    const auto hasRoom = [&] {
+        int parts = 0;
+        for (const auto& run : runs)
+            parts += std::max(run->trial.partCount(), kPartsOfStream);
+        return runs.size() < most && parts < kLanes;
+    };
+    bool more = true;
+    for (long steps = 0;; ++steps) {
+        if (steps % kStepsPerLook == 0 && !control.mayGoOn()) return;
+        std::erase_if(runs, [&](const auto& run) { return !goesOn(*run); });
+        while (more && hasRoom()) {
+            auto job = queue.next();
+            more = job.has_value();
+            if (!more) break;
+            auto run = std::make_unique<StreamRun>(StreamRun{
+                StreamTrial(std::move(job->scene), job->trial, lanes, step), job->batch, job->trial});
+            if (goesOn(*run)) runs.push_back(std::move(run));
+        }
+        if (runs.empty()) return;
+        lanes.beginStep();
+        laps.end(&trial::Costs::integration);
+        for (const auto& run : runs)
+            run->trial.findPartContacts();
+        laps.end(&trial::Costs::detection);
+        lanes.findContacts();
+        for (const auto& run : runs)
+            run->trial.solveIslands();
+        laps.end(&trial::Costs::law);
+        lanes.solveAndMove();
+        for (const auto& run : runs)
+            run->trial.endStep();
+        laps.end(&trial::Costs::integration);
+    }
+}
+
+StreamParts prepareParts(const trial::TrialBatch& batch, double step, bool anyBowl) {
+    StreamParts kinds;
+    for (const auto& part : batch.parts)
+        kinds.push_back(std::make_unique<const StreamPart>(*part, batch.gravity, step, anyBowl));
+    return kinds;
+}
+
+base::Result<trial::Trajectory> replayStream(const trial::TrialBatch& batch, std::size_t index, double step,
+                                             double interval, base::RunControl control) {
+    const StreamParts kinds = prepareParts(batch, step, isBowl(batch));
+    StreamLanes lanes(kinds);
+    lanes.record();
+    StreamTrial run(std::make_shared<const Scene>(batch), index, lanes, step);
+    std::vector<trial::ContactForce> forces;
+    trial::Trajectory trajectory;
+    while (true) {
+        if (!control.mayGoOn()) return base::Error{"The replay was cancelled."};
+        const bool goesOn = run.look();
+        lanes.beginStep();
+        if (!goesOn || run.time() + 0.5 * step >= static_cast<double>(trajectory.samples.size()) * interval) {
+            trajectory.samples.push_back(run.sample());
+            trial::TrajectorySample& sample = trajectory.samples.back();
+            // Of those that have not left meanwhile.
+            const auto isHere = [&](trial::Body body) {
+                return body == trial::kTrack ||
+                       std::ranges::find(sample.parts, static_cast<std::size_t>(body),
+                                         &trial::PartState::part) != sample.parts.end();
+            };
+            std::ranges::copy_if(forces, std::back_inserter(sample.forces), [&](const auto& force) {
+                return isHere(force.bodyA) && isHere(force.bodyB);
+            });
+        }
+        if (!goesOn) break;
+        run.findPartContacts();
+        lanes.findContacts();
+        run.rememberPlaces();
+        run.solveIslands();
+        lanes.solveAndMove();
+        forces = run.forces();
+        run.endStep();
+    }
+    trajectory.outcome = run.outcome();
+    control.advance(1);
+    return trajectory;
 }
 
 }  // namespace
@@ -173,7 +258,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     std::span<const trial::TrialBatch> batches, base::RunControl control) const {
     std::vector<std::vector<trial::Outcome>> outcomes;
     for (const trial::TrialBatch& batch : batches) {
-        if (const auto problem = findSinglePartProblem(batch, kName)) return *problem;
+        if (const auto problem = findProblem(batch)) return *problem;
         outcomes.emplace_back(batch.trials.size());
     }
     // A track is prepared once for all kinds of parts that come onto it.
@@ -184,12 +269,14 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
         if (batches[b].parts.size() > 1) scenes[b] = scene;
         return scene;
     };
+    const auto hasBowl = [&](const contact::LikeTrials& like) {
+        return std::ranges::any_of(like.members,
+                                   [&](const auto& member) { return isBowl(batches[member.batch]); });
+    };
     for (const contact::LikeTrials& like : contact::groupLikeTrials(batches)) {
         const PackedBody body(contact::prepareBody(like.part->pieces));
-        const bool anyBowl = std::ranges::any_of(
-            like.members, [&](const auto& member) { return isBowl(batches[member.batch]); });
         const LaneModel model(*like.part, body, like.batch->gravity, like.batch->stepOf(step_, kDefaultStep),
-                              anyBowl);
+                              hasBowl(like));
         TrialQueue queue(like.members, sceneOf);
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
@@ -202,13 +289,29 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
         }
         if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     }
+    for (const contact::LikeTrials& like : contact::groupLikeStreams(batches)) {
+        const double step = like.batch->stepOf(step_, kDefaultStep);
+        const StreamParts kinds = prepareParts(*like.batch, step, hasBowl(like));
+        TrialQueue queue(like.members, sceneOf);
+        const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
+        try {
+            base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
+                runStreams(kinds, step, queue, perThread, outcomes, costs_.get(), control);
+            });
+        } catch (const std::exception& e) {
+            return base::Error{std::string("The native engine could not simulate the trials: ") + e.what()};
+        }
+        if (control.cancelled()) return base::Error{"The simulation was cancelled."};
+    }
     return outcomes;
 }
 
 base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& batch, std::size_t index,
                                                      double interval, base::RunControl control) const {
-    if (const auto problem = findSinglePartProblem(batch, index, kName)) return *problem;
+    if (const auto problem = findProblem(batch, index)) return *problem;
     const trial::TrialSpec& spec = batch.trials[index];
+    if (!isOfOnePart(batch, spec))
+        return replayStream(batch, index, batch.stepOf(step_, kDefaultStep), interval, control);
     const part::Part& part = batch.partOf(spec);
     const PackedBody body(contact::prepareBody(part.pieces));
     const double step = batch.stepOf(step_, kDefaultStep);

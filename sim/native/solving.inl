@@ -227,8 +227,9 @@ inline void remember(TrialLanes& group, const SolveBatch& batch, const ContactCo
     }
 }
 
-/// Keeps what the contacts of the batch's first lane gave.
-inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, const ContactConstraint* rows) {
+/// Keeps what the contacts of these slots' lanes gave.
+inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, const ContactConstraint* rows,
+                   std::uint32_t bits) {
     for (int r = 0; r < batch.rows; ++r) {
         const ContactConstraint& row = rows[r];
         const Triple impulse =
@@ -238,15 +239,21 @@ inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, co
         store(impulse.x, values[1]);
         store(impulse.y, values[2]);
         store(impulse.z, values[3]);
-        if (values[0][0] <= 0.0F) continue;
-        const base::Vec3 arm(batch.touch(r, kArmX)[0], batch.touch(r, kArmY)[0], batch.touch(r, kArmZ)[0]);
-        const base::Vec3 given(values[1][0], values[2][0], values[3][0]);
-        const auto known = std::find_if(recorded.begin(), recorded.end(),
-                                        [&](const RecordedImpulse& other) { return other.arm == arm; });
-        if (known != recorded.end())
-            known->impulse += given;
-        else
-            recorded.push_back({arm, given});
+        forEachBit(bits, [&](int slot) {
+            if (values[0][slot] <= 0.0F) return;
+            const int lane = batch.lanes[static_cast<std::size_t>(slot)];
+            const base::Vec3 arm(batch.touch(r, kArmX)[slot], batch.touch(r, kArmY)[slot],
+                                 batch.touch(r, kArmZ)[slot]);
+            const base::Vec3 given(values[1][slot], values[2][slot], values[3][slot]);
+            const auto known =
+                std::find_if(recorded.begin(), recorded.end(), [&](const RecordedImpulse& other) {
+                    return other.lane == lane && other.arm == arm;
+                });
+            if (known != recorded.end())
+                known->impulse += given;
+            else
+                recorded.push_back({lane, arm, given});
+        });
     }
 }
 
@@ -349,7 +356,7 @@ inline void solveBatch(TrialLanes& group, SolveBatch& batch) {
         forEachBit(more,
                    [&](int slot) { awaitNextMoment(group, batch.lanes[static_cast<std::size_t>(slot)]); });
     }
-    if (group.recorded != nullptr && settled != 0) record(*group.recorded, batch, rows);
+    if (group.recorded != nullptr) record(*group.recorded, batch, rows, settled);
     if (settled != there) awaitAgain(group, batch, rows, there & ~settled, energetic, burst);
     batch.filled = 0;
 }

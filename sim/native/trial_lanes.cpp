@@ -52,8 +52,11 @@ void keepDistinct(ContactList& found) {
     found.shrink(kept);
 }
 
+/// A turn in what TrialLanes::phase counts.
+constexpr double kWholeTurn = 4294967296.0;
+
 std::uint32_t toTurns(double turns) {
-    return static_cast<std::uint32_t>(std::llround((turns - std::floor(turns)) * 4294967296.0));
+    return static_cast<std::uint32_t>(std::llround((turns - std::floor(turns)) * kWholeTurn));
 }
 
 }  // namespace
@@ -83,6 +86,7 @@ TrialLanes::TrialLanes(const LaneModel& model, int capacity)
       found(capacity),
       plastic(capacity),
       smooth(capacity),
+      touched(capacity),
       model_(&model),
       // Not a power of two: fields of one lane would fall into the same few lines of the cache.
       stride_(padToVectors(capacity) + kWidestVector),
@@ -97,7 +101,7 @@ TrialLanes::TrialLanes(const LaneModel& model, int capacity)
 }
 
 void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& batch,
-                     const trial::TrialSpec& spec) {
+                     const trial::TrialSpec& spec, std::size_t part, long step) {
     const int lane = count_++;
     for (int f = 0; f < kFieldCount; ++f)
         field(f)[lane] = 0.0F;
@@ -107,11 +111,33 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
             set(f + k, value[k]);
     };
 
-    // At rest in the room, where the track is at the drive's phase.
-    const trial::PartStart& start = spec.parts.front();
+    const trial::PartStart& start = spec.parts[part];
     const trial::Vibration& vibration = batch.driveOf(spec);
     const contact::DriveMotion drive(vibration, batch.track->shape, spec.phase);
-    const base::Pose pose = drive.placement(0.0).toRoom(start.pose);
+    const contact::DriveMotion::Amplitudes amplitudes = drive.amplitudes();
+    set(kDriveAlong, amplitudes.along);
+    set(kDriveUp, amplitudes.up);
+    set(kDriveTurn, amplitudes.turn);
+
+    const double dt = model_->step;
+    const double turns = vibration.frequency * dt;
+    const double begin = spec.phase / (2.0 * base::kPi);
+    cycle[lane] = toTurns(turns);
+    phase[lane] = toTurns(begin + 2.0 * turns) + static_cast<std::uint32_t>(step) * cycle[lane];
+    // Later on exactly where the drive of the lanes is that were there from the begin on.
+    const auto sine = [&](int ahead) {
+        const std::uint32_t then = phase[lane] + static_cast<std::uint32_t>(ahead - 2) * cycle[lane];
+        return std::sin(2.0 * base::kPi *
+                        (step == 0 ? begin + ahead * turns : static_cast<double>(then) / kWholeTurn));
+    };
+    set(kDriveBefore, sine(-1));
+    set(kDriveNow, sine(0));
+    set(kDriveNext, sine(1));
+
+    // At rest in the room, where the track is at the drive's phase.
+    const contact::TrackPlacement placement =
+        step == 0 ? drive.placement(0.0) : contact::DriveMotion::calcPlacement(amplitudes, sine(0));
+    const base::Pose pose = placement.toRoom(start.pose);
     for (int k = 0; k < 3; ++k)
         position(k)[lane] = pose.position[k];
     set(kPositionX, pose.position.x());
@@ -120,28 +146,14 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     setThree(kRotationX, pose.rotation.vec());
 
     // Velocities belong to the middles of steps: go back by half of one.
-    const double dt = model_->step;
     const Mat3 rotation = pose.rotation.toRotationMatrix();
-    const Mat3 inertia = rotation * batch.partOf(spec).massProperties.inertia * rotation.transpose();
+    const Mat3 inertia = rotation * batch.parts[start.part]->massProperties.inertia * rotation.transpose();
     const Vec3& w = start.angularVelocity;
     const Vec3 turn = -inertia.inverse() * w.cross(inertia * w);
     setThree(kTurnX, turn);
     setThree(kTurnBeforeX, turn);
     setThree(kSpinX, w - 0.5 * dt * turn);
     setThree(kVelocityX, start.velocity + Vec3(0.0, 0.0, 0.5 * dt * batch.gravity));
-
-    const double turns = vibration.frequency * dt;
-    const double begin = spec.phase / (2.0 * base::kPi);
-    const auto sine = [&](int step) { return std::sin(2.0 * base::kPi * (begin + step * turns)); };
-    set(kDriveBefore, sine(-1));
-    set(kDriveNow, sine(0));
-    set(kDriveNext, sine(1));
-    phase[lane] = toTurns(begin + 2.0 * turns);
-    cycle[lane] = toTurns(turns);
-    const contact::DriveMotion::Amplitudes amplitudes = drive.amplitudes();
-    set(kDriveAlong, amplitudes.along);
-    set(kDriveUp, amplitudes.up);
-    set(kDriveTurn, amplitudes.turn);
 
     const trial::ContactParameters& contact = batch.contactOf(spec);
     set(kStaticFriction, contact.staticFriction);
@@ -155,6 +167,7 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     pairsOf(lane).clear(lane % kWidestVector);
     warmStarts[lane].count = 0;
     warmStarts[lane].carrying = 0;
+    touched[lane] = 0;
 }
 
 void TrialLanes::remove(int lane) {
@@ -177,6 +190,28 @@ void TrialLanes::remove(int lane) {
     pairsOf(lane).copy(lane % kWidestVector, left, last % kWidestVector);
     left.clear(last % kWidestVector);
     warmStarts[lane] = warmStarts[last];
+    touched[lane] = touched[last];
+}
+
+void TrialLanes::grow(int capacity) {
+    TrialLanes larger(*model_, capacity);
+    for (int f = 0; f < kFieldCount; ++f)
+        std::copy_n(field(f), count_, larger.field(f));
+    for (int k = 0; k < 3; ++k) {
+        std::copy_n(position(k), count_, larger.position(k));
+        std::copy_n(origin(k), count_, larger.origin(k));
+    }
+    std::copy_n(phase.begin(), count_, larger.phase.begin());
+    std::copy_n(cycle.begin(), count_, larger.cycle.begin());
+    std::copy_n(track.begin(), count_, larger.track.begin());
+    std::copy_n(law.begin(), count_, larger.law.begin());
+    std::copy_n(warmStarts.begin(), count_, larger.warmStarts.begin());
+    std::copy_n(touched.begin(), count_, larger.touched.begin());
+    std::move(pairs_.begin(), pairs_.end(), larger.pairs_.begin());
+    larger.count_ = count_;
+    larger.laps = laps;
+    larger.recorded = recorded;
+    *this = std::move(larger);
 }
 
 base::Pose TrialLanes::poseInRoom(int lane) const {
@@ -194,6 +229,23 @@ base::Pose TrialLanes::poseInTrack(int lane) const {
                           .toTrack(poseInRoom(lane));
     pose.rotation.normalize();
     return pose;
+}
+
+trial::PartState describeState(const TrialLanes& group, int lane, const trial::TerminationMonitor& progress,
+                               std::size_t part) {
+    const auto three = [&](int field) {
+        return Vec3(group.field(field)[lane], group.field(field + 1)[lane], group.field(field + 2)[lane]);
+    };
+    trial::PartState state;
+    state.room = group.poseInRoom(lane);
+    state.room.rotation.normalize();
+    state.track = progress.toTrackCoordinates(part, group.poseInTrack(lane));
+    state.velocity = 0.5 * (three(kVelocityX) + three(kAfterX));
+    state.angularVelocity =
+        three(kSpinX) + group.model().step * (0.375 * three(kTurnX) + 0.125 * three(kTurnBeforeX));
+    state.contacts = group.warmStarts[static_cast<std::size_t>(lane)].carrying;
+    state.part = part;
+    return state;
 }
 
 void roughen(TrialLanes& group, int lane) {

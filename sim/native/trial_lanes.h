@@ -9,6 +9,8 @@
 #include "core/trial/batch.h"
 #include "core/trial/contact.h"
 #include "core/trial/costs.h"
+#include "core/trial/outcome.h"
+#include "core/trial/termination_monitor.h"
 #include "sim/contact/impulse_solver.h"
 #include "sim/native/aligned.h"
 #include "sim/native/near_pairs.h"
@@ -16,6 +18,14 @@
 #include "sim/native/packed_track.h"
 
 namespace trapwright::native {
+
+/// What all trials of one batch share.
+struct Scene {
+    explicit Scene(const trial::TrialBatch& b) : batch(&b), track(contact::prepareTrack(b.track->solid)) {}
+
+    const trial::TrialBatch* batch;
+    PackedTrack track;
+};
 
 /// What is the same for all trials of a group. Inertias per mass, in part axes.
 struct LaneModel {
@@ -70,6 +80,8 @@ enum Field : int {
     kThenSine,                                       // of the track's rotation
     kReach,                                          // a pair that was not collected was farther apart
     kSkinThickness,                                  // what is collected next is nearer; 0: not yet
+
+    kPushed,                                         // how far others may push the part in the coming step [m]
 
     kStaticFriction, kKineticFriction, kRestitution,
     kFieldCount
@@ -146,8 +158,9 @@ struct Contact {
     std::uint64_t feature;
 };
 
-/// What a contact of the last step gave the part in lane 0, per mass.
+/// What a contact of the last step gave the part in a lane, per mass.
 struct RecordedImpulse {
+    int lane;
     base::Vec3 arm;      // from the centre of mass, in the track's axes [m]
     base::Vec3 impulse;  // room axes [m/s]
 };
@@ -198,15 +211,20 @@ struct SolveBatch {
     }
 };
 
-/// Trials that run side by side, one in each lane: a structure of arrays. Lanes know nothing of each other.
+/// Parts that run side by side, one in each lane: a structure of arrays. Lanes know nothing of each other;
+/// whoever steps parts that touch each other tells which they are (touched) and solves for those himself.
 class TrialLanes {
  public:
     TrialLanes(const LaneModel& model, int capacity);
 
-    /// Begins a trial in the next free lane.
-    void add(const PackedTrack& track, const trial::TrialBatch& batch, const trial::TrialSpec& spec);
-    /// Ends the trial of a lane; the last lane moves there.
+    /// Begins with a part of a trial in the next free lane, in step `step` of the trial.
+    void add(const PackedTrack& track, const trial::TrialBatch& batch, const trial::TrialSpec& spec,
+             std::size_t part = 0, long step = 0);
+    /// Ends with the part of a lane; the last lane moves there.
     void remove(int lane);
+    /// Makes room for so many lanes.
+    void grow(int capacity);
+    [[nodiscard]] int capacity() const { return static_cast<int>(track.size()); }
 
     [[nodiscard]] int count() const { return count_; }
     [[nodiscard]] const LaneModel& model() const { return *model_; }
@@ -252,10 +270,12 @@ class TrialLanes {
     std::vector<std::int32_t> waiting;  // the same, one after the other
     std::vector<std::uint8_t> plastic;  // whether the impacts of the lane create energy
     std::vector<std::uint8_t> smooth;   // whether its friction bursts
+    std::vector<std::uint8_t> touched;  // whether other parts touch it: its contacts are found, all within
+                                        // reach, but not solved for
     SolveBatch solveBatch;
     int moment = 0;                                    // of impacts in the present step
     trial::CostLaps* laps = nullptr;                   // if the costs are to be told apart
-    std::vector<RecordedImpulse>* recorded = nullptr;  // if they are wanted, of a group of one
+    std::vector<RecordedImpulse>* recorded = nullptr;  // if they are wanted
 
  private:
     const LaneModel* model_;
@@ -267,6 +287,10 @@ class TrialLanes {
     std::vector<NearPairs> pairs_;
     std::vector<int> rows_;
 };
+
+/// Where the part of a lane is at the begin of a step whose first half is made.
+trial::PartState describeState(const TrialLanes& group, int lane, const trial::TerminationMonitor& progress,
+                               std::size_t part);
 
 /// Presses the contacts of a lane on a rough track each its grain's way.
 void roughen(TrialLanes& group, int lane);

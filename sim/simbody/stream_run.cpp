@@ -5,13 +5,6 @@
 
 namespace trapwright::simbody {
 
-namespace {
-
-/// Endings and room for the next part are looked for this often. [s]
-constexpr double kCheckInterval = 2e-3;
-
-}  // namespace
-
 StreamScene::StreamScene(const trial::TrialBatch& b)
     : batch(&b), track(contact::prepareTrack(b.track->solid)) {
     for (const auto& part : b.parts)
@@ -22,7 +15,7 @@ StreamRun::StreamRun(std::shared_ptr<const StreamScene> scene, std::size_t trial
     : scene_(std::move(scene)),
       spec_(&scene_->batch->trials[trial]),
       dt_(dt),
-      stepsPerCheck_(std::max(1L, std::lround(kCheckInterval / dt))),
+      stepsPerCheck_(std::max(1L, std::lround(contact::kCheckInterval / dt))),
       drive_(scene_->batch->driveOf(*spec_), scene_->batch->track->shape, spec_->phase),
       contact_(scene_->track, drive_, {scene_->batch->contactOf(*spec_), scene_->batch->partsContact}, dt),
       traffic_(*scene_->batch, *spec_) {
@@ -67,35 +60,16 @@ void StreamRun::leave(int slot) {
     const Place& place = places_[static_cast<std::size_t>(slot)];
     bodies_[place.kind].taken[static_cast<std::size_t>(place.body)] = false;
     bodies_[place.kind].bodies.resolve(place.body, {});
-    traffic_.leave(slot);
 }
 
 bool StreamRun::look() {
-    const double now = time();
-    posesInTrack_.assign(static_cast<std::size_t>(traffic_.slotCount()), {});
-    ended_.clear();
-    for (int slot = 0; slot < traffic_.slotCount(); ++slot) {
-        if (!traffic_.partOf(slot)) continue;
-        base::Pose& pose = posesInTrack_[static_cast<std::size_t>(slot)];
-        pose = contact_.poseInTrack(bodiesOf(slot).pose(bodyOf(slot)));
-        if (traffic_.hasEnded(slot, now, pose)) ended_.push_back(slot);
-    }
-    if (traffic_.isOver(now)) return false;
-    for (const int slot : ended_)
-        leave(slot);
-    ended_.clear();
-    while (const auto entry = traffic_.admit(now, posesInTrack_)) {
-        enter(*entry);
-        posesInTrack_.resize(static_cast<std::size_t>(traffic_.slotCount()));
-        base::Pose& pose = posesInTrack_[static_cast<std::size_t>(entry->slot)];
-        pose = spec_->parts[entry->part].pose;
-        // It may begin past the finish; others may touch it already.
-        if (traffic_.hasEnded(entry->slot, now, pose)) ended_.push_back(entry->slot);
-    }
-    if (traffic_.isOver(now)) return false;
-    for (const int slot : ended_)
-        leave(slot);
-    return true;
+    return traffic_.look(
+        time(), [&](int slot) { return contact_.poseInTrack(bodiesOf(slot).pose(bodyOf(slot))); },
+        [&](const contact::Traffic::Entry& entry) {
+            enter(entry);
+            return spec_->parts[entry.part].pose;
+        },
+        [&](int slot) { leave(slot); });
 }
 
 bool StreamRun::begin() {

@@ -72,9 +72,7 @@ class StreamRun {
     std::vector<Bodies> bodies_;  // by kind
     std::vector<Place> places_;   // by slot
     std::vector<contact::SteppedPart> parts_;
-    std::vector<base::Pose> posesInTrack_;
     std::vector<int> carrying_;  // by slot
-    std::vector<int> ended_;     // slots, while looking
 };
 
 }  // namespace trapwright::simbody
