@@ -31,7 +31,7 @@ struct PairConstraint : ContactConstraint {
     Real weight = 1.0;  // B's mass over that of the first part, by which work is compared
 };
 
-Real velocityAlong(const PairConstraint& row, const PartMotions& motion, int k) {
+inline Real velocityAlong(const PairConstraint& row, const PartMotions& motion, int k) {
     const ContactConstraint& own = row;
     const Real velocity = velocityAlong(own, motion.parts[static_cast<std::size_t>(row.b)], k);
     if (row.a < 0) return velocity;
@@ -39,7 +39,7 @@ Real velocityAlong(const PairConstraint& row, const PartMotions& motion, int k) 
     return velocity - dot(row.axis[k], other.velocity) - dot(row.turnA[k], other.spin);
 }
 
-void applyImpulse(const PairConstraint& row, PartMotions& motion, int k, Real impulse) {
+inline void applyImpulse(const PairConstraint& row, PartMotions& motion, int k, Real impulse) {
     const ContactConstraint& own = row;
     applyImpulse(own, motion.parts[static_cast<std::size_t>(row.b)], k, impulse);
     if (row.a < 0) return;

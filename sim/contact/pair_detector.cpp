@@ -112,9 +112,12 @@ BodyEdge moveEdge(const BodyEdge& edge, const Pose& bInA, const base::Mat3& turn
             {turn * edge.into[0], turn * edge.into[1]}};
 }
 
-double distance(const BodyEdge& a, const BodyEdge& b) {
-    const scalar::Triple between = scalar::findBetween({toTriple(a.from), toTriple(a.direction), a.length},
-                                                       {toTriple(b.from), toTriple(b.direction), b.length});
+/// The distance of an edge of A and one of B, in A's frame.
+double distance(const BodyEdge& a, const BodyEdge& b, const Pose& bInA, const base::Mat3& turn) {
+    const Vec3 direction = turn * b.direction;
+    const scalar::Triple between =
+        scalar::findBetween({toTriple(a.from), toTriple(a.direction), a.length},
+                            {toTriple(bInA.apply(b.from)), toTriple(direction), b.length});
     return fromTriple(between).norm();
 }
 
@@ -168,9 +171,9 @@ void PairDetector::findContacts(const Pose& poseA, const Pose& poseB, double mov
             }
             case Kind::edges: {
                 const BodyEdge& ofA = pieceA.edges[featureA];
-                const BodyEdge ofB = moveEdge(pieceB.edges[featureB], bInA, turn);
-                clear = distance(ofA, ofB) - kDeepestEdges;
+                clear = distance(ofA, pieceB.edges[featureB], bInA, turn) - kDeepestEdges;
                 if (clear + kDeepestEdges >= std::max(margin, kDeepestEdges)) break;
+                const BodyEdge ofB = moveEdge(pieceB.edges[featureB], bInA, turn);
                 const Vec3 outward = -(ofA.into[0] + ofA.into[1]);
                 const scalar::EdgeTest test =
                     scalar::testEdges(toEdge(ofB), toEdge(ofA), toTriple(outward), margin);
@@ -218,9 +221,8 @@ void PairDetector::collectCandidates(const Pose& bInA, double margin) {
                 const BodyEdge& edge = pieceA.edges[static_cast<std::size_t>(e)];
                 if (findSeparation(pieceB, toB(edge.from), toB(edge.to)) >= reach) continue;
                 for (const int other : near) {
-                    const BodyEdge moved =
-                        moveEdge(pieceB.edges[static_cast<std::size_t>(other)], bInA, turn);
-                    if (distance(edge, moved) < reach)
+                    const BodyEdge& ofB = pieceB.edges[static_cast<std::size_t>(other)];
+                    if (distance(edge, ofB, bInA, turn) < reach)
                         candidates_.push_back({Kind::edges, p, q, e, other, -1.0});
                 }
             }

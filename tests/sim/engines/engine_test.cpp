@@ -312,25 +312,6 @@ class EngineTest : public QObject {
         QVERIFY(beyond.error().message.find("There is no trial 40: the batch has 40") != std::string::npos);
     }
 
-    // No engine lets parts touch each other yet: it says so instead of leaving all but one out.
-    void severalPartsAreRefused() {
-        const auto engine = testing::makeEngine();
-        const auto refused = [&](const trial::TrialBatch& batch, std::string why) {
-            why = "The engine '" + engine->name() + "' simulates " + why;
-            const auto result = engine->run(std::vector{batch_, batch}, {});
-            const auto replay = engine->replay(batch, 3, 0.01, {});
-            return !result.ok() && result.error().message.starts_with(why) && !replay.ok() &&
-                   replay.error().message.starts_with(why);
-        };
-        trial::TrialBatch two = batch_;
-        two.trials[3].parts.push_back(two.trials[3].parts[0]);
-        QVERIFY(refused(two, "one part at a time, and trial 3 has 2."));
-        trial::TrialBatch later = batch_;
-        later.trials[3].parts[0].time = 0.5;
-        QVERIFY(
-            refused(later, "parts that are there from the begin on, and that of trial 3 comes after 0.5"));
-    }
-
     // Kinds of parts, materials and drives trial by trial: each trial ends as it does in a batch where all is
     // of this kind, bit for bit.
     void trialsOfTheirOwnKindOfPartMaterialAndDrive() {

@@ -164,6 +164,29 @@ class CertifyingTest : public QObject {
         QVERIFY((replay->outcome.parts[0].farthest.position - (*outcomes)[0][0].parts[0].farthest.position)
                     .norm() < 1e-6);
     }
+
+    // Parts do not touch each other in it: it says so instead of leaving all but one out.
+    void severalPartsAreRefused() {
+        const simbody::CertifyingEngine engine;
+        const trial::TrialBatch one = makeDrop(Quaternion::Identity(), 0.1, 0.3, 0.01);
+        const auto refused = [&](const trial::TrialBatch& batch, std::string why) {
+            why = "The engine '" + engine.name() + "' simulates " + why;
+            const auto result = engine.run(std::vector{one, batch}, {});
+            const auto replay = engine.replay(batch, 0, 0.01, {});
+            return !result.ok() && result.error().message.starts_with(why) && !replay.ok() &&
+                   replay.error().message.starts_with(why);
+        };
+        trial::TrialBatch two = one;
+        two.trials[0].parts.push_back(two.trials[0].parts[0]);
+        QVERIFY(refused(two, "one part at a time, and trial 0 has 2."));
+        trial::TrialBatch later = one;
+        later.trials[0].parts[0].time = 0.5;
+        QVERIFY(
+            refused(later, "parts that are there from the begin on, and that of trial 0 comes after 0.5"));
+        trial::TrialBatch stream = one;
+        stream.termination.until = 1.0;
+        QVERIFY(refused(stream, "no streams."));
+    }
 };
 
 QTEST_APPLESS_MAIN(CertifyingTest)
