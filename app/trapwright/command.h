@@ -32,6 +32,7 @@ void addEvolveCommand(CLI::App& program, Invocation& invocation);
 void addSelectCommand(CLI::App& program, Invocation& invocation);
 void addValidateCommand(CLI::App& program, Invocation& invocation);
 void addRobustnessCommand(CLI::App& program, Invocation& invocation);
+void addStreamCommand(CLI::App& program, Invocation& invocation);
 void addPhysicalCommand(CLI::App& program, Invocation& invocation);
 void addMendCommand(CLI::App& program, Invocation& invocation);
 void addExportCommand(CLI::App& program, Invocation& invocation);

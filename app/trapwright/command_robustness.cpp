@@ -1,23 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/trapwright/command.h"
-#include "app/trapwright/engines.h"
 #include "app/trapwright/json_records.h"
-#include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
-#include "app/trapwright/track_source.h"
+#include "app/trapwright/track_subject.h"
 #include "app/trapwright/work_display.h"
 #include "core/stats/binomial.h"
 #include "core/study/robustness.h"
-#include "core/study/track_design.h"
-#include "sim/engines/registry.h"
 
 namespace trapwright::app {
 
@@ -26,8 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-    TrackRequest track;  // its file may be a study
-    IndividualChoice choice;
+    SubjectRequest subject;
     study::RobustnessPlan plan;
     std::vector<double> expected;  // w x y z
     // Half widths of the box instead of the study's.
@@ -40,21 +33,7 @@ struct Options {
     std::optional<double> startOffset;  // [mm]
     std::optional<double> startSpeed;   // [mm/s]
     std::optional<double> roughness;    // [deg]
-    std::optional<std::string> engine;
-    unsigned threads = 0;
-    bool save = false;
-    int best = 0;  // of the last selection, one after the other; 0: one track
-};
-
-/// A track, and what it is measured with.
-struct Subject {
-    study::StudyInputs inputs;
-    std::shared_ptr<const track::Track> track;
-    std::optional<trial::Goal> goal;       // of a track that tells it
-    std::string name;                      // for people
-    std::optional<store::StudyFile> file;  // the study that it is of
-    study::IndividualId individual;        // of that
-    Json json;
+    int best = 0;                       // of the last selection, one after the other; 0: one track
 };
 
 void takeBox(const Options& options, trial::OperatingBox& box) {
@@ -121,52 +100,8 @@ Json toJson(const study::Settings& settings, const study::Robustness& robustness
     return json;
 }
 
-/// Studies are databases; a track is JSON.
-bool isTrackFile(const std::string& file) {
-    std::ifstream stream(file);
-    stream >> std::ws;
-    return stream.peek() == '{';
-}
-
-Attempt<Subject> loadTrackSubject(const Options& options, const Console& console) {
-    auto loaded = loadTrack(options.track, console);
-    if (!loaded) return loaded.error();
-    auto engine =
-        makeJudge(options.engine.value_or(engines::registry().reference().name), {options.threads, 0.0});
-    if (!engine) return engine.error();
-    const std::string name =
-        fmt::format("{}, part {}, engine {}", options.track.file, loaded->part->name, (*engine)->name());
-    Json json = {{"track", options.track.file}, {"part", loaded->part->name}};
-    return Subject{{loaded->settings, loaded->part, *engine, options.threads},
-                   loaded->track,
-                   loaded->expected ? std::optional(trial::makeGoal(*loaded->expected)) : std::nullopt,
-                   name,
-                   std::nullopt,
-                   {},
-                   std::move(json)};
-}
-
-Attempt<Subject> loadStudySubject(const Options& options, const IndividualChoice& choice) {
-    auto study = openStudy(options.track.file, options.save ? Access::write : Access::read);
-    if (!study) return study.error();
-    auto individual = findIndividual(study->file, choice);
-    if (!individual) return individual.error();
-    auto inputs = makeInputs(*study, options.engine, trial::EngineUse::learning, options.threads);
-    if (!inputs) return inputs.error();
-    auto built = study::decodeTrack(inputs->settings.track, individual->record.design);
-    if (!built) return Failure{ExitCode::badInput, built.error().message};
-    const std::string name = fmt::format("Generation {}, individual {}, engine {}", individual->generation,
-                                         individual->individual, inputs->engine->name());
-    Json json = {{"study", options.track.file},
-                 {"generation", individual->generation},
-                 {"individual", individual->individual}};
-    return Subject{
-        std::move(*inputs),     std::make_shared<const track::Track>(std::move(*built)), std::nullopt,   name,
-        std::move(study->file), {individual->generation, individual->individual},        std::move(json)};
-}
-
 /// Makes the subject what is asked for, and measures it; keeps what comes of it if that is wanted.
-Attempt<study::Robustness> measure(Subject& subject, const Options& options, const Console& console) {
+Attempt<study::Robustness> measure(TrackSubject& subject, const Options& options, const Console& console) {
     const auto expected = readExpected(options.expected);
     if (!expected) return expected.error();
     if (*expected) subject.goal = **expected;
@@ -182,7 +117,7 @@ Attempt<study::Robustness> measure(Subject& subject, const Options& options, con
         return study::measureRobustness(inputs, subject.track, subject.goal, options.plan, control);
     }();
     if (!robustness) return describeRunFailure(control, robustness.error());
-    if (options.save) {
+    if (options.subject.save) {
         const auto saved = subject.file->saveRobustness(
             {subject.individual, inputs.engine->name(), inputs.settings.box, *robustness});
         if (!saved) return Failure{ExitCode::cannotWrite, saved.error().message};
@@ -203,18 +138,18 @@ std::string shareText(const study::PlaceResult& result) {
 
 /// The last selection's first tracks, by their worst corner: what an average over the box does not tell.
 Attempt<ExitCode> runBest(const Options& options, const Console& console) {
-    if (options.choice.generation || options.choice.individual)
+    if (options.subject.choice.generation || options.subject.choice.individual)
         return Failure{
             ExitCode::usage,
             "--best takes the tracks of the last selection; leave --generation and --individual out."};
     std::vector<study::SelectionEntry> entries;
     {
-        auto study = openStudy(options.track.file, Access::read);
+        auto study = openStudy(options.subject.track.file, Access::read);
         if (!study) return study.error();
         const auto selections = study->file.loadSelections();
         if (!selections) return Failure{ExitCode::badInput, selections.error().message};
         if (selections->empty())
-            return Failure{ExitCode::badInput, "The winners of " + options.track.file +
+            return Failure{ExitCode::badInput, "The winners of " + options.subject.track.file +
                                                    " were not compared yet. Run `trapwright select` first."};
         entries = selections->back().entries;
     }
@@ -227,12 +162,14 @@ Attempt<ExitCode> runBest(const Options& options, const Console& console) {
     std::string engine;
     Json tracks = Json::array();
     for (const study::SelectionEntry& entry : entries) {
-        auto subject = loadStudySubject(options, {entry.generation, entry.individual});
+        SubjectRequest request = options.subject;
+        request.choice = {entry.generation, entry.individual};
+        auto subject = loadSubject(request, console);
         if (!subject) return subject.error();
         auto robustness = measure(*subject, options, console);
         if (!robustness) {
             Failure failure = robustness.error();
-            if (options.save && !measured.empty())
+            if (options.subject.save && !measured.empty())
                 failure.message += fmt::format(" Tracks measured before it are kept: {}.", measured.size());
             return failure;
         }
@@ -259,22 +196,18 @@ Attempt<ExitCode> runBest(const Options& options, const Console& console) {
         text +
         "In brackets: 95 % Clopper-Pearson, of each by itself; the first of several owes some of its "
         "number to luck.\n");
-    console.emit({{"study", options.track.file}, {"tracks", tracks}});
+    console.emit({{"study", options.subject.track.file}, {"tracks", tracks}});
     return ExitCode::ok;
 }
 
 Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (const auto checked = options.plan.check(); !checked)
         return Failure{ExitCode::usage, checked.error().message};
-    const bool isTrack = isTrackFile(options.track.file);
-    if (isTrack && (options.save || options.best > 0))
-        return Failure{
-            ExitCode::usage,
-            fmt::format("{} needs a study, and {} is a track; --json prints what comes of it for a file "
-                        "of your own.",
-                        options.save ? "--save" : "--best", options.track.file)};
+    if (options.best > 0 && isTrackFile(options.subject.track.file))
+        return Failure{ExitCode::usage,
+                       "--best needs a study, and " + options.subject.track.file + " is a track."};
     if (options.best > 0) return runBest(options, console);
-    auto subject = isTrack ? loadTrackSubject(options, console) : loadStudySubject(options, options.choice);
+    auto subject = loadSubject(options.subject, console);
     if (!subject) return subject.error();
     const auto robustness = measure(*subject, options, console);
     if (!robustness) return robustness.error();
@@ -294,9 +227,9 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
         "condition, in its worst corners, and the map of the worst two conditions.",
         "trapwright robustness cuboid.trap --engine native",
         [options](const Console& console) { return run(*options, console); });
-    command.addOption("FILE", options->track.file, "A study, or a track as JSON in mm").required();
-    addIndividualOptions(command, options->choice);
-    addTrackOptions(command, options->track);
+    command.addOption("FILE", options->subject.track.file, "A study, or a track as JSON in mm").required();
+    addIndividualOptions(command, options->subject.choice);
+    addTrackOptions(command, options->subject.track);
     command.addOption("--trials", options->plan.trials, "At each place (200)");
     command.addOption("--box-trials", options->plan.boxTrials, "All over the box (1000)");
     command.addOption("--points", options->plan.sweepPoints, "Of each condition (7)");
@@ -321,10 +254,11 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
         .addOption("--best", options->best,
                    "So many tracks of the last selection, one after the other, told by their worst corner")
         .range(1, 1000);
-    command.addFlag("--save", options->save,
+    command.addFlag("--save", options->subject.save,
                     "Keep it in the study, for the Review page; replaces what it held");
-    command.addOption("--engine", options->engine, "What simulates (default: what the study learns with)");
-    command.addOption("--threads", options->threads, "Threads (default: all processors)");
+    command.addOption("--engine", options->subject.engine,
+                      "What simulates (default: what the study learns with)");
+    command.addOption("--threads", options->subject.threads, "Threads (default: all processors)");
 }
 
 }  // namespace trapwright::app

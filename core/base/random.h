@@ -26,6 +26,7 @@ enum class Purpose : std::uint8_t {
     surface = 15,
     corners = 16,
     mending = 17,
+    stream = 18,
     test = 255
 };
 

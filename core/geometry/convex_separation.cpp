@@ -43,9 +43,8 @@ std::vector<Vec3> findDirections(const ConvexPolytope& body, const Pose& pose) {
         const Vec3 direction = (body.vertices[static_cast<std::size_t>(edge.to)] -
                                 body.vertices[static_cast<std::size_t>(edge.from)])
                                    .normalized();
-        const bool known = std::ranges::any_of(directions, [&](const Vec3& other) {
-            return direction.cross(other).squaredNorm() < kParallel;
-        });
+        const bool known = std::ranges::any_of(
+            directions, [&](const Vec3& other) { return direction.cross(other).squaredNorm() < kParallel; });
         if (!known) directions.push_back(direction);
     }
     for (Vec3& direction : directions)

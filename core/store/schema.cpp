@@ -402,13 +402,24 @@ CREATE TABLE known_trait (          -- what the search that found it knew of it
 );
 )sql";
 
-constexpr std::array<Migration, 21> kMigrations = {
+// What streams of parts on tracks come to.
+constexpr const char* kVersion22 = R"sql(
+CREATE TABLE stream (               -- of an individual, the newest
+    generation INTEGER NOT NULL, individual INTEGER NOT NULL,
+    program TEXT NOT NULL, engine TEXT NOT NULL,
+    box TEXT,                       -- that streams varied over, as JSON; NULL: all alike
+    result TEXT NOT NULL,           -- JSON
+    PRIMARY KEY (generation, individual)
+);
+)sql";
+
+constexpr std::array<Migration, 22> kMigrations = {
     {{1, kVersion1},   {2, kVersion2},   {3, kVersion3},   {4, kVersion4},
      {5, kVersion5},   {6, kVersion6},   {7, kVersion7},   {8, kVersion8, &turnGenesIntoDesigns},
      {9, kVersion9},   {10, kVersion10}, {11, kVersion11}, {12, kVersion12},
      {13, kVersion13}, {14, kVersion14}, {15, kVersion15}, {16, kVersion16},
      {17, kVersion17}, {18, kVersion18}, {19, kVersion19}, {20, kVersion20},
-     {21, kVersion21}}};
+     {21, kVersion21}, {22, kVersion22}}};
 
 }  // namespace
 

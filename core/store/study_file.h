@@ -17,6 +17,7 @@
 #include "core/study/records.h"
 #include "core/study/robustness.h"
 #include "core/study/settings.h"
+#include "core/study/stream.h"
 
 namespace trapwright::store {
 
@@ -125,6 +126,11 @@ class StudyFile {
     base::Status saveRobustness(const study::RobustnessRecord& record);
     /// Of all individuals, by their numbers.
     [[nodiscard]] base::Result<std::vector<study::RobustnessRecord>> loadRobustness() const;
+
+    /// What streams on an individual's track come to; replaces what the study held of that.
+    base::Status saveStreams(const study::StreamsRecord& record);
+    /// By generation and individual.
+    [[nodiscard]] base::Result<std::vector<study::StreamsRecord>> loadStreams() const;
 
     /// The trials that an individual was learned by; none if they were not stored, as by programs up to
     /// schema version 9.

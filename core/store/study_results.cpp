@@ -257,4 +257,44 @@ base::Result<std::vector<study::RobustnessRecord>> StudyFile::loadRobustness() c
                    });
 }
 
+base::Status StudyFile::saveStreams(const study::StreamsRecord& record) {
+    return state_->save("The streams could not be saved", [&]() -> base::Status {
+        SQLite::Database& database = *state_->database;
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        SQLite::Statement row(database, "INSERT OR REPLACE INTO stream VALUES (?, ?, ?, ?, ?, ?)");
+        SQLite::bind(row, record.generation, record.individual, state_->program, record.engine);
+        if (record.box) row.bind(5, study::boxToJson(*record.box));
+        row.bind(6, study::streamsToJson(record.streams));
+        row.exec();
+        transaction.commit();
+        return base::success();
+    });
+}
+
+base::Result<std::vector<study::StreamsRecord>> StudyFile::loadStreams() const {
+    return guarded(path(), "The streams could not be read",
+                   [&]() -> base::Result<std::vector<study::StreamsRecord>> {
+                       SQLite::Statement rows(*state_->database,
+                                              "SELECT generation, individual, engine, box, result "
+                                              "FROM stream ORDER BY generation, individual");
+                       std::vector<study::StreamsRecord> records;
+                       while (rows.executeStep()) {
+                           study::StreamsRecord record;
+                           record.generation = rows.getColumn(0).getInt();
+                           record.individual = rows.getColumn(1).getInt();
+                           record.engine = rows.getColumn(2).getString();
+                           if (!rows.getColumn(3).isNull()) {
+                               const auto box = study::boxFromJson(rows.getColumn(3).getString());
+                               if (!box) return damagedValue(path(), "the operating box of streams");
+                               record.box = *box;
+                           }
+                           auto streams = study::streamsFromJson(rows.getColumn(4).getString());
+                           if (!streams) return damagedValue(path(), "the streams on a track");
+                           record.streams = std::move(*streams);
+                           records.push_back(std::move(record));
+                       }
+                       return records;
+                   });
+}
+
 }  // namespace trapwright::store

@@ -61,6 +61,14 @@ bool operator==(const SimulationSettings& a, const SimulationSettings& b) {
     return isSame(a.start.nearPose, b.start.nearPose) && fields(a) == fields(b);
 }
 
+bool operator==(const StreamSettings& a, const StreamSettings& b) {
+    const auto fields = [](const StreamSettings& s) {
+        return std::tie(s.partsPerMinute, s.arrivals, s.delivery, s.warmUp, s.duration, s.streams,
+                        s.contact.staticFriction, s.contact.kineticFriction, s.contact.restitution);
+    };
+    return fields(a) == fields(b);
+}
+
 std::optional<trial::OperatingBox> boxOfJudging(const Settings& settings) {
     if (settings.validation.conditions == TrialConditions::nominal) return std::nullopt;
     return settings.box;
@@ -92,6 +100,7 @@ bool keepsScores(const Settings& before, const Settings& after, int generations)
     const auto summed = objectives::readObjectives(before.evolution.objectives);
     if (summed && std::ranges::any_of(*summed, &objectives::Objective::usesTolerance))
         same.validation.tolerance = after.validation.tolerance;
+    same.stream = before.stream;
     same.feeder = before.feeder;
     if (before.evolution.conditions == TrialConditions::nominal) same.box = before.box;
     return same == before;

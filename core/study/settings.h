@@ -87,6 +87,26 @@ struct ValidationSettings {
     friend bool operator==(const ValidationSettings&, const ValidationSettings&) = default;
 };
 
+/// When parts come out of the bowl in a stream: after gaps that say nothing of each other, or all alike.
+enum class Arrivals { random, regular };
+/// How: in their stable poses, as often as they land so, with any heading, as a bowl's track delivers them;
+/// or anyhow, as while learning.
+enum class Delivery { resting, anyhow };
+
+/// Streams of parts that follow each other (decisions.md#streams).
+struct StreamSettings {
+    double partsPerMinute = 60.0;  // that the bowl delivers
+    Arrivals arrivals = Arrivals::random;
+    Delivery delivery = Delivery::resting;
+    double warmUp = 15.0;    // of each stream, before anything counts [s]
+    double duration = 60.0;  // that counts [s]
+    int streams = 8;         // each for itself, so that their differences tell how sure the means are
+    // Of parts with each other; roughness is none. Assumed: plastic on plastic.
+    trial::ContactParameters contact{.staticFriction = 0.4, .kineticFriction = 0.4, .restitution = 0.2};
+
+    friend bool operator==(const StreamSettings& a, const StreamSettings& b);
+};
+
 /// How parts shall end (decisions.md#wanted-orientation). Nothing is wanted, as in the paper, unless `poses`
 /// or `orientation` is set; then any orientation is as good as another, so long as most parts end in it.
 struct TargetSettings {
@@ -136,6 +156,7 @@ struct Settings {
     trial::OperatingBox box;
     TargetSettings target;
     ValidationSettings validation;
+    StreamSettings stream;
     FeederSettings feeder;
 
     friend bool operator==(const Settings&, const Settings&) = default;
@@ -145,8 +166,8 @@ struct Settings {
 void takePoseWeights(PartSettings& part, const PartSettings& other);
 
 /// Whether scores of the first so many generations that were made with `before` still hold with `after`: only
-/// the number of generations, the weights of the stable poses and what concerns selection, validation, the
-/// real feeder and corners of the operating box in generations to come differ.
+/// the number of generations, the weights of the stable poses and what concerns selection, validation,
+/// streams, the real feeder and corners of the operating box in generations to come differ.
 bool keepsScores(const Settings& before, const Settings& after, int generations);
 
 /// The share of the trials of a generation that are in corners of the operating box.

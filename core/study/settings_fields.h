@@ -152,6 +152,19 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"validation.tolerance_deg", degree, 0.1, 180.0}, s.validation.tolerance);
     v.choice("validation.conditions", s.validation.conditions, kConditionChoices);
 
+    auto& stream = s.stream;
+    v.number({"stream.partsPerMinute", none, 0.1, 10000.0}, stream.partsPerMinute);
+    v.choice("stream.arrivals", stream.arrivals,
+             Choices<Arrivals, 2>{{{"random", Arrivals::random}, {"regular", Arrivals::regular}}});
+    v.choice("stream.delivery", stream.delivery,
+             Choices<Delivery, 2>{{{"resting", Delivery::resting}, {"anyhow", Delivery::anyhow}}});
+    v.number({"stream.warmUp_s", none, 0.0, 3600.0}, stream.warmUp);
+    v.number({"stream.duration_s", none, 1.0, 36000.0}, stream.duration);
+    v.count({"stream.streams", 2, 10000}, stream.streams);
+    v.number({"stream.contact.staticFriction", none, 0.0, 2.0}, stream.contact.staticFriction);
+    v.number({"stream.contact.kineticFriction", none, 0.0, 2.0}, stream.contact.kineticFriction);
+    v.number({"stream.contact.restitution", none, 0.0, 1.0}, stream.contact.restitution);
+
     v.number({"feeder.highestSetPoint", none, 0.01, 1.0}, s.feeder.highestSetPoint);
     v.number({"feeder.rampPerSecond", none, 0.05, 10.0}, s.feeder.rampPerSecond);
 }

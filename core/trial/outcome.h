@@ -83,15 +83,15 @@ struct PartState {
     base::Pose track;                                 // as in PartOutcome, relative to the vibrating track
     base::Vec3 velocity = base::Vec3::Zero();         // of the centre of mass in the room [m/s]
     base::Vec3 angularVelocity = base::Vec3::Zero();  // in the room's axes [rad/s]
-    int contacts = 0;      // that carried an impulse in the step before
-    std::size_t part = 0;  // its place in TrialSpec::parts
+    int contacts = 0;                                 // that carried an impulse in the step before
+    std::size_t part = 0;                             // its place in TrialSpec::parts
 };
 
 /// One moment of a replay.
 struct TrajectorySample {
     double time = 0.0;                      // [s]
     base::Vec3 drive = base::Vec3::Zero();  // displacement of the track at the bowl radius in (x, y, z) [m]
-    std::vector<PartState> parts;      // those on the track, in the order of TrialSpec::parts
+    std::vector<PartState> parts;           // those on the track, in the order of TrialSpec::parts
     std::vector<ContactForce> forces;  // of all contacts that carried an impulse in the step before, mean
                                        // over that step; if the engine has no steps, now
 };

@@ -94,12 +94,14 @@ double calcPush(const trial::TrajectorySample& sample, trial::Body from, trial::
 
 /// A track that falls by `slope` along x and ends in a wall at right angles to it.
 struct Chute {
-    static constexpr double kWallX = 0.25;             // [m]
+    static constexpr double kWallX = 0.25;               // [m]
     static constexpr double kTop = 120.0 * kMillimetre;  // at x = 0
     static constexpr double kWall = 10.0 * kMillimetre;
 
     explicit Chute(double angle)
-        : slope(angle), down(std::cos(angle), 0.0, -std::sin(angle)), up(std::sin(angle), 0.0, std::cos(angle)) {
+        : slope(angle),
+          down(std::cos(angle), 0.0, -std::sin(angle)),
+          up(std::sin(angle), 0.0, std::cos(angle)) {
         const double over = kWall * std::sin(angle);
         const double foot = heightAt(kWallX);
         track = makeSurface({0.0, 0.05, 0.1, 0.15, 0.2, kWallX, kWallX + over, kWallX + over + 0.05},
@@ -166,32 +168,34 @@ std::vector<Row> runCollision(const trial::EngineKind& kind, const base::RunCont
             return Vec3(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
         };
         const Vec3 aside(0.0, random.uniform(-3e-3, 3e-3), random.uniform(-3e-3, 3e-3));
-        addPart(scene, light, {random.rotation(), middle - Vec3(10e-3, 0.0, 0.0)}, Vec3(0.3, 0.0, 0.0), spin());
-        addPart(scene, heavy, {random.rotation(), middle + Vec3(10e-3, 0.0, 0.0) + aside}, Vec3(-0.1, 0.0, 0.0),
+        addPart(scene, light, {random.rotation(), middle - Vec3(10e-3, 0.0, 0.0)}, Vec3(0.3, 0.0, 0.0),
                 spin());
+        addPart(scene, heavy, {random.rotation(), middle + Vec3(10e-3, 0.0, 0.0) + aside},
+                Vec3(-0.1, 0.0, 0.0), spin());
         const trial::Trajectory trajectory = replayScene(*engine, scene, 2e-4, control);
         const Momentum before = calcMomentum(scene, trajectory.samples.front());
         const Momentum after = calcMomentum(scene, trajectory.samples.back());
         const double scale = light->massProperties.mass * 0.3;
         anyMomentum = std::max(anyMomentum, (after.linear - before.linear).norm() / scale);
         anyAngular = std::max(anyAngular, (after.angular - before.angular).norm() / (scale * 10e-3));
-        gain = std::max(gain, findEnergyGain(scene, trajectory) / calcEnergy(scene, trajectory.samples.front()));
+        gain =
+            std::max(gain, findEnergyGain(scene, trajectory) / calcEnergy(scene, trajectory.samples.front()));
         deepest = std::max(deepest, findDeepest(scene, trajectory));
         hits += std::ranges::any_of(trajectory.samples,
                                     [](const auto& sample) { return sample.parts.front().contacts > 0; })
                     ? 1
                     : 0;
     }
-    return {{"two blocks head-on, e = 0, 0.3, 0.6: rebound", "ratio within 0.03",
-             fmt::format("within {:.4f}", ratioError), ratioError < 0.03},
-            {"two blocks head-on: momentum", "within 1e-5", fmt::format("within {:.1e}", momentumError),
-             momentumError < 1e-5},
-            {"two blocks anyhow, 40 ways: momentum, turning", "within 1e-4 and 1e-2",
-             fmt::format("within {:.1e} and {:.1e}, {} hit", anyMomentum, anyAngular, hits),
-             anyMomentum < 1e-4 && anyAngular < 1e-2 && hits >= 30},
-            {"two blocks anyhow, 40 ways: energy, overlap", "never grows, < 0.1 mm",
-             fmt::format("by {:.1e} at most, {:.4f} mm", gain, deepest * 1e3),
-             gain < 1e-3 && deepest < 1e-4}};
+    return {
+        {"two blocks head-on, e = 0, 0.3, 0.6: rebound", "ratio within 0.03",
+         fmt::format("within {:.4f}", ratioError), ratioError < 0.03},
+        {"two blocks head-on: momentum", "within 1e-5", fmt::format("within {:.1e}", momentumError),
+         momentumError < 1e-5},
+        {"two blocks anyhow, 40 ways: momentum, turning", "within 1e-4 and 1e-2",
+         fmt::format("within {:.1e} and {:.1e}, {} hit", anyMomentum, anyAngular, hits),
+         anyMomentum < 1e-4 && anyAngular < 1e-2 && hits >= 30},
+        {"two blocks anyhow, 40 ways: energy, overlap", "never grows, < 0.1 mm",
+         fmt::format("by {:.1e} at most, {:.4f} mm", gain, deepest * 1e3), gain < 1e-3 && deepest < 1e-4}};
 }
 
 std::vector<Row> runStack(const trial::EngineKind& kind, const base::RunControl& control) {
@@ -209,7 +213,8 @@ std::vector<Row> runStack(const trial::EngineKind& kind, const base::RunControl&
     ride.partsContact = {0.6, 0.6, 0.3};
     for (int i = 0; i < 2; ++i)
         addPart(ride, block,
-                {Quaternion::Identity(), Vec3(0.08, 0.0, kLevel + (2.0 + 4.0 * i) * kMillimetre + (i + 1) * 1e-9)});
+                {Quaternion::Identity(),
+                 Vec3(0.08, 0.0, kLevel + (2.0 + 4.0 * i) * kMillimetre + (i + 1) * 1e-9)});
     const trial::Trajectory ridden = replayScene(*engine, ride, period, control);
     const auto at = [&](int i) { return ridden.samples[static_cast<std::size_t>(i)].parts; };
     const double speed =
@@ -227,13 +232,13 @@ std::vector<Row> runStack(const trial::EngineKind& kind, const base::RunControl&
     const trial::Trajectory stood = replayScene(*engine, tower, 0.1, control);
     double drift = 0.0;
     for (std::size_t i = 0; i < 5; ++i)
-        drift = std::max(drift, (stood.samples[19].parts[i].room.position -
-                                 stood.samples[2].parts[i].room.position)
-                                    .norm());
+        drift = std::max(
+            drift,
+            (stood.samples[19].parts[i].room.position - stood.samples[2].parts[i].room.position).norm());
     return {{"a block on a block: conveyed as one",
              fmt::format("{:.2f} mm/s within 2 %, no slip", expected * 1e3),
-             fmt::format("{:.2f} mm/s ({:+.2f} %), slip {:.4f} mm", speed * 1e3, (speed / expected - 1.0) * 100,
-                         slipped * 1e3),
+             fmt::format("{:.2f} mm/s ({:+.2f} %), slip {:.4f} mm", speed * 1e3,
+                         (speed / expected - 1.0) * 100, slipped * 1e3),
              std::abs(speed / expected - 1.0) < 0.02 && slipped < 0.1e-3},
             {"five blocks on each other: drift in 1.7 s", "< 1 micrometre",
              fmt::format("{:.4f} micrometres", drift * 1e6), drift < 1e-6}};
@@ -296,8 +301,7 @@ std::vector<Row> runClimbing(const trial::EngineKind& kind, const base::RunContr
         // Profile of the held part, up the slope from the wall: flat foot, chamfer, back.
         const double rise = 6.0 * kMillimetre;
         const double foot = 5.0 * kMillimetre + rise / std::tan(chamfer);
-        const std::vector<Vec2> profile = {
-            {-foot, 0.0}, {0.0, 0.0}, {0.0, rise}, {-5.0 * kMillimetre, rise}};
+        const std::vector<Vec2> profile = {{-foot, 0.0}, {0.0, 0.0}, {0.0, rise}, {-5.0 * kMillimetre, rise}};
         const auto wedge = makePrism(profile, 10.0 * kMillimetre, kDensity);
         double lowest = 0.0;
         double front = 0.0;
@@ -345,15 +349,15 @@ std::vector<Row> runHeap(const trial::EngineKind& kind, const base::RunControl& 
         for (int k = 0; k < 8; ++k) {
             const double side = k % 2 == 0 ? -4.0 : 4.0;
             addPart(scene, part,
-                    {random.rotation(), Vec3(0.12 + (side + 4.0 * (k % 2)) * kMillimetre,
-                                             side * 2.0 * kMillimetre,
-                                             kLevel + (8.0 + 16.0 * (k / 2)) * kMillimetre)});
+                    {random.rotation(),
+                     Vec3(0.12 + (side + 4.0 * (k % 2)) * kMillimetre, side * 2.0 * kMillimetre,
+                          kLevel + (8.0 + 16.0 * (k / 2)) * kMillimetre)});
         }
         const trial::Trajectory trajectory = replayScene(*engine, scene, 1e-3, control);
         const double rest = static_cast<double>(scene.trials[0].parts.size()) * part->massProperties.mass *
                             scene.gravity * kLevel;
-        gain = std::max(gain, findEnergyGain(scene, trajectory) /
-                                  (calcEnergy(scene, trajectory.samples.front()) - rest));
+        gain = std::max(
+            gain, findEnergyGain(scene, trajectory) / (calcEnergy(scene, trajectory.samples.front()) - rest));
         deepest = std::max(deepest, findDeepest(scene, trajectory));
         for (const trial::PartState& state : trajectory.samples.back().parts)
             fastest = std::max(fastest, state.velocity.norm());

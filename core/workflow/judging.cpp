@@ -94,6 +94,24 @@ Result<study::RobustnessRecord> measureAndSave(store::StudyFile& file, const stu
     return record;
 }
 
+Result<study::StreamsRecord> measureStreamsAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                                   const study::Individual& individual,
+                                                   const std::optional<trial::Goal>& goal,
+                                                   const std::vector<double>& inflows,
+                                                   const base::RunControl& control) {
+    auto track = study::decodeTrack(inputs.settings.track, individual.record.design);
+    if (!track) return Failure{FailureKind::settings, track.error().message};
+    auto streams = study::measureStreams(inputs, std::make_shared<const track::Track>(std::move(*track)),
+                                         individual, goal, inflows, control);
+    if (!streams) return describeFailure(control, streams.error());
+    study::StreamsRecord record{{individual.generation, individual.individual},
+                                inputs.engine->name(),
+                                study::boxOfJudging(inputs.settings),
+                                std::move(*streams)};
+    if (const auto saved = file.saveStreams(record); !saved) return describeSaving(saved.error());
+    return record;
+}
+
 std::int64_t countMendingTrials(const study::Settings& settings, const study::MendingPlan& plan) {
     const std::int64_t compared = 1 + std::min(plan.compared, plan.variants);
     return static_cast<std::int64_t>(plan.variants) * plan.trials +

@@ -10,6 +10,7 @@
 #include "core/study/evaluator.h"
 #include "core/study/mending.h"
 #include "core/study/robustness.h"
+#include "core/study/stream.h"
 #include "core/workflow/failure.h"
 
 namespace trapwright::workflow {
@@ -43,6 +44,14 @@ Result<study::RobustnessRecord> measureAndSave(store::StudyFile& file, const stu
                                                const std::optional<trial::Goal>& goal,
                                                const study::RobustnessPlan& plan,
                                                const base::RunControl& control);
+
+/// Simulates streams of parts on an individual's track, and saves the result in the file.
+/// `goal`, `inflows`: as study::measureStreams takes them.
+Result<study::StreamsRecord> measureStreamsAndSave(store::StudyFile& file, const study::StudyInputs& inputs,
+                                                   const study::Individual& individual,
+                                                   const std::optional<trial::Goal>& goal,
+                                                   const std::vector<double>& inflows,
+                                                   const base::RunControl& control);
 
 /// What mending a track gave; both are saved.
 struct MendingReport {

@@ -86,6 +86,21 @@ base::Result<StoredTrials> findLearningTrials(const store::StudyFile& file, cons
     return trials;
 }
 
+trial::Verdict judgeTrial(const trial::Outcome& outcome, const trial::Goal& goal,
+                          const part::SymmetryGroup& symmetry, double tolerance) {
+    if (outcome.parts.size() == 1) return trial::judge(outcome.parts.front(), goal, symmetry, tolerance);
+    double end = 0.0;
+    trial::Verdict worst = trial::Verdict::success;
+    for (const trial::PartOutcome& part : outcome.parts) {
+        end = std::max(end, part.time);
+        if (part.ending == trial::Ending::timedOut) continue;  // still on its way
+        worst = std::max(worst, trial::judge(part, goal, symmetry, tolerance));
+    }
+    const bool jammed =
+        std::ranges::any_of(outcome.stops, [end](const trial::Stop& stop) { return stop.to >= end; });
+    return jammed ? trial::Verdict::stuck : worst;
+}
+
 std::string describeEnd(const trial::PartOutcome& outcome) {
     return fmt::format("{} after {:.3f} s at {:.2f} mm", trial::endingName(outcome.ending), outcome.time,
                        outcome.farthest.position.x() / base::kMillimetre);
@@ -99,6 +114,9 @@ base::Result<StoredTrials> findStoredTrials(const store::StudyFile& file, const 
     if (request.robustness)
         return StoredTrials{request.robustness->trials.count, request.robustness->engine,
                             request.robustness->goal, settings.validation.tolerance};
+    if (request.stream)
+        return StoredTrials{request.stream->settings.streams, request.stream->engine, request.stream->goal,
+                            settings.validation.tolerance};
     auto trials = request.kind == TrialKind::selection ? findSelectionTrials(file, settings, request.winner)
                   : request.kind == TrialKind::validation
                       ? findValidationTrials(file, request.winner, request.poses)
@@ -120,11 +138,17 @@ base::Result<trial::TrialBatch> makeTrials(const study::Settings& settings,
         return study::makePlaceBatch(own, part, std::make_shared<const track::Track>(std::move(*track)),
                                      request.robustness->trials);
     }
-    if (request.kind != TrialKind::learning && stored.count > 0) {
-        own.validation.conditions =
-            stored.box ? study::TrialConditions::varied : study::TrialConditions::nominal;
-        own.box = stored.box.value_or(own.box);
+    const auto judgeIn = [&own](const std::optional<trial::OperatingBox>& box) {
+        own.validation.conditions = box ? study::TrialConditions::varied : study::TrialConditions::nominal;
+        own.box = box.value_or(own.box);
+    };
+    if (request.stream) {
+        own.stream = request.stream->settings;
+        judgeIn(request.stream->box);
+        return study::makeStreamBatch(own, part, std::make_shared<const track::Track>(std::move(*track)),
+                                      individual, own.stream.partsPerMinute);
     }
+    if (request.kind != TrialKind::learning && stored.count > 0) judgeIn(stored.box);
     const study::TrialScene scene =
         study::makeScene(own, part, std::make_shared<const track::Track>(std::move(*track)));
     const int count = request.count > 0 ? request.count : stored.count;
@@ -229,7 +253,7 @@ JudgedTrials judgeTrials(std::span<const trial::Outcome> outcomes, const part::S
     judged.goal = trial::findGoal(goal, outcomes, symmetry, tolerance);
     judged.verdicts.reserve(outcomes.size());
     for (const trial::Outcome& outcome : outcomes)
-        judged.verdicts.push_back(trial::judge(outcome.parts.front(), judged.goal, symmetry, tolerance));
+        judged.verdicts.push_back(judgeTrial(outcome, judged.goal, symmetry, tolerance));
     return judged;
 }
 

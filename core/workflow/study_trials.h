@@ -12,6 +12,7 @@
 #include "core/study/records.h"
 #include "core/study/robustness.h"
 #include "core/study/settings.h"
+#include "core/study/stream.h"
 #include "core/trial/batch.h"
 #include "core/trial/engine_registry.h"
 #include "core/trial/goal.h"
@@ -19,7 +20,7 @@
 
 namespace trapwright::workflow {
 
-enum class TrialKind { learning, selection, validation, robustness };
+enum class TrialKind { learning, selection, validation, robustness, stream };
 
 /// Trials that a track's robustness was measured by.
 struct RobustnessTrials {
@@ -31,6 +32,16 @@ struct RobustnessTrials {
     friend bool operator==(const RobustnessTrials&, const RobustnessTrials&) = default;
 };
 
+/// Streams of one inflow.
+struct StreamTrials {
+    study::StreamSettings settings;            // with this inflow
+    std::optional<trial::OperatingBox> box{};  // that they varied over; none: all alike
+    trial::Goal goal;                          // what counted as success
+    std::string engine;                        // that simulated them
+
+    friend bool operator==(const StreamTrials&, const StreamTrials&) = default;
+};
+
 /// Which trials of a study are meant.
 struct TrialsRequest {
     TrialKind kind = TrialKind::learning;
@@ -40,6 +51,7 @@ struct TrialsRequest {
     int count = 0;                                 // the first ones; 0: as many as the study holds
     std::string engine{};                          // empty: the one that the study holds them of
     std::optional<RobustnessTrials> robustness{};  // of that kind; no study holds them
+    std::optional<StreamTrials> stream{};          // likewise
 };
 
 /// Trials of an individual whose results a study holds, and the engine that ran them.
@@ -95,8 +107,10 @@ std::string describe(const OutcomeDifference& difference);
 
 /// Trials and what each counts as.
 struct JudgedTrials {
-    trial::Goal goal;                      // what counts as success
-    std::vector<trial::Verdict> verdicts;  // slot i for outcome i, of its first part
+    trial::Goal goal;  // what counts as success
+    /// Slot i for outcome i: of its part, or of a stream stuck if it ends jammed, else the worst of all parts
+    /// that arrive or fall.
+    std::vector<trial::Verdict> verdicts;
 };
 
 /// `goal`: what counts; without it the most frequent final orientation. `tolerance` [rad].

@@ -154,8 +154,7 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
 }
 
 base::Result<trial::Trajectory> SimbodyEngine::replayStream(const trial::TrialBatch& batch, std::size_t index,
-                                                            double interval,
-                                                            base::RunControl control) const {
+                                                            double interval, base::RunControl control) const {
     try {
         const double step = batch.stepOf(step_, kDefaultStep);
         StreamRun run(std::make_shared<const StreamScene>(batch), index, step);

@@ -24,8 +24,8 @@ class CommandsTest : public QObject {
     void help_data() {
         QTest::addColumn<QString>("command");
         for (const char* name :
-             {"part", "new", "settings", "evolve", "select", "validate", "robustness", "physical", "mend",
-              "export", "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
+             {"part", "new", "settings", "evolve", "select", "validate", "robustness", "stream", "physical",
+              "mend", "export", "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
             QTest::newRow(name) << name;
         }
     }
@@ -353,6 +353,45 @@ class CommandsTest : public QObject {
                       "native", "--json"})
                      .json()
                      .contains("conditions"));
+    }
+
+    void stream() {
+        const QStringList few = {"--streams", "2",   "--duration", "3",        "--warm-up", "1",
+                                 "--inflow",  "120", "30",         "--engine", "simbody",   "--json"};
+        const Ran ran = ask(QStringList{"stream", "study.trap"} + few);
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonArray results = ran.json()["results"].toArray();
+        QCOMPARE(results.size(), 2);
+        QCOMPARE(results[0]["inflow_per_min"].toDouble(), 30.0);
+        QCOMPARE(results[1]["inflow_per_min"].toDouble(), 120.0);
+        // 12 are to come in the time of both that counts.
+        const int offered = results[1]["counts"]["offered"].toInt();
+        QVERIFY2(offered > 2 && offered < 30, qPrintable(QString::number(offered)));
+        QVERIFY(results[1]["oriented_per_min"]["low"].toDouble() <=
+                results[1]["oriented_per_min"]["mean"].toDouble());
+        QCOMPARE(ask(QStringList{"stream", "study.trap"} + few).output, ran.output);
+
+        QVERIFY(QFile::copy(folder_.filePath("study.trap"), folder_.filePath("stream.trap")));
+        const Ran saved = ask(QStringList{"stream", "stream.trap", "--save", "--nominal"} + few);
+        QVERIFY2(saved.code == 0, saved.all());
+        {
+            const auto kept =
+                trapwright::store::StudyFile::openReadOnly(folder_.filePath("stream.trap").toStdString());
+            QVERIFY(kept.ok());
+            QCOMPARE(kept->loadStreams()->size(), std::size_t{1});
+            QVERIFY(!kept->loadStreams()->front().box);
+            QCOMPARE(kept->loadStreams()->front().streams.results[1].sum().success,
+                     saved.json()["results"][1]["counts"]["success"].toInt());
+        }
+        QFile::remove(folder_.filePath("stream.trap"));
+
+        const Ran table =
+            ask(QStringList{"stream", "study.trap", "--regular", "--anyhow"} + few.mid(0, few.size() - 1));
+        QVERIFY2(table.code == 0 && table.output.contains("share as wanted"), table.all());
+        const Ran many = ask({"stream", "study.trap", "--inflow", "9000"});
+        QCOMPARE(many.code, 2);
+        QVERIFY2(many.all().contains("no more than 3600 can"), many.all());
+        QCOMPARE(ask({"stream", "study.trap", "--streams", "1"}).code, 2);
     }
 
     void robustness() {

@@ -106,6 +106,7 @@ void dropVersion8(SQLite::Database& database) {
 
 void makeOld(const std::filesystem::path& path, int version) {
     SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    if (version < 22) database.exec("DROP TABLE stream");
     if (version < 21) database.exec("DROP TABLE known_track; DROP TABLE known_trait");
     if (version < 20)
         database.exec("UPDATE study SET settings = json_remove(settings, '$.evolution.cornersFrom')");

@@ -176,6 +176,30 @@ class StudyFileTest : public QObject {
         QVERIFY(!study::robustnessFromJson(negative).ok());
     }
 
+    // The newest of each individual, with the box that they varied over or none.
+    void keepsStreams() {
+        study::StreamsRecord record{{3, 5}, "native", study::Settings().box, {}};
+        record.streams.results = {
+            {30.0, 60.0, {{9, 8, 7, 1, 0, 1, 1, 0.5}, {1, 1, 1, 0, 0, 0, 0, 0.0}}, 4.0, 2.0, 1.0}};
+        auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
+        VERIFY_OK(study);
+        QVERIFY(study->loadStreams().value().empty());
+        study::StreamsRecord older = record;
+        older.box.reset();
+        older.engine = "simbody";
+        VERIFY_OK(study->saveStreams(older));
+        older.individual = 6;
+        VERIFY_OK(study->saveStreams(older));
+        VERIFY_OK(study->saveStreams(record));
+        const auto all = study->loadStreams();
+        VERIFY_OK(all);
+        QCOMPARE(all->size(), std::size_t{2});
+        QCOMPARE(all->front().engine, std::string("native"));
+        QVERIFY(all->front().box == record.box);
+        QVERIFY(all->front().streams.results == record.streams.results);
+        QVERIFY(!all->back().box && all->back().individual == 6);
+    }
+
     void keepsSelectionsAndValidations() {
         {
             auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);

@@ -33,6 +33,8 @@ class FakeEngine : public trial::Engine {
 
     /// Called after each trial, from any thread.
     std::function<void()> afterTrial;
+    /// Judges trials that are not of one part; without it each part is judged by itself.
+    std::function<trial::Outcome(const trial::TrialBatch&, const trial::TrialSpec&)> streamLaw;
     std::string title = "fake";
 
     [[nodiscard]] std::string name() const override { return title; }
@@ -50,7 +52,17 @@ class FakeEngine : public trial::Engine {
         base::parallelFor(jobs.size(), threads_, [&](std::size_t job, unsigned) {
             if (!control.mayGoOn()) return;
             const auto [b, i] = jobs[job];
-            outcomes[b][i].parts = {law_(batches[b], batches[b].trials[i])};
+            const trial::TrialSpec& spec = batches[b].trials[i];
+            if (streamLaw && !isOfOnePart(batches[b], spec)) {
+                outcomes[b][i] = streamLaw(batches[b], spec);
+            } else {
+                trial::TrialSpec one = spec;
+                for (const trial::PartStart& start : spec.parts) {
+                    one.parts = {start};
+                    outcomes[b][i].parts.push_back(law_(batches[b], one));
+                    ++one.stream.trial;
+                }
+            }
             control.advance(1);
             if (afterTrial) afterTrial();
         });

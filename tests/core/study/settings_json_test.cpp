@@ -83,6 +83,8 @@ Settings unusualSettings() {
              0.05,
              5.0 * base::kDegree};
     s.target = {"3, 5-6", "12.5", base::Quaternion(0.1 + 0.2, 0.5, -1.0 / 3.0, 0.5)};
+    s.stream = {77.7, study::Arrivals::regular, study::Delivery::anyhow, 1.0 / 7.0, 20.0 / 3.0,
+                5,    {0.35, 0.3, 0.1}};
     s.validation = {30, 2000, 320, 500, 24.9 * base::kDegree, study::TrialConditions::nominal};
     s.feeder = {1.0 / 7.0, 2.5};
     return s;

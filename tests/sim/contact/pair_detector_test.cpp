@@ -103,7 +103,8 @@ class PairDetectorTest : public QObject {
         const double reach = 2.0 * std::sqrt(2.0) * kMillimetre;
         const Pose a{turn(45.0, Vec3::UnitZ()), Vec3::Zero()};
         for (const double gap : {-5e-6, 8e-6}) {
-            const Pose b{turn(90.0, Vec3::UnitX()) * turn(45.0, Vec3::UnitZ()), Vec3(2.0 * reach + gap, 0, 0)};
+            const Pose b{turn(90.0, Vec3::UnitX()) * turn(45.0, Vec3::UnitZ()),
+                         Vec3(2.0 * reach + gap, 0, 0)};
             const std::vector<Contact> contacts = findAfresh(block, a, block, b, kMargin);
             QCOMPARE(contacts.size(), std::size_t{1});
             QVERIFY((a.rotation * contacts[0].normal - Vec3::UnitX()).norm() < 1e-9);
@@ -167,7 +168,8 @@ class PairDetectorTest : public QObject {
                                               random.rotation() * Vec3(10e-6, 0, 0));
                 const double angle = random.uniform(0.0, 2e-3);
                 b.position += way;
-                b.rotation = Quaternion(Eigen::AngleAxisd(angle, random.rotation() * Vec3::UnitX())) * b.rotation;
+                b.rotation =
+                    Quaternion(Eigen::AngleAxisd(angle, random.rotation() * Vec3::UnitX())) * b.rotation;
                 moved = way.norm() + angle * body.radius;
             }
         }

@@ -17,10 +17,11 @@ trial::TrialBatch makeArrivals(const std::vector<double>& times, double until) {
     trial::TrialBatch batch = verify::makeStillScene(
         verify::makeFlat(), verify::makeCuboid(Vec3(12, 8, 4) * kMillimetre, 1000.0), {}, 1e3);
     batch.termination.until = until;
+    batch.termination.stuckTime = 1.5;
     batch.trials[0].parts.clear();
     for (const double time : times)
-        batch.trials[0].parts.push_back({0, {base::Quaternion::Identity(), Vec3(0.06, 0.0, 0.0171)},
-                                         Vec3::Zero(), Vec3::Zero(), time});
+        batch.trials[0].parts.push_back(
+            {0, {base::Quaternion::Identity(), Vec3(0.06, 0.0, 0.0171)}, Vec3::Zero(), Vec3::Zero(), time});
     return batch;
 }
 

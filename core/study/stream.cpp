@@ -1,0 +1,368 @@
+#include "core/study/stream.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/stats/binomial.h"
+#include "core/stats/samples.h"
+#include "core/study/pose_weights.h"
+#include "core/study/target.h"
+#include "core/study/trial_batches.h"
+
+namespace trapwright::study {
+
+namespace {
+
+/// Places for the streams of parts within that of their trial (base::StreamKey::trial).
+constexpr std::uint32_t kKeysOfStream = 4096;
+static_assert(kMostPartsOfStream < static_cast<int>(kKeysOfStream));
+constexpr double kMinute = 60.0;
+/// A track keeps up as long as no more of what comes than this waits to the end.
+constexpr double kWaiting = 0.05;
+
+double durationOf(const StreamSettings& stream) {
+    return stream.warmUp + stream.duration;
+}
+
+/// When the parts of a stream come. The draws do not hang on the inflow. [s]
+std::vector<double> drawArrivals(const StreamSettings& stream, double partsPerMinute, base::Random& random) {
+    const double gap = kMinute / partsPerMinute;
+    std::vector<double> times;
+    double time = gap * random.uniform();  // where in a gap the stream begins
+    while (time < durationOf(stream) && static_cast<int>(times.size()) < kMostPartsOfStream) {
+        if (time > 0.0) times.push_back(time);
+        time += gap * (stream.arrivals == Arrivals::regular ? 1.0 : -std::log1p(-random.uniform()));
+    }
+    return times;
+}
+
+/// Draws how a part comes out of the bowl.
+class DrawnStarts {
+ public:
+    DrawnStarts(const Settings& settings, const part::Part& part)
+        : policy_(settings.simulation.start), part_(&part) {
+        if (settings.stream.delivery == Delivery::resting) weights_ = poseWeights(part, settings);
+    }
+
+    trial::StartPolicy draw(base::Random& random) const {
+        trial::StartPolicy policy = policy_;
+        if (weights_.empty()) return policy;
+        double share = random.uniform();
+        std::size_t pose = 0;
+        while (pose + 1 < weights_.size() && share >= weights_[pose])
+            share -= weights_[pose++];
+        policy.nearPose = part_->stablePoses[pose].rotation;
+        return policy;
+    }
+
+ private:
+    trial::StartPolicy policy_;
+    const part::Part* part_;
+    std::vector<double> weights_;  // of the stable poses; none: parts come anyhow
+};
+
+bool isOfPart(trial::Condition condition) {
+    return condition == trial::Condition::part || condition == trial::Condition::startOffset ||
+           condition == trial::Condition::startSpeed;
+}
+
+/// Times at which parts pass the finish. Rising. [s]
+std::vector<double> listFinishes(const trial::Outcome& outcome) {
+    std::vector<double> times;
+    for (const trial::PartOutcome& part : outcome.parts)
+        if (part.ending == trial::Ending::finished) times.push_back(part.time);
+    std::ranges::sort(times);
+    return times;
+}
+
+/// Counts one stream, and notes the times of its parts.
+struct Counting {
+    const trial::Goal* goal;
+    const part::SymmetryGroup* symmetry;
+    double tolerance;
+    double warmUp;
+    std::vector<double> transits, gaps;
+
+    StreamCounts count(const trial::TrialSpec& spec, const trial::Outcome& outcome,
+                       const trial::Termination& termination) {
+        StreamCounts counts;
+        const auto isCounted = [&](double time) { return time >= warmUp; };
+        for (std::size_t i = 0; i < outcome.parts.size(); ++i) {
+            const trial::PartOutcome& part = outcome.parts[i];
+            counts.offered += isCounted(spec.parts[i].time) ? 1 : 0;
+            counts.entered += part.entered && isCounted(*part.entered) ? 1 : 0;
+            if (part.ending == trial::Ending::timedOut || !isCounted(part.time)) continue;
+            switch (trial::judge(part, *goal, *symmetry, tolerance)) {
+                case trial::Verdict::success:
+                    ++counts.success;
+                    break;
+                case trial::Verdict::wrongOrientation:
+                    ++counts.wrong;
+                    break;
+                default:
+                    ++counts.fellOff;
+                    continue;
+            }
+            transits.push_back(part.time - part.entered.value_or(0.0));
+        }
+        const std::vector<double> finishes = listFinishes(outcome);
+        for (std::size_t i = 1; i < finishes.size(); ++i)
+            if (isCounted(finishes[i - 1])) gaps.push_back(finishes[i] - finishes[i - 1]);
+        for (const Jam& jam : findJams(outcome, termination)) {
+            if (jam.to <= warmUp) continue;
+            ++counts.jams;
+            counts.uncleared += jam.cleared ? 0 : 1;
+            counts.jammed += jam.to - std::max(jam.from, warmUp);
+        }
+        return counts;
+    }
+};
+
+double quantileOf(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    return values[static_cast<std::size_t>(place)];
+}
+
+std::string rateText(const stats::MeanEstimate& rate) {
+    return fmt::format("{:.1f} ({:.1f} ... {:.1f})", rate.mean, std::max(0.0, rate.interval.low),
+                       rate.interval.high);
+}
+
+}  // namespace
+
+trial::TrialBatch makeStreamBatch(const Settings& settings, const std::shared_ptr<const part::Part>& part,
+                                  const std::shared_ptr<const track::Track>& track,
+                                  const IndividualId& individual, double partsPerMinute) {
+    const bool varied = settings.validation.conditions == TrialConditions::varied;
+    const SimulationSettings& simulation = settings.simulation;
+    trial::TrialBatch batch;
+    batch.track = track;
+    batch.parts = varied ? makeSpecimens(settings, part).varied : std::vector{part};
+    batch.drive = simulation.drive;
+    batch.contact = simulation.contact;
+    batch.partsContact = settings.stream.contact;
+    batch.termination = terminationOn(simulation, *track);
+    batch.termination.until = durationOf(settings.stream);
+    batch.gravity = simulation.gravity;
+
+    base::StreamKey key{settings.evolution.seed, static_cast<std::uint32_t>(individual.generation),
+                        static_cast<std::uint32_t>(individual.individual), 0, base::Purpose::stream};
+    const BoxPlaces places(
+        simulation, settings.box,
+        {key.seed, key.generation, static_cast<std::uint32_t>(key.purpose), 0, base::Purpose::conditions});
+    const std::vector<trial::BoxPlace> drawn = places.draw(0, settings.stream.streams);
+    const DrawnStarts starts(settings, *part);
+    for (int i = 0; i < settings.stream.streams; ++i) {
+        trial::TrialSpec& spec = batch.trials.emplace_back();
+        key.trial = static_cast<std::uint32_t>(i) * kKeysOfStream;
+        spec.stream = key;
+        base::Random random(key);
+        spec.phase = random.uniform(0.0, 2.0 * base::kPi);
+        for (const double time : drawArrivals(settings.stream, partsPerMinute, random)) {
+            ++key.trial;
+            base::Random own({key.seed, key.generation, key.individual, key.trial, base::Purpose::specimen});
+            // What is the track's and the drive's is that of the stream, what is the part's its own.
+            trial::BoxPlace place = drawn[static_cast<std::size_t>(i)];
+            for (std::size_t c = 0; c < place.size(); ++c)
+                if (isOfPart(static_cast<trial::Condition>(c))) place[c] = own.uniform();
+            const auto count = static_cast<double>(batch.parts.size());
+            const auto specimen = std::min(
+                static_cast<std::size_t>(place[static_cast<std::size_t>(trial::Condition::part)] * count),
+                batch.parts.size() - 1);
+            trial::TrialSpec one = trial::drawTrial(*track, *batch.parts[specimen], starts.draw(own), key);
+            if (varied) {
+                putAt(simulation, settings.box, place, *track, one);
+                if (!spec.contact) std::tie(spec.contact, spec.drive) = std::pair(one.contact, one.drive);
+            }
+            spec.parts.push_back(one.parts.front());
+            spec.parts.back().part = specimen;
+            spec.parts.back().time = time;
+        }
+        if (varied) spec.place = drawn[static_cast<std::size_t>(i)];
+    }
+    return batch;
+}
+
+std::vector<Jam> findJams(const trial::Outcome& outcome, const trial::Termination& termination) {
+    // Times in which somebody stands, as pieces that do not overlap.
+    std::vector<trial::Stop> stops = outcome.stops;
+    std::ranges::sort(stops, {}, &trial::Stop::from);
+    std::vector<Jam> pieces;
+    for (const trial::Stop& stop : stops) {
+        if (!pieces.empty() && stop.from <= pieces.back().to)
+            pieces.back().to = std::max(pieces.back().to, stop.to);
+        else
+            pieces.push_back({stop.from, stop.to, true});
+    }
+    // Cut where parts arrive all the same.
+    std::vector<Jam> jams;
+    const std::vector<double> finishes = listFinishes(outcome);
+    for (const Jam& piece : pieces) {
+        double from = piece.from;
+        const auto close = [&](double to) {
+            if (to - from >= termination.stuckTime) jams.push_back({from, to, to < termination.until});
+            from = to;
+        };
+        for (auto finish = std::ranges::upper_bound(finishes, piece.from);
+             finish != finishes.end() && *finish < piece.to; ++finish)
+            close(*finish);
+        close(piece.to);
+    }
+    return jams;
+}
+
+StreamCounts StreamResult::sum() const {
+    StreamCounts sum;
+    for (const StreamCounts& one : streams) {
+        for (int StreamCounts::*count :
+             {&StreamCounts::offered, &StreamCounts::entered, &StreamCounts::success, &StreamCounts::wrong,
+              &StreamCounts::fellOff, &StreamCounts::jams, &StreamCounts::uncleared})
+            sum.*count += one.*count;
+        sum.jammed += one.jammed;
+    }
+    return sum;
+}
+
+stats::MeanEstimate StreamResult::rate(int StreamCounts::*count) const {
+    std::vector<double> rates;
+    for (const StreamCounts& one : streams)
+        rates.push_back(one.*count * kMinute / duration);
+    return stats::estimateMean(rates);
+}
+
+stats::MeanEstimate StreamResult::arrivals() const {
+    std::vector<double> rates;
+    for (const StreamCounts& one : streams)
+        rates.push_back(one.arrived() * kMinute / duration);
+    return stats::estimateMean(rates);
+}
+
+std::optional<stats::MeanEstimate> StreamResult::successShare() const {
+    const StreamCounts all = sum();
+    if (all.arrived() == 0) return std::nullopt;
+    const double share = static_cast<double>(all.success) / all.arrived();
+    const double mean = static_cast<double>(all.arrived()) / static_cast<double>(streams.size());
+    std::vector<double> values;
+    for (const StreamCounts& one : streams)
+        values.push_back(share + (one.success - share * one.arrived()) / mean);
+    stats::MeanEstimate estimate = stats::estimateMean(values);
+    estimate.mean = share;
+    const stats::Interval exact = stats::calcClopperPearson(all.success, all.arrived());
+    estimate.interval = {std::max(0.0, std::min(estimate.interval.low, exact.low)),
+                         std::min(1.0, std::max(estimate.interval.high, exact.high))};
+    return estimate;
+}
+
+double StreamResult::jammedShare() const {
+    return sum().jammed / (duration * static_cast<double>(streams.size()));
+}
+
+bool StreamResult::isSaturated() const {
+    const StreamCounts all = sum();
+    return all.entered < (1.0 - kWaiting) * all.offered;
+}
+
+const StreamResult* Streams::findBest() const {
+    const auto best = std::ranges::max_element(
+        results, {}, [](const StreamResult& result) { return result.rate(&StreamCounts::success).mean; });
+    return best == results.end() ? nullptr : &*best;
+}
+
+std::span<const double> defaultInflows() {
+    static constexpr std::array<double, 6> kInflows = {10.0, 30.0, 60.0, 100.0, 180.0, 300.0};
+    return kInflows;
+}
+
+std::vector<std::string> findStreamProblems(const Settings& settings, double partsPerMinute) {
+    std::vector<std::string> problems;
+    if (!(partsPerMinute >= 0.1 && partsPerMinute <= 10000.0))
+        problems.push_back(
+            fmt::format("The inflow is {} parts a minute; 0.1 to 10000 is allowed.", partsPerMinute));
+    const double parts = partsPerMinute * durationOf(settings.stream) / kMinute;
+    // Random arrivals are more than their mean now and then.
+    if (parts > 0.9 * kMostPartsOfStream)
+        problems.push_back(fmt::format(
+            "At {} parts a minute {:.0f} parts come in a stream of {} s, and no more than {} can; make "
+            "stream.duration_s or the inflow less.",
+            partsPerMinute, parts, durationOf(settings.stream), 0.9 * kMostPartsOfStream));
+    return problems;
+}
+
+base::Result<Streams> measureStreams(const StudyInputs& inputs,
+                                     const std::shared_ptr<const track::Track>& track,
+                                     const IndividualId& individual, const std::optional<trial::Goal>& given,
+                                     std::vector<double> inflows, base::RunControl control) {
+    if (const auto checked = checkInputs(inputs); !checked) return checked.error();
+    std::ranges::sort(inflows);
+    inflows.erase(std::ranges::unique(inflows).begin(), inflows.end());
+    if (inflows.empty()) return base::Error{"Name at least one inflow, in parts a minute."};
+    std::string problems;
+    for (const double inflow : inflows)
+        for (const std::string& problem : findStreamProblems(inputs.settings, inflow))
+            problems += (problems.empty() ? "" : " ") + problem;
+    if (!problems.empty()) return base::Error{problems};
+
+    std::optional<trial::Goal> goal = given;
+    if (!goal) goal = findWanted(inputs.settings.target, *inputs.part);
+    const double tolerance = inputs.settings.validation.tolerance;
+    Streams streams;
+    streams.settings = inputs.settings.stream;
+    for (const double inflow : inflows) {
+        const trial::TrialBatch batch =
+            makeStreamBatch(inputs.settings, inputs.part, track, individual, inflow);
+        const auto outcomes = runTrials(*inputs.engine, {&batch, 1}, control);
+        if (!outcomes) return outcomes.error();
+        const std::vector<trial::Outcome>& own = outcomes->front();
+        if (!goal) goal = trial::findGoal(std::nullopt, own, inputs.part->symmetry, tolerance);
+        Counting counting{&*goal, &inputs.part->symmetry, tolerance, inputs.settings.stream.warmUp, {}, {}};
+        StreamResult& result = streams.results.emplace_back();
+        result.partsPerMinute = inflow;
+        result.duration = inputs.settings.stream.duration;
+        for (std::size_t i = 0; i < own.size(); ++i)
+            result.streams.push_back(counting.count(batch.trials[i], own[i], batch.termination));
+        result.transit = quantileOf(counting.transits, 0.5);
+        result.spacing = quantileOf(counting.gaps, 0.5);
+        result.closest = quantileOf(counting.gaps, 0.1);
+    }
+    streams.goal = *goal;
+    return streams;
+}
+
+std::string formatStreams(const Streams& streams) {
+    constexpr const char* kColumns = "{:>8} {:<24} {:<22} {:>7} {:>8} {:>9} {:>11} {}\n";
+    std::string text = fmt::format(kColumns, "Inflow", "  as wanted", "  share as wanted", "fell", "transit",
+                                   "spacing", "jammed", "");
+    text +=
+        fmt::format(kColumns, "[1/min]", "  [1/min]", "  [%]", "[1/min]", "[s]", "[s]", "[%] (times)", "");
+    for (const StreamResult& result : streams.results) {
+        const auto share = result.successShare();
+        const StreamCounts sum = result.sum();
+        std::string note = result.isSaturated() ? "more comes than gets on" : "";
+        if (sum.uncleared > 0)
+            note += fmt::format("{}{} of {} streams end jammed", note.empty() ? "" : "; ", sum.uncleared,
+                                result.streams.size());
+        text +=
+            fmt::format(kColumns, fmt::format("{:g}", result.partsPerMinute),
+                        "  " + rateText(result.rate(&StreamCounts::success)),
+                        "  " + (share ? fmt::format("{:.2f} ({:.2f} ... {:.2f})", 100.0 * share->mean,
+                                                    100.0 * share->interval.low, 100.0 * share->interval.high)
+                                      : "none arrives"),
+                        fmt::format("{:.1f}", result.rate(&StreamCounts::fellOff).mean),
+                        fmt::format("{:.2f}", result.transit), fmt::format("{:.2f}", result.spacing),
+                        fmt::format("{:.1f} ({})", 100.0 * result.jammedShare(), sum.jams), note);
+    }
+    text += fmt::format(
+        "In brackets: 95 %, over {} streams of {:g} s each after {:g} s of warm-up. Jammed: somebody stands "
+        "still and nobody arrives.\n",
+        streams.settings.streams, streams.settings.duration, streams.settings.warmUp);
+    return text;
+}
+
+}  // namespace trapwright::study

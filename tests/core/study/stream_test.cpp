@@ -1,0 +1,277 @@
+#include "core/study/stream.h"
+
+#include <QtTest>
+#include <algorithm>
+#include <cmath>
+
+#include "core/part/stable_poses.h"
+#include "core/study/operating_box.h"
+#include "core/study/track_design.h"
+#include "tests/core/study/fake_engine.h"
+
+using namespace trapwright;
+using study::StreamCounts;
+
+namespace {
+
+constexpr double kTransit = 4.0;  // [s]
+
+/// Every part is 4 s on its way. One that comes less than half a second after another arrives wrong, and one
+/// less than a tenth after it falls.
+trial::Outcome crowdLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    trial::Outcome outcome;
+    double before = -1e9;
+    for (const trial::PartStart& start : spec.parts) {
+        trial::PartOutcome& part = outcome.parts.emplace_back();
+        part.entered = start.time;
+        part.initial.position.x() = batch.track->start;
+        part.farthest.position.x() = batch.track->finish;
+        part.time = start.time + kTransit;
+        part.ending = start.time - before < 0.1 ? trial::Ending::fellOff : trial::Ending::finished;
+        if (start.time - before < 0.5) part.farthest.rotation = Eigen::AngleAxisd(1.5, base::Vec3::UnitX());
+        if (part.time > batch.termination.until) {
+            part.time = batch.termination.until;
+            part.ending = trial::Ending::timedOut;
+        }
+        before = start.time;
+    }
+    return outcome;
+}
+
+study::StudyInputs crowdInputs() {
+    study::StudyInputs inputs = fake::waveInputs(2);
+    auto engine = std::make_shared<fake::FakeEngine>(fake::waveLaw, 2);
+    engine->streamLaw = crowdLaw;
+    inputs.engine = engine;
+    inputs.settings.stream.streams = 40;
+    return inputs;
+}
+
+std::shared_ptr<const track::Track> makeTrack(const study::StudyInputs& inputs) {
+    const search::Design design(study::designSpace(inputs.settings.track).dimensions.size(), 0.5);
+    return std::make_shared<const track::Track>(study::decodeTrack(inputs.settings.track, design).value());
+}
+
+trial::TrialBatch makeBatch(const study::StudyInputs& inputs, double inflow) {
+    return study::makeStreamBatch(inputs.settings, inputs.part, makeTrack(inputs), {2, 3}, inflow);
+}
+
+bool isNear(const stats::MeanEstimate& estimate, double expected) {
+    return estimate.interval.low <= expected && expected <= estimate.interval.high &&
+           std::abs(estimate.mean - expected) < 0.15 * expected;
+}
+
+}  // namespace
+
+class StreamTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    // So many a minute, at times that say nothing of each other; at another inflow the same, closer together.
+    void partsComeAtRandom() {
+        study::StudyInputs inputs = crowdInputs();
+        inputs.settings.stream.streams = 60;
+        const trial::TrialBatch batch = makeBatch(inputs, 90.0);
+        QCOMPARE(batch.trials.size(), std::size_t{60});
+        QCOMPARE(batch.termination.until, 75.0);
+        double parts = 0.0;
+        int shorter = 0;
+        int gaps = 0;
+        for (const trial::TrialSpec& spec : batch.trials) {
+            parts += static_cast<double>(spec.parts.size());
+            for (std::size_t i = 1; i < spec.parts.size(); ++i) {
+                const double gap = spec.parts[i].time - spec.parts[i - 1].time;
+                QVERIFY(gap > 0.0 && spec.parts[i].time < 75.0);
+                shorter += gap < 60.0 / 90.0 ? 1 : 0;
+                ++gaps;
+            }
+        }
+        // Mean 112.5 a stream, standard deviation its root; of exponential gaps 1 - 1 / e are less than their
+        // mean.
+        QVERIFY(std::abs(parts / 60.0 - 112.5) < 4.0 * std::sqrt(112.5 / 60.0));
+        QVERIFY(std::abs(static_cast<double>(shorter) / gaps - (1.0 - std::exp(-1.0))) < 0.03);
+        const trial::TrialBatch slow = makeBatch(inputs, 45.0);
+        for (std::size_t i = 0; i < 60; ++i) {
+            const trial::TrialSpec& quick = batch.trials[i];
+            QVERIFY(slow.trials[i].phase == quick.phase);
+            for (std::size_t k = 0; k < std::min<std::size_t>(slow.trials[i].parts.size(), 20); ++k) {
+                QVERIFY(std::abs(slow.trials[i].parts[k].time - 2.0 * quick.parts[k].time) < 1e-9);
+                QVERIFY(slow.trials[i].parts[k].pose == quick.parts[k].pose);
+            }
+        }
+        const trial::TrialBatch again = makeBatch(inputs, 90.0);
+        for (std::size_t i = 0; i < 60; ++i)
+            QVERIFY(again.trials[i].parts.back().pose == batch.trials[i].parts.back().pose);
+    }
+
+    void partsComeRegularly() {
+        study::StudyInputs inputs = crowdInputs();
+        inputs.settings.stream.arrivals = study::Arrivals::regular;
+        for (const trial::TrialSpec& spec : makeBatch(inputs, 60.0).trials) {
+            QCOMPARE(spec.parts.size(), std::size_t{75});
+            for (std::size_t i = 1; i < spec.parts.size(); ++i)
+                QVERIFY(std::abs(spec.parts[i].time - spec.parts[i - 1].time - 1.0) < 1e-9);
+        }
+    }
+
+    // In their stable poses, as often as they land so; or anyhow.
+    void partsAreDelivered() {
+        study::StudyInputs inputs = crowdInputs();
+        inputs.settings.validation.conditions = study::TrialConditions::nominal;
+        const auto countLying = [&](double most) {
+            std::vector<int> counts(4, 0);
+            for (const trial::TrialSpec& spec : makeBatch(inputs, 60.0).trials) {
+                for (const trial::PartStart& start : spec.parts) {
+                    const auto nearest = part::findStablePose(*inputs.part, start.pose.rotation);
+                    ++counts[nearest.angle < most ? nearest.index : 3];
+                }
+            }
+            return counts;
+        };
+        const std::vector<int> resting = countLying(10.0 * base::kDegree);
+        const double all = resting[0] + resting[1] + resting[2] + resting[3];
+        QVERIFY(std::abs(resting[0] / all - 0.645) < 0.04 && std::abs(resting[1] / all - 0.243) < 0.04);
+        QVERIFY(resting[3] < 0.001 * all);
+        inputs.settings.stream.delivery = study::Delivery::anyhow;
+        QVERIFY(countLying(10.0 * base::kDegree)[3] > 0.8 * all);
+    }
+
+    // What is the feeder's is the stream's, what is the part's each part's own.
+    void conditionsVary() {
+        study::StudyInputs inputs = crowdInputs();
+        const trial::TrialBatch batch = makeBatch(inputs, 60.0);
+        QCOMPARE(batch.parts.size(), std::size_t{study::kSpecimens});
+        QVERIFY(batch.partsContact.kineticFriction == inputs.settings.stream.contact.kineticFriction);
+        std::vector<double> frictions;
+        for (const trial::TrialSpec& spec : batch.trials) {
+            QVERIFY(spec.contact && spec.drive && spec.place);
+            frictions.push_back(spec.contact->kineticFriction);
+            const auto [least, most] = std::ranges::minmax(spec.parts, {}, &trial::PartStart::part);
+            QVERIFY(least.part < 2 && most.part > 5);
+        }
+        const auto [low, high] = std::ranges::minmax(frictions);
+        QVERIFY(high - low > 0.3 && low >= 0.29 && high <= 0.71);
+        inputs.settings.validation.conditions = study::TrialConditions::nominal;
+        const trial::TrialBatch nominal = makeBatch(inputs, 60.0);
+        QCOMPARE(nominal.parts.size(), std::size_t{1});
+        QVERIFY(!nominal.trials[0].contact && !nominal.trials[0].place);
+    }
+
+    void jamsAreFound_data() {
+        QTest::addColumn<QList<double>>("stops");  // from, to
+        QTest::addColumn<QList<double>>("finishes");
+        QTest::addColumn<QList<double>>("jams");  // from, to
+        const auto row = [](const char* name, const QList<double>& stops, const QList<double>& finishes,
+                            const QList<double>& jams) { QTest::newRow(name) << stops << finishes << jams; };
+        row("nobody stands", {}, {1, 2}, {});
+        row("one stands, others pass", {10, 20}, {11, 12, 13, 14, 15, 16, 17, 18, 19, 20}, {});
+        row("one stands and blocks", {10, 20}, {9, 10, 21}, {10, 20});
+        row("cut by one that passes", {10, 20}, {12, 12.5}, {10, 12, 12.5, 20});
+        row("a row stands", {10, 15, 11, 20, 12, 18}, {}, {10, 20});
+        row("two jams", {10, 12, 30, 33}, {}, {10, 12, 30, 33});
+        row("to the end", {50, 60}, {52}, {50, 52, 52, 60});
+    }
+    void jamsAreFound() {
+        QFETCH(QList<double>, stops);
+        QFETCH(QList<double>, finishes);
+        QFETCH(QList<double>, jams);
+        trial::Outcome outcome;
+        for (const double time : finishes) {
+            trial::PartOutcome& part = outcome.parts.emplace_back();
+            part.ending = trial::Ending::finished;
+            part.time = time;
+        }
+        for (qsizetype i = 0; i < stops.size(); i += 2)
+            outcome.stops.push_back({0, stops[i], stops[i + 1]});
+        trial::Termination termination;
+        termination.until = 60.0;
+        QList<double> found;
+        for (const study::Jam& jam : study::findJams(outcome, termination)) {
+            found << jam.from << jam.to;
+            QCOMPARE(jam.cleared, jam.to < 60.0);
+        }
+        QCOMPARE(found, jams);
+    }
+
+    // Against the law's own numbers: gaps are exponential.
+    void ratesAndShares() {
+        const study::StudyInputs inputs = crowdInputs();
+        base::RunControl control;
+        const auto streams = study::measureStreams(inputs, makeTrack(inputs), {2, 3}, std::nullopt,
+                                                   {120.0, 20.0, 120.0}, control);
+        VERIFY_OK(streams);
+        QCOMPARE(control.done(), std::int64_t{80});
+        QCOMPARE(streams->results.size(), std::size_t{2});
+        for (const study::StreamResult& result : streams->results) {
+            const double inflow = result.partsPerMinute;
+            const double perSecond = inflow / 60.0;
+            QVERIFY(isNear(result.rate(&StreamCounts::offered), inflow));
+            QVERIFY(isNear(result.rate(&StreamCounts::fellOff), inflow * -std::expm1(-0.1 * perSecond)));
+            QVERIFY(isNear(result.rate(&StreamCounts::success), inflow * std::exp(-0.5 * perSecond)));
+            const auto share = result.successShare();
+            QVERIFY(share && isNear(*share, std::exp(-0.5 * perSecond) / std::exp(-0.1 * perSecond)));
+            QVERIFY(std::abs(result.transit - kTransit) < 1e-9);
+            QVERIFY(std::abs(result.spacing - std::log(2.0) / perSecond) < 0.3 / perSecond);
+            QVERIFY(!result.isSaturated() && result.jammedShare() == 0.0);
+            const StreamCounts sum = result.sum();
+            QVERIFY(sum.arrived() == sum.success + sum.wrong && sum.arrived() > 0);
+        }
+        QCOMPARE(streams->findBest()->partsPerMinute, 120.0);
+        const QString table = QString::fromStdString(study::formatStreams(*streams));
+        QVERIFY(table.contains("      20 ") && table.contains("     120 "));
+    }
+
+    // All right in every stream: the streams alone would say that it is certain.
+    void aFlawlessShareHasABound() {
+        study::StreamResult result{60.0, 60.0, {}, 0.0, 0.0, 0.0};
+        result.streams.assign(5, {20, 20, 20, 0, 0, 0, 0, 0.0});
+        const auto share = result.successShare();
+        QVERIFY(share && share->mean == 1.0 && share->interval.high == 1.0);
+        QVERIFY(std::abs(share->interval.low - (1.0 - 0.0362)) < 1e-3);  // Clopper and Pearson, 100 of 100
+        result.streams[0].success = 0;
+        result.streams[0].wrong = 20;
+        QVERIFY(result.successShare()->interval.low < 0.5);  // one bad stream of five
+        result.streams.assign(3, {});
+        QVERIFY(!result.successShare());
+        result.streams.assign(3, {100, 90, 90, 0, 0, 0, 0, 0.0});
+        QVERIFY(result.isSaturated());
+    }
+
+    void badInputIsNamed() {
+        study::StudyInputs inputs = crowdInputs();
+        const auto track = makeTrack(inputs);
+        const auto reason = [&](std::vector<double> inflows) {
+            return fake::messageOf(study::measureStreams(inputs, track, {}, std::nullopt, inflows, {}));
+        };
+        QVERIFY(reason({}).contains("at least one inflow"));
+        QVERIFY(reason({30.0, 0.0}).contains("0 parts a minute; 0.1 to 10000"));
+        QVERIFY(reason({5000.0}).contains("6250 parts come in a stream of 75 s, and no more than 3600 can"));
+        base::RunControl control;
+        control.cancel();
+        QVERIFY(!study::measureStreams(inputs, track, {}, std::nullopt, {30.0}, control).ok());
+    }
+
+    void jsonComesBack() {
+        study::Streams streams;
+        streams.settings.duration = 1.0 / 3.0 + 20.0;
+        streams.settings.contact.kineticFriction = 0.3;
+        streams.results = {
+            {30.0, 20.0, {{9, 8, 7, 1, 0, 1, 1, 2.0 / 3.0}, {1, 1, 1, 0, 0, 0, 0, 0.0}}, 4.0, 2.0, 1.0}};
+        const std::string text = study::streamsToJson(streams);
+        const auto back = study::streamsFromJson(text);
+        VERIFY_OK(back);
+        QVERIFY(back->settings == streams.settings && back->results == streams.results);
+        QVERIFY(back->goal == streams.goal);
+        for (const char* damaged : {"", "{}", "[1]", R"({"goal": 1})"})
+            QVERIFY(!study::streamsFromJson(damaged).ok());
+        for (const auto& [from, to] : {std::pair("[9,8,", "[-9,8,"), {"[9,8,", "[8,"}, {":4.0", ":-4.0"}}) {
+            std::string changed = text;
+            QVERIFY(changed.find(from) != std::string::npos);
+            changed.replace(changed.find(from), std::string(from).size(), to);
+            QVERIFY2(!study::streamsFromJson(changed).ok(), to);
+        }
+    }
+};
+
+QTEST_APPLESS_MAIN(StreamTest)
+#include "stream_test.moc"
