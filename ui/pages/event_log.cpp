@@ -163,6 +163,9 @@ void EventLog::tellState(RunState state) {
         case RunState::measuring:
             add(Kind::info, tr("Measurement of robustness began"));
             break;
+        case RunState::streaming:
+            add(Kind::info, tr("Streams of parts are simulated"));
+            break;
         case RunState::mending:
             add(Kind::info, tr("Mending of a track for the printer began"));
             break;

@@ -115,6 +115,16 @@ const RawText kTexts[] = {
     {"validation.tolerance_deg", TEXT("Tolerance"), TEXT("How far from the expected orientation still counts as success.")},
     {"validation.conditions", TEXT("Judge under"), TEXT("Whether parts of selection and validation meet what is set here, or each other conditions out of the operating box."), {TEXT("As set"), TEXT("Varied")}},
 
+    {"stream.partsPerMinute", TEXT("Inflow"), TEXT("How many parts a minute the bowl delivers onto the track of a stream.")},
+    {"stream.arrivals", TEXT("Arrivals"), TEXT("Whether parts come after gaps that are drawn at random, as out of a bowl, or all alike."), {TEXT("At random"), TEXT("Regular")}},
+    {"stream.delivery", TEXT("Delivered"), TEXT("How parts come onto the track: at rest in their stable poses, as often as they land so, or anyhow, as while learning."), {TEXT("In stable poses"), TEXT("Anyhow")}},
+    {"stream.warmUp_s", TEXT("Warm-up"), TEXT("The first part of each stream, which does not count: until the track is as full as it will be.")},
+    {"stream.duration_s", TEXT("Duration"), TEXT("How long each stream counts after that.")},
+    {"stream.streams", TEXT("Streams"), TEXT("How many are simulated, each for itself; how much they differ tells how sure their means are.")},
+    {"stream.contact.staticFriction", TEXT("Parts' static friction"), TEXT("Coefficient of friction of two parts that touch each other and do not slide. Assumed, until you measure it.")},
+    {"stream.contact.kineticFriction", TEXT("Parts' kinetic friction"), TEXT("The same of parts that slide along each other.")},
+    {"stream.contact.restitution", TEXT("Parts' restitution"), TEXT("Speed after an impact of two parts over the one before it.")},
+
     {"feeder.highestSetPoint", TEXT("Highest set-point"), TEXT("The highest set-point that the drive of the real feeder is given, as a share of full.")},
     {"feeder.rampPerSecond", TEXT("Ramp"), TEXT("How quickly its set-point rises and falls, as a share of full per second; a stop is at once.")},
 };
@@ -265,6 +275,12 @@ std::vector<FieldGroup> trackGroups() {
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Selection and validation")),
          {"validation.selectionWinners", "validation.selectionTrials", "validation.selectionCornerTrials",
           "validation.trialsPerPose", "validation.tolerance_deg"},
+         true},
+        {"stream",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Stream of parts")),
+         {"stream.partsPerMinute", "stream.arrivals", "stream.delivery", "stream.warmUp_s",
+          "stream.duration_s", "stream.streams", "stream.contact.staticFriction",
+          "stream.contact.kineticFriction", "stream.contact.restitution"},
          true},
     };
 }

@@ -73,7 +73,7 @@ void JobProgress::update() {
     QString text = nameOf(state);
     // While a track is being mended nothing is simulated yet.
     if (progress.trials > 0 && (progress.trialsDone > 0 || state != RunState::mending)) {
-        text = tr("%1: %2 of %3 trials")
+        text = (state == RunState::streaming ? tr("%1: %2 of %3 streams") : tr("%1: %2 of %3 trials"))
                    .arg(text, locale.toString(static_cast<qlonglong>(progress.trialsDone)),
                         locale.toString(static_cast<qlonglong>(progress.trials)));
     }

@@ -10,6 +10,7 @@
 #include "core/part/stable_poses.h"
 #include "core/study/robustness.h"
 #include "core/study/selection.h"
+#include "core/study/stream.h"
 #include "ui/look/text.h"
 #include "ui/pages/job_progress.h"
 #include "ui/session/study_design.h"
@@ -38,10 +39,12 @@ JudgingCard::JudgingCard(QWidget* parent)
       validate_(new QAction(tr("&Validate this track"), this)),
       robustness_(new QAction(tr("Measure its &robustness"), this)),
       allRobustness_(new QAction(tr("Measure &all compared"), this)),
+      stream_(new QAction(tr("Send a &stream of parts"), this)),
       compareText_(makeSentence(this)),
       validateText_(makeSentence(this)),
       robustnessText_(makeSentence(this)),
       allRobustnessText_(makeSentence(this)),
+      streamText_(makeSentence(this)),
       progress_(new JobProgress("review", this)) {
     compare_->setObjectName("review.compare");
     compare_->setShortcut(Qt::Key_F8);
@@ -58,6 +61,14 @@ JudgingCard::JudgingCard(QWidget* parent)
     allRobustness_->setObjectName("review.robustness.all");
     connect(allRobustness_, &QAction::triggered, this, &JudgingCard::measureAll);
 
+    stream_->setObjectName("review.stream");
+    streamText_->setObjectName("review.stream.cost");
+    stream_->setShortcut(Qt::SHIFT | Qt::Key_F9);
+    connect(stream_, &QAction::triggered, this, [this] {
+        const auto inflows = study::defaultInflows();
+        runs_->startStreams(*winner_, {inflows.begin(), inflows.end()});
+    });
+
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(6);
@@ -73,6 +84,9 @@ JudgingCard::JudgingCard(QWidget* parent)
     column->addSpacing(6);
     column->addWidget(makeButton(allRobustness_));
     column->addWidget(allRobustnessText_);
+    column->addSpacing(6);
+    column->addWidget(makeButton(stream_));
+    column->addWidget(streamText_);
     update();
 }
 
@@ -127,6 +141,7 @@ void JudgingCard::update() {
     validate_->setToolTip(obstacle.isEmpty() ? tr("Simulate parts that start in each stable pose")
                                              : obstacle);
     showRobustness(obstacle);
+    showStream(obstacle);
     if (!runs_) return;
     const study::ValidationSettings& settings = runs_->design().settings().validation;
     const QLocale locale;
@@ -185,6 +200,31 @@ void JudgingCard::showRobustness(const QString& obstacle) {
         reason.isEmpty()
             ? tr("Find the worst corner of each track of the comparison that was not measured yet")
             : reason);
+}
+
+void JudgingCard::showStream(const QString& obstacle) {
+    QString reason = obstacle;
+    QString text;
+    if (runs_) {
+        const study::StreamSettings& stream = runs_->design().settings().stream;
+        const auto inflows = study::defaultInflows();
+        double parts = 0.0;
+        for (const double inflow : inflows) {
+            parts += inflow / 60.0 * (stream.warmUp + stream.duration) * stream.streams;
+            const auto problems = study::findStreamProblems(runs_->design().settings(), inflow);
+            if (reason.isEmpty() && !problems.empty()) reason = QString::fromStdString(problems.front());
+        }
+        text = tr("%1 to %2 parts a minute, touching each other: %3 parts")
+                   .arg(inflows.front())
+                   .arg(inflows.back())
+                   .arg(QLocale().toString(static_cast<int>(parts)));
+    }
+    streamText_->setText(text);
+    stream_->setEnabled(reason.isEmpty() && winner_.has_value());
+    stream_->setToolTip(
+        reason.isEmpty() ? tr("Simulate parts that follow each other, push and jam: how many a minute leave "
+                              "the track as wanted")
+                         : reason);
 }
 
 void JudgingCard::measureAll() {

@@ -18,8 +18,8 @@ namespace trapwright::pages {
 
 class JobProgress;
 
-/// Starts the comparison of the best winners, the validation of one track and the measurement of how robust
-/// it and the others of the last comparison are, and shows how far they have come.
+/// Starts the comparison of the best winners, the validation of one track, the measurement of how robust it
+/// and the others of the last comparison are, and streams of parts on it, and shows how far they have come.
 class JudgingCard : public QWidget {
     Q_OBJECT
  public:
@@ -33,6 +33,7 @@ class JudgingCard : public QWidget {
     [[nodiscard]] QAction* validateAction() { return validate_; }
     [[nodiscard]] QAction* robustnessAction() { return robustness_; }
     [[nodiscard]] QAction* allRobustnessAction() { return allRobustness_; }
+    [[nodiscard]] QAction* streamAction() { return stream_; }
 
  signals:
     void failed(const QString& what, const QString& message);
@@ -41,6 +42,7 @@ class JudgingCard : public QWidget {
     QPushButton* makeButton(QAction* action);
     void update();
     void showRobustness(const QString& obstacle);
+    void showStream(const QString& obstacle);
     void measureAll();
 
     QPointer<session::StudyRuns> runs_;
@@ -49,10 +51,12 @@ class JudgingCard : public QWidget {
     QAction* validate_;
     QAction* robustness_;
     QAction* allRobustness_;
+    QAction* stream_;
     QLabel* compareText_;
     QLabel* validateText_;
     QLabel* robustnessText_;
     QLabel* allRobustnessText_;
+    QLabel* streamText_;
     JobProgress* progress_;
 };
 

@@ -57,6 +57,7 @@ void ReplayScene::showTrials() {
     showTime(time_);
     std::vector<scene::Trace> traces;
     for (std::size_t i = 0; view_.trace && i < trials_.size(); ++i) {
+        if (!trials_[i].parts.empty()) continue;  // so many would hide the track
         for (std::size_t part = 0; part < trials_[i].motion->parts(); ++part)
             traces.push_back({trials_[i].motion->path(part, kTraceSpacing), colourOf(i)});
     }
@@ -69,14 +70,22 @@ QColor ReplayScene::colourOf(std::size_t trial) const {
     return trial == 0 ? QColor() : models::verdictColour(trials_[trial].verdict);
 }
 
+QColor ReplayScene::colourOf(std::size_t trial, std::size_t part) const {
+    if (trials_[trial].parts.empty()) return colourOf(trial);
+    const trial::Verdict verdict = trials_[trial].parts[part];
+    return verdict == trial::Verdict::success ? QColor() : models::verdictColour(verdict);
+}
+
 void ReplayScene::showTime(double time) {
     time_ = time;
     if (scene_ == nullptr || !track_) return;
     std::vector<scene::PartInScene> parts;
     for (std::size_t i = 0; i < trials_.size(); ++i) {
         const trial::RecordedMotion& motion = *trials_[i].motion;
+        const bool isStream = !trials_[i].parts.empty();
         for (std::size_t part = 0; part < motion.parts(); ++part)
-            parts.push_back({part_, motion.poseAt(part, time), colourOf(i), i > 0});
+            if (!isStream || motion.isThere(part, time))
+                parts.push_back({part_, motion.poseAt(part, time), colourOf(i, part), i > 0});
     }
     scene_->setParts(std::move(parts));
     std::vector<scene::ContactArrow> arrows;

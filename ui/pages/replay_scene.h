@@ -20,6 +20,7 @@ struct ReplayedTrial {
     int trial = 0;
     trial::Verdict verdict = trial::Verdict::success;
     std::shared_ptr<const trial::RecordedMotion> motion;
+    std::vector<trial::Verdict> parts{};  // of a stream: what each part counts as; empty: it is none
 };
 
 /// What of a replay is drawn beside the part.
@@ -29,7 +30,8 @@ struct ReplayView {
 };
 
 /// A track with the trials that are replayed on it, in the 3D scene: the parts of the first as they are,
-/// those of the others as ghosts in the colours of their verdicts.
+/// those of the others as ghosts in the colours of their verdicts. Parts of a stream are seen while they are
+/// on the track, those that do not leave it as wanted in the colours of what they will count as.
 class ReplayScene {
  public:
     /// The scene to draw in from now on, at once with everything; null: none.
@@ -49,6 +51,7 @@ class ReplayScene {
     void showTrack();
     void showTrials();
     [[nodiscard]] QColor colourOf(std::size_t trial) const;
+    [[nodiscard]] QColor colourOf(std::size_t trial, std::size_t part) const;
 
     scene::SceneView* scene_ = nullptr;
     std::shared_ptr<const track::Track> track_;

@@ -16,6 +16,7 @@
 #include "ui/pages/replay_files.h"
 #include "ui/pages/result_table.h"
 #include "ui/pages/robustness_panel.h"
+#include "ui/pages/stream_panel.h"
 #include "ui/pages/track_choice.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -47,9 +48,11 @@ ReviewPage::ReviewPage(QWidget* parent)
       selectionTable_(std::make_unique<ResultTable>("review.comparison", tr("Comparison"), selection_)),
       validationTable_(std::make_unique<ResultTable>("review.validation", tr("Validation"), validation_)),
       robustness_(std::make_unique<RobustnessPanel>()),
+      streams_(std::make_unique<StreamPanel>()),
       shownSelection_(selectionTable_.get()),
       shownValidation_(validationTable_.get()),
-      shownRobustness_(robustness_.get()) {
+      shownRobustness_(robustness_.get()),
+      shownStreams_(streams_.get()) {
     addInspector();
     addTables();
     addKeys();
@@ -94,6 +97,8 @@ void ReviewPage::addTables() {
         connect(table, &ResultTable::failed, this, &Page::failed);
     connect(robustness_.get(), &RobustnessPanel::failed, this, &Page::failed);
     connect(robustness_.get(), &RobustnessPanel::trialsWanted, &review_, &TrialReview::goToRobustness);
+    connect(streams_.get(), &StreamPanel::failed, this, &Page::failed);
+    connect(streams_.get(), &StreamPanel::filmWanted, &review_, &TrialReview::goToStream);
 }
 
 void ReviewPage::addKeys() {
@@ -101,6 +106,7 @@ void ReviewPage::addKeys() {
     addAction(judging_->validateAction());
     addAction(judging_->robustnessAction());
     addAction(judging_->allRobustnessAction());
+    addAction(judging_->streamAction());
     addActions(review_.bar()->actions());
 }
 
@@ -109,6 +115,7 @@ std::vector<Panel> ReviewPage::panels() {
             {"validation", tr("Validation"), validationTable_.release(), Qt::BottomDockWidgetArea},
             {"comparison", tr("Comparison"), selectionTable_.release(), Qt::BottomDockWidgetArea},
             {"robustness", tr("Robustness"), robustness_.release(), Qt::BottomDockWidgetArea},
+            {"stream", tr("Stream"), streams_.release(), Qt::BottomDockWidgetArea},
             {"orientation", tr("Orientation"), review_.orientation(), Qt::BottomDockWidgetArea}};
 }
 
@@ -163,6 +170,16 @@ void ReviewPage::setSession(StudySession* session) {
         showRobustness();
         emit panelWanted(tracks > 1 ? "comparison" : "robustness");
     });
+    connect(&session_->runs(), &StudyRuns::streamsMeasured, this, [this] {
+        showStreams();
+        emit panelWanted("stream");
+    });
+}
+
+void ReviewPage::showStreams() {
+    if (!shownStreams_) return;
+    shownStreams_->setStreams(session_ && choice_->winner() ? session_->runs().findStreams(*choice_->winner())
+                                                            : nullptr);
 }
 
 void ReviewPage::activate(scene::SceneView& scene) {
@@ -196,6 +213,7 @@ void ReviewPage::showWinner() {
             QString("%1-%2").arg(choice_->winner()->generation).arg(choice_->winner()->individual));
     showValidation();
     showRobustness();
+    showStreams();
 }
 
 void ReviewPage::showRobustness() {

@@ -13,11 +13,12 @@ namespace trapwright::pages {
 class JudgingCard;
 class ReplayFiles;
 class RobustnessPanel;
+class StreamPanel;
 class ResultTable;
 class TrackChoice;
 
 /// Step 4: how good a track is. The best winners are compared, the chosen one is validated, how it does where
-/// the physics is another is measured, and every trial can be looked at.
+/// the physics is another and where parts follow each other is measured, and every trial can be looked at.
 class ReviewPage : public Page {
     Q_OBJECT
  public:
@@ -41,6 +42,7 @@ class ReviewPage : public Page {
     void showSelection();
     void showValidation();
     void showRobustness();
+    void showStreams();
     void askForSlices(const study::ValidationRecord& record, int number);
     void goToFailures(const QModelIndex& cell);
 
@@ -56,9 +58,11 @@ class ReviewPage : public Page {
     std::unique_ptr<ResultTable> selectionTable_;  // until the window takes it
     std::unique_ptr<ResultTable> validationTable_;
     std::unique_ptr<RobustnessPanel> robustness_;
+    std::unique_ptr<StreamPanel> streams_;
     QPointer<ResultTable> shownSelection_;
     QPointer<ResultTable> shownValidation_;
     QPointer<RobustnessPanel> shownRobustness_;
+    QPointer<StreamPanel> shownStreams_;
 };
 
 }  // namespace trapwright::pages

@@ -289,6 +289,9 @@ void RunCard::showRun(RunState state) {
         case RunState::measuring:
             title_->setText(tr("Measuring robustness"));
             break;
+        case RunState::streaming:
+            title_->setText(tr("Simulating streams of parts"));
+            break;
         case RunState::mending:
             title_->setText(tr("Mending for the printer"));
             break;

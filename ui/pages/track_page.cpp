@@ -37,7 +37,7 @@ namespace {
 
 /// What may still change when a study has scores (store::StudyFile::changeSettings).
 bool staysFree(const std::string& key) {
-    return key == "evolution.generations" || key.starts_with("validation.");
+    return key == "evolution.generations" || key.starts_with("validation.") || key.starts_with("stream.");
 }
 
 }  // namespace

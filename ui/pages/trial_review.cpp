@@ -19,10 +19,11 @@ using workflow::TrialKind;
 
 namespace {
 
-constexpr double kInterval = 1e-3;  // between the samples of a replay [s]
+constexpr double kInterval = 1e-3;         // between the samples of a replay [s]
+constexpr double kStreamInterval = 10e-3;  // the same of a minute with many parts
 
 bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
-    return a.kind == b.kind && a.poses == b.poses && a.robustness == b.robustness &&
+    return a.kind == b.kind && a.poses == b.poses && a.robustness == b.robustness && a.stream == b.stream &&
            isSameIndividual(a.winner, b.winner);
 }
 
@@ -36,6 +37,14 @@ std::vector<models::TrialRow> makeRows(const ListedTrials& trials, const part::S
         std::max<std::size_t>(1, static_cast<std::size_t>(trials.wanted) / poses.size());
     for (std::size_t i = 0; i < trials.outcomes.size(); ++i) {
         if (slice && (i >= trials.places.size() || !slice->holds(trials.places[i]))) continue;
+        if (trials.request.kind == TrialKind::stream) {
+            // Of all its parts together it tells how long it lasts.
+            trial::PartOutcome whole;
+            whole.ending = trial::Ending::timedOut;
+            whole.time = trials.request.stream->settings.warmUp + trials.request.stream->settings.duration;
+            rows.push_back({static_cast<int>(i), -1, trials.judged.verdicts[i], whole});
+            continue;
+        }
         const trial::PartOutcome& outcome = trials.outcomes[i].parts.front();
         const int pose = trials.request.kind == TrialKind::validation
                              ? poses[std::min(i / ofEachPose, poses.size() - 1)]
@@ -176,6 +185,29 @@ void TrialReview::goToRobustness(const workflow::RobustnessTrials& trials, const
     workflow::TrialsRequest request{workflow::TrialKind::robustness, *winner_};
     request.robustness = trials;
     goToPlace({name, request, trials.trials.count}, verdicts);
+}
+
+void TrialReview::goToStream(const workflow::StreamTrials& trials, const QString& name) {
+    if (!winner_) return;
+    workflow::TrialsRequest request{TrialKind::stream, *winner_};
+    request.stream = trials;
+    goToPlace({name, request, trials.settings.streams},
+              {trial::Verdict::success, trial::Verdict::wrongOrientation, trial::Verdict::stuck,
+               trial::Verdict::fellOff});
+}
+
+std::vector<trial::Verdict> TrialReview::judgeParts(const workflow::TrialsRequest& request,
+                                                    const trial::Outcome& outcome) const {
+    std::vector<trial::Verdict> verdicts;
+    if (!request.stream) return verdicts;
+    const study::Settings& settings = study_->design().settings();
+    for (const trial::PartOutcome& part : outcome.parts)
+        // Who is still under way at the end may do well.
+        verdicts.push_back(part.ending == trial::Ending::timedOut
+                               ? trial::Verdict::success
+                               : trial::judge(part, request.stream->goal, study_->design().part()->symmetry,
+                                              settings.validation.tolerance));
+    return verdicts;
 }
 
 void TrialReview::goToSlice(const QString& name, const study::BoxSlice& slice, int count,
@@ -332,7 +364,8 @@ void TrialReview::wantReplays() {
                                        [&](const ReplayedTrial& replay) { return replay.trial == trial; });
         if (there || std::find(requested_.begin(), requested_.end(), trial) != requested_.end()) continue;
         requested_.push_back(trial);
-        study_->replay(sources_[static_cast<std::size_t>(source_)].request, trial, kInterval);
+        const workflow::TrialsRequest& request = sources_[static_cast<std::size_t>(source_)].request;
+        study_->replay(request, trial, request.stream ? kStreamInterval : kInterval);
     }
     showReplays();
 }
@@ -348,7 +381,8 @@ void TrialReview::takeReplay(const workflow::TrialsRequest& request, int trial,
     replays_.push_back(
         {trial,
          row < 0 ? trial::Verdict::success : list_->trials().rows()[static_cast<std::size_t>(row)].verdict,
-         std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape)});
+         std::make_shared<const trial::RecordedMotion>(*trajectory, track_->shape),
+         judgeParts(request, trajectory->outcome)});
     showReplays();
     if (playWanted_ && trial == wanted_.front()) {
         playWanted_ = false;

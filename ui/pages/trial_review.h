@@ -56,6 +56,9 @@ class TrialReview : public QObject {
     void goToRobustness(const workflow::RobustnessTrials& trials, const QString& name,
                         const std::set<trial::Verdict>& verdicts);
 
+    /// Likewise the streams of an inflow.
+    void goToStream(const workflow::StreamTrials& trials, const QString& name);
+
     /// Likewise the `count` trials of the validation, whatever their pose, in this slice of the operating
     /// box.
     void goToSlice(const QString& name, const study::BoxSlice& slice, int count,
@@ -83,6 +86,9 @@ class TrialReview : public QObject {
     void showReplays();
     void showDifferences();
     void forgetTrials();
+    /// Of a stream what each part counts as; of other trials nothing.
+    [[nodiscard]] std::vector<trial::Verdict> judgeParts(const workflow::TrialsRequest& request,
+                                                         const trial::Outcome& outcome) const;
     [[nodiscard]] bool isShown(const workflow::TrialsRequest& request) const;
 
     QPointer<session::StudyReplays> study_;

@@ -40,6 +40,8 @@ base::Result<OpenedStudy> readStudy(store::StudyFile file) {
     if (!chosen) return chosen.error();
     auto robustness = file.loadRobustness();
     if (!robustness) return robustness.error();
+    auto streams = file.loadStreams();
+    if (!streams) return streams.error();
     auto known = file.loadKnownTracks();
     if (!known) return known.error();
     auto study = readNewStudy(std::move(file), std::move(*design));
@@ -47,7 +49,7 @@ base::Result<OpenedStudy> readStudy(store::StudyFile file) {
     study->records = {std::move(*summaries),    std::move(*winners),     std::move(*checks),
                       std::move(*selections),   std::move(*validations), std::move(*physical),
                       std::move(*calibrations), std::move(*dropTests),   std::move(*chosen),
-                      std::move(*robustness),   std::move(*known)};
+                      std::move(*robustness),   std::move(*streams),     std::move(*known)};
     return study;
 }
 

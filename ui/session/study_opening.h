@@ -28,6 +28,7 @@ struct StudyRecords {
     std::vector<study::DropRecord> dropTests;
     std::optional<study::Individual> chosen;  // by the user
     std::vector<study::RobustnessRecord> robustness;
+    std::vector<study::StreamsRecord> streams;
     study::KnownTracks known;  // of another study, to begin with
 };
 

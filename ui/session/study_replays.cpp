@@ -23,7 +23,7 @@ QString trialsFailed() {
 
 bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) {
     return a.kind == b.kind && a.poses == b.poses && a.count == b.count && a.engine == b.engine &&
-           a.robustness == b.robustness && isSameIndividual(a.winner, b.winner) &&
+           a.robustness == b.robustness && a.stream == b.stream && isSameIndividual(a.winner, b.winner) &&
            a.winner.record == b.winner.record;
 }
 

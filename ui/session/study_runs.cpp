@@ -41,7 +41,7 @@ base::Result<study::StudyInputs> makeInputs(const Environment& environment, cons
 
 bool isJudging(RunState state) {
     return state == RunState::selecting || state == RunState::validating || state == RunState::measuring ||
-           state == RunState::mending;
+           state == RunState::streaming || state == RunState::mending;
 }
 
 StudyRuns::StudyRuns(StudyState& state, const StudyDesign& design) : state_(&state), design_(design) {
@@ -79,6 +79,13 @@ const study::RobustnessRecord* StudyRuns::findRobustness(const study::Individual
 
 const std::vector<study::RobustnessRecord>& StudyRuns::robustness() const {
     return state_->robustness;
+}
+
+const study::StreamsRecord* StudyRuns::findStreams(const study::IndividualId& individual) const {
+    const auto found = std::ranges::find_if(state_->streams, [&](const study::StreamsRecord& record) {
+        return isSameIndividual(record, individual);
+    });
+    return found == state_->streams.end() ? nullptr : &*found;
 }
 
 std::vector<study::IndividualId> StudyRuns::listUnmeasured() const {
@@ -367,6 +374,30 @@ void StudyRuns::startRobustness(const std::vector<study::Individual>& tracks,
              tracks.size() > 1 ? tr("The robustness of the tracks could not be measured")
                                : tr("The track's robustness could not be measured"),
              work);
+}
+
+void StudyRuns::startStreams(const study::Individual& track, const std::vector<double>& inflows,
+                             const std::optional<trial::Goal>& goal) {
+    const auto work = [this, track, inflows, goal, settings = state_->settings, part = state_->part.part,
+                       threads = state_->threads](Run& run) -> Failed {
+        const auto inputs =
+            makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads, run.remade);
+        if (!inputs) return settingsFailure(inputs.error());
+        state_->tell([this, total = static_cast<std::int64_t>(inflows.size()) * settings.stream.streams] {
+            state_->run->total = total;
+        });
+        auto record =
+            workflow::measureStreamsAndSave(state_->writer.file(), *inputs, track, goal, inflows, run.trials);
+        if (!record) return record.error();
+        state_->tell([this, record = std::move(*record)] {
+            std::erase_if(state_->streams,
+                          [&](const study::StreamsRecord& one) { return isSameIndividual(one, record); });
+            state_->streams.push_back(record);
+            emit streamsMeasured();
+        });
+        return std::nullopt;
+    };
+    startRun(RunState::streaming, tr("The stream of parts could not be simulated"), work);
 }
 
 void StudyRuns::startMending(const study::Individual& track, const study::MendingPlan& plan) {

@@ -13,6 +13,7 @@
 #include "core/study/robustness.h"
 #include "core/study/selection.h"
 #include "core/study/settings.h"
+#include "core/study/stream.h"
 #include "core/trial/remade_trials.h"
 #include "core/workflow/failure.h"
 #include "core/workflow/judging.h"
@@ -34,6 +35,7 @@ enum class RunState {
     selecting,
     validating,
     measuring,  // how robust a track is
+    streaming,  // parts that follow each other on a track
     mending,    // a track for the printer
     simulating  // trials or a replay, while nothing else goes on
 };
@@ -61,8 +63,8 @@ struct LearningDraft {
     double seconds = 0.0;  // of learning, estimated
 };
 
-/// Learning, selection and validation of the open study, measurements of robustness and mending, one at a
-/// time, and what they find out. What cannot be done is told by StudySession::failed().
+/// Learning, selection and validation of the open study, measurements of robustness, streams and mending, one
+/// at a time, and what they find out. What cannot be done is told by StudySession::failed().
 class StudyRuns : public QObject {
     Q_OBJECT
 
@@ -84,6 +86,8 @@ class StudyRuns : public QObject {
     [[nodiscard]] const study::RobustnessRecord* findRobustness(const study::IndividualId& individual) const;
     /// Of each track that was measured the last one.
     [[nodiscard]] const std::vector<study::RobustnessRecord>& robustness() const;
+    /// Streams on the track of this individual, the last ones; null: there were none.
+    [[nodiscard]] const study::StreamsRecord* findStreams(const study::IndividualId& individual) const;
     /// Those of the last selection, best first, whose robustness is not known in the present operating box.
     [[nodiscard]] std::vector<study::IndividualId> listUnmeasured() const;
     /// Of the winners (study::findBestWinner); null if there are none.
@@ -133,6 +137,11 @@ class StudyRuns : public QObject {
     void startRobustness(const std::vector<study::Individual>& tracks, const study::RobustnessPlan& plan = {},
                          const std::optional<trial::Goal>& goal = std::nullopt);
 
+    /// Streams of parts on this track at these inflows (study::measureStreams), in the engine that learns,
+    /// told by streamsMeasured(). `goal`: as startRobustness().
+    void startStreams(const study::Individual& track, const std::vector<double>& inflows,
+                      const std::optional<trial::Goal>& goal = std::nullopt);
+
     /// Mends this track for the printer in the engine that learns (workflow::mendAndSave), into the
     /// generations and into selections(); then the best variant is chosen(), told by mended().
     void startMending(const study::Individual& track, const study::MendingPlan& plan);
@@ -163,6 +172,7 @@ class StudyRuns : public QObject {
     void validationSaved();
     /// Of one of so many that are measured one after the other.
     void robustnessMeasured(int tracks);
+    void streamsMeasured();
     void mended(const trapwright::workflow::MendingReport& report);
     void chosenChanged();
     /// 0: the estimate before does not hold any more.

@@ -49,6 +49,8 @@ StateFace faceOf(RunState state, bool problems) {
             return {StatusLine::tr("Validating"), "start", true};
         case RunState::measuring:
             return {StatusLine::tr("Measuring robustness"), "start", true};
+        case RunState::streaming:
+            return {StatusLine::tr("Simulating streams of parts"), "start", true};
         case RunState::mending:
             return {StatusLine::tr("Mending for the printer"), "start", true};
         case RunState::simulating:

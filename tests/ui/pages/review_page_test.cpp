@@ -11,6 +11,7 @@
 #include "core/study/validation.h"
 #include "tests/core/store/stored_outcomes.h"
 #include "tests/ui/pages/review_user.h"
+#include "ui/charts/curve_chart.h"
 #include "ui/charts/robustness_chart.h"
 #include "ui/look/message_bar.h"
 #include "ui/models/selection_model.h"
@@ -503,6 +504,51 @@ class ReviewPageTest : public QObject {
         track->setCurrentIndex(track->currentIndex() == 0 ? 1 : 0);
         emit track->activated(track->currentIndex());
         QTRY_VERIFY(text->isHidden());
+    }
+
+    // From the button to the chart, and to a film of many parts.
+    void aStreamIsOneClickFromItsFilm() {
+        ReviewUser user(study_);
+        QVERIFY(user.waitForReplay());
+        auto* text = user.find<QLabel>("review.stream.head");
+        QVERIFY(text->isHidden());
+        const QString cost = user.find<QLabel>("review.stream.cost")->text();
+        QVERIFY2(cost.startsWith("10 to 300 parts a minute"), qPrintable(cost));
+        session::StudyRuns& runs = user.session()->runs();
+        user.find<QPushButton>("review.stream.button")->click();
+        QCOMPARE(runs.state(), session::RunState::streaming);
+        user.find<QPushButton>("review.stop")->click();
+        QTRY_COMPARE_WITH_TIMEOUT(runs.state(), session::RunState::idle, kPatience);
+        QVERIFY(text->isHidden());
+        // Fewer and shorter than the button's, for the test's sake.
+        study::Settings settings = user.session()->design().settings();
+        settings.stream.streams = 2;
+        settings.stream.warmUp = 1.0;
+        settings.stream.duration = 4.0;
+        user.session()->design().changeSettings(settings, "Shorter streams");
+        runs.startStreams(*runs.chosen(), {30.0, 120.0});
+        QTRY_VERIFY_WITH_TIMEOUT(!text->isHidden(), 3 * kPatience);
+        QVERIFY2(text->text().contains("parts a minute</b> as wanted"), qPrintable(text->text()));
+        auto* chart = user.find<charts::CurveChart>("stream");
+        QVERIFY(chart->isVisible());
+        QVERIFY2(chart->csv().startsWith("Inflow [1/min],As wanted [1/min]"), qPrintable(chart->csv()));
+        QCOMPARE(chart->csv().count('\n'), 3);
+        // The second inflow.
+        emit text->linkActivated("1");
+        auto* source = user.find<QComboBox>("trials.source");
+        QVERIFY2(source->currentText().startsWith("Stream, 120 a minute (2)"),
+                 qPrintable(source->currentText()));
+        QTRY_COMPARE_WITH_TIMEOUT(user.trials().model()->rowCount(), 2, kPatience);
+        QTRY_VERIFY_WITH_TIMEOUT(user.player().duration() > 4.9, kPatience);
+        // Nobody is there at first, several are later.
+        user.player().setTime(0.0);
+        QVERIFY(user.scene().parts.size() <= 1);
+        std::size_t most = 0;
+        for (double time = 0.0; time < 5.0; time += 0.1) {
+            user.player().setTime(time);
+            most = std::max(most, user.scene().parts.size());
+        }
+        QVERIFY2(most > 1, qPrintable(QString::number(most)));
     }
 
     void worstCornersOfAllThatWereCompared() {

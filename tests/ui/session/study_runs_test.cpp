@@ -339,6 +339,38 @@ class StudyRunsTest : public QObject {
         QCOMPARE(failed.count(), 0);
     }
 
+    void streamsAreMeasuredAndKept() {
+        study::Settings settings = smallSettings(1);
+        settings.stream.streams = 3;
+        auto session = fixture_->create("a.trap", settings);
+        QVERIFY(session && learnToTheEnd(*session));
+        const study::Individual winner = session->runs().winners().front();
+        QVERIFY(session->runs().findStreams(winner) == nullptr);
+        QSignalSpy measured(&session->runs(), &StudyRuns::streamsMeasured);
+        session->runs().startStreams(winner, {60.0, 30.0});
+        QCOMPARE(session->runs().state(), RunState::streaming);
+        QVERIFY(waitUntil([&] { return measured.count() == 1; }));
+        QVERIFY(waitForState(*session, RunState::idle));
+        const study::StreamsRecord* known = session->runs().findStreams(winner);
+        QVERIFY(known != nullptr);
+        QCOMPARE(known->streams.results.size(), std::size_t{2});
+        QCOMPARE(known->streams.results.front().streams.size(), std::size_t{3});
+        // Once more takes its place, and is there when the study is opened again.
+        session->runs().startStreams(winner, {20.0});
+        QVERIFY(waitUntil([&] { return measured.count() == 2; }));
+        QVERIFY(waitForState(*session, RunState::idle));
+        session.reset();
+        session = fixture_->open("a.trap");
+        QVERIFY(session->runs().findStreams(winner) != nullptr);
+        QCOMPARE(session->runs().findStreams(winner)->streams.results.front().partsPerMinute, 20.0);
+        // What cannot be is told.
+        QSignalSpy failed(session.get(), &StudySession::failed);
+        session->runs().startStreams(winner, {90000.0});
+        QVERIFY(waitUntil([&] { return failed.count() == 1; }));
+        QVERIFY(failed.front().at(1).toString().contains("0.1 to 10000"));
+        QVERIFY(waitForState(*session, RunState::idle));
+    }
+
     void allThatWereComparedAreMeasured() {
         auto session = fixture_->create("a.trap", smallSettings());
         QVERIFY(session && learnToTheEnd(*session));
