@@ -245,10 +245,9 @@ inline void record(std::vector<RecordedImpulse>& recorded, SolveBatch& batch, co
             const base::Vec3 arm(batch.touch(r, kArmX)[slot], batch.touch(r, kArmY)[slot],
                                  batch.touch(r, kArmZ)[slot]);
             const base::Vec3 given(values[1][slot], values[2][slot], values[3][slot]);
-            const auto known =
-                std::find_if(recorded.begin(), recorded.end(), [&](const RecordedImpulse& other) {
-                    return other.lane == lane && other.arm == arm;
-                });
+            const auto known = std::find_if(
+                recorded.begin(), recorded.end(),
+                [&](const RecordedImpulse& other) { return other.lane == lane && other.arm == arm; });
             if (known != recorded.end())
                 known->impulse += given;
             else
