@@ -58,7 +58,7 @@ Json toJson(const study::StreamResult& result) {
                  {"jammed_share", result.jammedShare()},
                  {"jams", sum.jams},
                  {"streams_that_end_jammed", sum.uncleared},
-                 {"saturated", result.isSaturated()}});
+                 {"streams_that_are_full", result.countFull()}});
     return json;
 }
 

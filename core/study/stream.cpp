@@ -264,9 +264,9 @@ double StreamResult::jammedShare() const {
     return sum().jammed / (duration * static_cast<double>(streams.size()));
 }
 
-bool StreamResult::isSaturated() const {
-    const StreamCounts all = sum();
-    return all.entered < (1.0 - kWaiting) * all.offered;
+int StreamResult::countFull() const {
+    return static_cast<int>(std::ranges::count_if(
+        streams, [](const StreamCounts& one) { return one.entered + 1 < (1.0 - kWaiting) * one.offered; }));
 }
 
 const StreamResult* Streams::findBest() const {
@@ -344,10 +344,14 @@ std::string formatStreams(const Streams& streams) {
     for (const StreamResult& result : streams.results) {
         const auto share = result.successShare();
         const StreamCounts sum = result.sum();
-        std::string note = result.isSaturated() ? "more comes than gets on" : "";
-        if (sum.uncleared > 0)
-            note += fmt::format("{}{} of {} streams end jammed", note.empty() ? "" : "; ", sum.uncleared,
-                                result.streams.size());
+        std::string note;
+        const auto add = [&](int count, const char* what) {
+            if (count == 0) return;
+            note += fmt::format("{}{} of {} streams {}", note.empty() ? "" : "; ", count,
+                                result.streams.size(), what);
+        };
+        add(result.countFull(), "are full");
+        add(sum.uncleared, "end jammed");
         text +=
             fmt::format(kColumns, fmt::format("{:g}", result.partsPerMinute),
                         "  " + rateText(result.rate(&StreamCounts::success)),
@@ -360,7 +364,7 @@ std::string formatStreams(const Streams& streams) {
     }
     text += fmt::format(
         "In brackets: 95 %, over {} streams of {:g} s each after {:g} s of warm-up. Jammed: somebody stands "
-        "still and nobody arrives.\n",
+        "still and nobody arrives. Full: more comes than gets on.\n",
         streams.settings.streams, streams.settings.duration, streams.settings.warmUp);
     return text;
 }

@@ -69,8 +69,9 @@ struct StreamResult {
     [[nodiscard]] std::optional<stats::MeanEstimate> successShare() const;
     /// Share of the time that counts.
     [[nodiscard]] double jammedShare() const;
-    /// Whether less gets onto the track than comes to it: more than one part in twenty waits to the end.
-    [[nodiscard]] bool isSaturated() const;
+    /// How many of the streams are full: less gets onto the track than comes to it, by more than one part in
+    /// twenty and one more, which may just be waiting.
+    [[nodiscard]] int countFull() const;
 
     friend bool operator==(const StreamResult&, const StreamResult&) = default;
 };

@@ -47,9 +47,9 @@ ChartSheet streamSheet(const study::Streams& streams) {
     Curve share{tr("as wanted"), tr("Share as wanted [%]"), {}, kWanted, {}};
     share.bandColumns = {tr("Share low [%]"), tr("Share high [%]")};
     PlotSheet jams = makePlot("jams", tr("Jammed [%]"));
-    jams.yIncluded = {0.0};
-    jams.leastHeight = 5.0;
+    jams.yIncluded = {0.0, 5.0};
     Curve jammed{tr("jammed"), tr("Time jammed [%]"), {}, kJammed, {}};
+    bool anyJam = false;
     for (const study::StreamResult& result : streams.results) {
         const double x = result.partsPerMinute;
         const stats::MeanEstimate rate = result.rate(&study::StreamCounts::success);
@@ -62,6 +62,7 @@ ChartSheet streamSheet(const study::Streams& streams) {
             share.band.push_back({kPercent * estimate->interval.low, kPercent * estimate->interval.high});
         }
         jammed.points.emplace_back(x, kPercent * result.jammedShare());
+        anyJam = anyJam || result.sum().jams > 0;
     }
     rates.curves = {std::move(wanted), std::move(arrived), std::move(offered)};
     shares.curves = {std::move(share)};
@@ -75,7 +76,8 @@ ChartSheet streamSheet(const study::Streams& streams) {
         {"arrived", tr("all that arrive"), tr("Parts that leave the track at its end, however they lie."),
          kArrived},
         {"offered", tr("all that come"), tr("Parts that the bowl delivers."), kOffered},
-        {"jams", tr("jams"), tr("Time in which somebody stands still and nobody arrives."), std::nullopt}};
+        {"jams", tr("jams"), tr("Time in which somebody stands still and nobody arrives."), std::nullopt,
+         anyJam}};
     sheet.plots = {std::move(rates), std::move(shares), std::move(jams)};
     return sheet;
 }

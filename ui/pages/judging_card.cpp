@@ -214,7 +214,7 @@ void JudgingCard::showStream(const QString& obstacle) {
             const auto problems = study::findStreamProblems(runs_->design().settings(), inflow);
             if (reason.isEmpty() && !problems.empty()) reason = QString::fromStdString(problems.front());
         }
-        text = tr("%1 to %2 parts a minute, touching each other: %3 parts")
+        text = tr("%1 to %2 parts a minute: %3 parts")
                    .arg(inflows.front())
                    .arg(inflows.back())
                    .arg(QLocale().toString(static_cast<int>(parts)));

@@ -79,10 +79,12 @@ void StreamPanel::showHead() {
                          boundsText(100.0 * share->interval.low, 100.0 * share->interval.high));
     text += ". ";
     const auto first = [&](auto&& condition) { return std::ranges::find_if(streams.results, condition); };
-    if (const auto full = first([](const study::StreamResult& r) { return r.isSaturated(); });
+    if (const auto full = first([](const study::StreamResult& r) { return r.countFull() > 0; });
         full != streams.results.end())
-        text += tr("From %1 a minute on more come than get onto the track. ")
-                    .arg(look::numberText(full->partsPerMinute));
+        text += tr("At %1 a minute %2 of %3 streams are full: more come than get on. ")
+                    .arg(look::numberText(full->partsPerMinute))
+                    .arg(full->countFull())
+                    .arg(full->streams.size());
     if (const auto jam = first([](const study::StreamResult& r) { return r.sum().uncleared > 0; });
         jam != streams.results.end())
         text += tr("At %1 a minute %2 of %3 streams end jammed. ")

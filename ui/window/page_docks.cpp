@@ -24,7 +24,7 @@ namespace trapwright::window {
 namespace {
 
 // Raised when docks are added or renamed, so that an old arrangement is not laid over them.
-constexpr int kLayoutVersion = 3;
+constexpr int kLayoutVersion = 4;
 constexpr int kInspectorWidth = 368;
 constexpr int kPanelHeight = 240;
 constexpr int kPanelWidth = 312;
