@@ -95,8 +95,8 @@ inline PlacedLanes placeLanes(TrialLanes& group, int lane) {
     const Real pushed = get(group, kPushed, lane);
     placed.margin = Real(1.1) * reach + Real(kMargin) + pushed;
     // An impulse at one contact may turn the part toward another: what comes within half of the step's reach
-    // counts. A part that is pushed may be pushed against all that it can reach.
-    placed.near = select(pushed > Real(0.0), Real(kUntouchable), Real(0.5) * reach + Real(kMargin));
+    // counts; of a part that others push what they can push it against, too.
+    placed.near = Real(0.5) * reach + Real(kMargin) + pushed;
     return placed;
 }
 

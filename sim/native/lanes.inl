@@ -67,6 +67,10 @@ inline bool any(Mask mask) {
 inline bool all(Mask mask) {
     return hn::AllTrue(Tag(), mask.bits);
 }
+/// Hardly ever do all lanes need the same.
+inline bool leavesOut(Mask /*mask*/) {
+    return false;
+}
 inline Real mulAdd(Real a, Real b, Real c) {
     return Real(hn::MulAdd(a.lanes, b.lanes, c.lanes));
 }

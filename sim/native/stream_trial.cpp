@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace trapwright::native {
 
@@ -127,14 +128,34 @@ void StreamTrial::describe(int slot) {
     part.lastTurn = 2.0 * radius * (own.pose.rotation.coeffs() - own.lastPose.rotation.coeffs()).norm();
 }
 
-void StreamTrial::touch(int slot, double reach) {
-    Slot& own = at(slot);
-    TrialLanes& group = lanes_->groupOf(own.handle);
-    const int lane = lanes_->laneOf(own.handle);
-    own.touched = true;
-    group.touched[static_cast<std::size_t>(lane)] = 1;
-    float& pushed = group.field(kPushed)[lane];
-    pushed = std::max(pushed, static_cast<float>(reach));
+void StreamTrial::touchAll() {
+    if (partContacts_.empty()) return;
+    islandOf_.resize(slots_.size());
+    std::iota(islandOf_.begin(), islandOf_.end(), 0);
+    for (const contact::PartContact& found : partContacts_) {
+        Slot& own = at(found.contact.bodyA);
+        Slot& other = at(found.contact.bodyB);
+        own.touched = true;
+        other.touched = true;
+        const int a = islandOf_[static_cast<std::size_t>(found.contact.bodyA)];
+        const int b = islandOf_[static_cast<std::size_t>(found.contact.bodyB)];
+        if (a != b) std::ranges::replace(islandOf_, std::max(a, b), std::min(a, b));
+    }
+    // A blow goes on from part to part: each may be pushed as far as any two come nearer to each other.
+    pushed_.assign(slots_.size(), 0.0);
+    for (const contact::PartContact& found : partContacts_) {
+        double& pushed =
+            pushed_[static_cast<std::size_t>(islandOf_[static_cast<std::size_t>(found.contact.bodyB)])];
+        pushed = std::max(pushed, found.reach);
+    }
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+        if (!slots_[slot].touched) continue;
+        TrialLanes& group = lanes_->groupOf(slots_[slot].handle);
+        const int lane = lanes_->laneOf(slots_[slot].handle);
+        group.touched[static_cast<std::size_t>(lane)] = 1;
+        group.field(kPushed)[lane] =
+            static_cast<float>(pushed_[static_cast<std::size_t>(islandOf_[slot])] + contact::kTravelMargin);
+    }
 }
 
 void StreamTrial::findPartContacts() {
@@ -161,10 +182,7 @@ void StreamTrial::findPartContacts() {
         describe(pair.b);
     }
     pairs_.findContacts(nearParts_, dt_, partContacts_);
-    for (const contact::PartContact& found : partContacts_) {
-        touch(found.contact.bodyA, found.reach);
-        touch(found.contact.bodyB, found.reach);
-    }
+    touchAll();
 }
 
 void StreamTrial::addTrackContacts(int slot) {

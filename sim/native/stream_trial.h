@@ -59,8 +59,8 @@ class StreamTrial {
     void leave(int slot);
     /// Describes a part that is near another, if it is not described yet.
     void describe(int slot);
-    /// Has a part that another touches solved for here; they come nearer by `reach` at most. [m]
-    void touch(int slot, double reach);
+    /// Has all parts that others touch solved for here.
+    void touchAll();
     void addTrackContacts(int slot);
     void takeResult(int slot, const contact::StepResult& result);
     [[nodiscard]] Slot& at(int slot) { return slots_[static_cast<std::size_t>(slot)]; }
@@ -83,6 +83,8 @@ class StreamTrial {
     std::vector<base::Vec3> positions_;         // by slot
     std::vector<contact::NearPart> nearParts_;  // by slot
     std::vector<contact::PartContact> partContacts_;
+    std::vector<int> islandOf_;                // by slot: the first one that it touches, also by others
+    std::vector<double> pushed_;               // by slot, of that one [m]
     std::vector<contact::MovingBody> bodies_;  // by slot
     std::vector<contact::MovingContact> contacts_;
 };

@@ -21,6 +21,9 @@ inline bool any(Mask mask) {
 inline bool all(Mask mask) {
     return mask;
 }
+inline bool leavesOut(Mask mask) {
+    return mask;
+}
 inline Real mulAdd(Real a, Real b, Real c) {
     return a * b + c;
 }

@@ -310,6 +310,13 @@ struct Iterated {
     Mask converged;
 };
 
+/// Whether a contact has no impulse and gets none, `normal` being its next one.
+template <class Row>
+Mask isIdle(const Row& row, Real normal) {
+    return row.normal <= Real(0.0) && normal <= Real(0.0) &&
+           dot(row.tangential, row.tangential) <= Real(0.0);
+}
+
 /// Changes the rows' impulses until all targets are met, at most so often; `motion` is the one that they lead
 /// to from `freeMotion`. Lanes of `frozen` keep their impulses. first: how many iterations there were before;
 /// they told how friction turns within the step.
@@ -322,6 +329,7 @@ Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask froz
     const bool followsTrend = count <= kMostInTrend && any(impact);
     State motion = freeMotion;
     for (int i = 0; i < count; ++i) {
+        if (leavesOut(isIdle(rows[i], Real(0.0)))) continue;
         applyImpulse(rows[i], motion, 0, rows[i].normal);
         applyImpulse(rows[i], motion, 1, rows[i].tangential.x);
         applyImpulse(rows[i], motion, 2, rows[i].tangential.y);
@@ -340,6 +348,11 @@ Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask froz
                                 row.slipTarget - row.tangentInverse * row.tangential;
 
             const Real normal = max(Real(0.0), row.normal + (row.target - speed) * row.normalMass);
+            const bool shapes = !shaped && (iteration == 0 || iteration == kShapingIteration);
+            if (!shapes && leavesOut(isIdle(row, normal) && row.shape.onTheWay)) {
+                row.sliding = row.shape.onTheWay;
+                continue;
+            }
             const Real step = select(done, Real(0.0), normal - row.normal);
             row.normal = row.normal + step;
             applyImpulse(row, motion, 0, step);
@@ -350,8 +363,7 @@ Iterated<State> iterate(Row* rows, int count, const State& freeMotion, Mask froz
             const Real bound = row.friction * row.normal * row.tangentInverse;
             // How friction turns on the way hardly changes from one iteration to the next; once it stays,
             // they converge.
-            if (!shaped && (iteration == 0 || iteration == kShapingIteration))
-                row.shape = calcFrictionShape(free, row.slipBefore, bound);
+            if (shapes) row.shape = calcFrictionShape(free, row.slipBefore, bound);
             const Friction friction = calcFriction(row.shape, free, bound);
             const Pair tangentialStep =
                 select(done, Pair{Real(0.0), Real(0.0)}, row.tangentMass * friction.change - row.tangential);
@@ -380,6 +392,7 @@ Real calcWork(const Row* rows, int count, const State& motion) {
     Real work = Real(0.0);
     for (int i = 0; i < count; ++i) {
         const Row& row = rows[i];
+        if (leavesOut(isIdle(row, Real(0.0)))) continue;
         const Real impulse[3] = {row.normal, row.tangential.x, row.tangential.y};
         for (int k = 0; k < 3; ++k)
             work =
@@ -459,6 +472,7 @@ State advancePose(const Row* rows, int count, const State& free, const State& af
             const Real overlap = allowed - (row.gap + dt * velocityAlong(row, advance, 0));
             Mask deep = overlap > Real(kOverlapTolerance);
             if (!last) deep = deep && !row.later;
+            if (leavesOut(!deep)) continue;
             applyImpulse(row, advance, 0, select(deep, overlap / dt * row.normalMass, Real(0.0)));
             overlapping = overlapping || deep;
         }

@@ -69,6 +69,61 @@ class StreamsTest : public QObject {
         QVERIFY(replayed->outcome == alone[1]);
     }
 
+    // The same with two kinds of parts, in a bowl, on a rough surface: a kind of part has lanes or bodies of
+    // its own.
+    void sameBitsOfSeveralKinds() {
+        trial::TrialBatch stream = makeStream(3, 8, 0.1, 1.2);
+        const track::FeederShape shape{track::FeederType::bowl, 0.175, track::Conveying::clockwise};
+        stream.track = testing::makeLevelOn(shape, 0.5);
+        stream.parts.push_back(verify::makeCuboid(Vec3(10, 10, 3) * kMillimetre, 2700.0));
+        stream.contact.roughness = 0.1;
+        for (trial::TrialSpec& spec : stream.trials) {
+            for (std::size_t i = 0; i < spec.parts.size(); ++i) {
+                trial::PartStart& start = spec.parts[i];
+                start.part = i % 2;
+                start.pose.position = shape.toRoom(start.pose.position);
+            }
+        }
+        const std::vector<trial::Outcome> together = simulate(stream, 1);
+        QCOMPARE(together.size(), std::size_t{3});
+        QVERIFY(simulate(stream, 2) == together);
+        trial::TrialBatch last = stream;
+        last.trials.erase(last.trials.begin(), last.trials.begin() + 2);
+        QVERIFY(simulate(last, 1).front() == together[2]);
+        const auto replayed = testing::makeEngine()->replay(stream, 2, 0.01, {});
+        QVERIFY(replayed.ok());
+        QVERIFY(replayed->outcome == together[2]);
+        const bool touched = std::ranges::any_of(replayed->samples, [](const auto& sample) {
+            return std::ranges::any_of(sample.forces,
+                                       [](const auto& force) { return force.bodyA != trial::kTrack; });
+        });
+        QVERIFY(touched);
+    }
+
+    // A part that lies on the track and is hit hard is not driven into it, nor is one below it.
+    void aBlowFromAboveDrivesNothingIntoTheTrack() {
+        trial::TrialBatch scene = verify::makeStillScene(verify::makeFlat(), nullptr, {}, 0.2);
+        const auto plate = verify::makeCuboid(Vec3(12, 12, 2) * kMillimetre, 1000.0);
+        scene.parts = {plate, verify::makeCuboid(Vec3(12, 12, 6) * kMillimetre, 1000.0)};
+        const auto place = [](double z) {
+            return base::Pose{base::Quaternion::Identity(), Vec3(0.1, 0.0, 15.0 * kMillimetre + z)};
+        };
+        scene.trials[0].parts = {{0, place(1.0 * kMillimetre + 1e-8)},
+                                 {0, place(3.0 * kMillimetre + 2e-8)},
+                                 {1, place(8.0 * kMillimetre), Vec3(0.0, 0.0, -1.0)}};
+        const trial::Trajectory film = verify::replayScene(*testing::makeEngine(), scene, 2e-4, {});
+        double lowest = 1.0;
+        bool hit = false;
+        for (const trial::TrajectorySample& sample : film.samples) {
+            hit = hit || sample.parts[2].velocity.z() > -0.5;
+            for (const trial::PartState& state : sample.parts)
+                for (const Vec3& vertex : scene.parts[state.part / 2]->hull.vertices)
+                    lowest = std::min(lowest, state.room.apply(vertex).z());
+        }
+        QVERIFY(hit);
+        QVERIFY2(lowest > 14.9 * kMillimetre, qPrintable(QString::number(lowest)));
+    }
+
     // Parts that never come near each other move as if each were alone, bit for bit.
     void partsFarApartAreAlone() {
         trial::TrialBatch singles = testing::makeRoughBatch(verify::makePaperCuboid(), 11, 4, 0.3);
