@@ -313,8 +313,7 @@ struct Iterated {
 /// Whether a contact has no impulse and gets none, `normal` being its next one.
 template <class Row>
 Mask isIdle(const Row& row, Real normal) {
-    return row.normal <= Real(0.0) && normal <= Real(0.0) &&
-           dot(row.tangential, row.tangential) <= Real(0.0);
+    return row.normal <= Real(0.0) && normal <= Real(0.0) && dot(row.tangential, row.tangential) <= Real(0.0);
 }
 
 /// Changes the rows' impulses until all targets are met, at most so often; `motion` is the one that they lead
