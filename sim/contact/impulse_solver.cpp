@@ -283,7 +283,10 @@ void ImpulseSolver::solveAlone(std::span<const MovingBody> bodies, std::span<con
 
 void ImpulseSolver::solveTogether(std::span<const MovingBody> bodies, std::span<const MovingContact> contacts,
                                   const Island& island, const ContactLaws& laws, double dt) {
-    auto& [own, places, rows, free] = *workspace_;
+    std::vector<ScaledBody>& own = workspace_->bodies;
+    std::vector<int>& places = workspace_->places;
+    std::vector<scalar::PairConstraint>& rows = workspace_->rows;
+    scalar::PartMotions& free = workspace_->free;
     own.clear();
     places.resize(bodies.size());
     for (const int body : island.bodies) {
