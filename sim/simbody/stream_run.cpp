@@ -38,7 +38,7 @@ void StreamRun::enter(const contact::Traffic::Entry& entry) {
         for (int body = 0; body < count; ++body)
             larger.adopt(body, own.bodies, body);
         own.bodies = std::move(larger);
-        own.taken.resize(static_cast<std::size_t>(2 * count), false);
+        own.taken.resize(2 * static_cast<std::size_t>(count), false);
         free = own.taken.begin() + count;
     }
     *free = true;
