@@ -49,7 +49,9 @@ void StreamRun::enter(const contact::Traffic::Entry& entry) {
     if (slot >= places_.size()) {
         places_.resize(slot + 1);
         carrying_.resize(slot + 1, 0);
+        since_.resize(slot + 1, 0);
     }
+    since_[slot] = steps_;
     places_[slot] = {start.part, body};
     carrying_[slot] = 0;
     contact_.add(entry.slot, scene_->bodies[start.part]);
@@ -132,7 +134,11 @@ trial::TrajectorySample StreamRun::sample() const {
     const auto nameOf = [&](trial::Body slot) {
         return slot == trial::kTrack ? trial::kTrack : static_cast<trial::Body>(*traffic_.partOf(slot));
     };
-    const auto isHere = [&](trial::Body slot) { return slot == trial::kTrack || traffic_.partOf(slot); };
+    // Whoever came into a slot just now has nothing of what the one before did there.
+    const auto isHere = [&](trial::Body slot) {
+        return slot == trial::kTrack ||
+               (traffic_.partOf(slot) && since_[static_cast<std::size_t>(slot)] < steps_);
+    };
     for (trial::ContactForce& force : contact_.forces()) {
         if (!isHere(force.bodyA) || !isHere(force.bodyB)) continue;
         force.bodyA = nameOf(force.bodyA);

@@ -73,6 +73,7 @@ class StreamRun {
     std::vector<Place> places_;   // by slot
     std::vector<contact::SteppedPart> parts_;
     std::vector<int> carrying_;  // by slot
+    std::vector<long> since_;    // by slot: the step before which its part came
 };
 
 }  // namespace trapwright::simbody

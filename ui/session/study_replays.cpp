@@ -11,7 +11,9 @@ namespace trapwright::session {
 
 namespace {
 
-constexpr int kAtOnce = 60;  // trials, before others have their turn
+// Before others have their turn.
+constexpr int kAtOnce = 60;        // trials
+constexpr int kStreamsAtOnce = 2;  // each lasts a minute, with many parts
 
 QString noTrials() {
     return StudyReplays::tr("This individual has no such trials. Choose another one, or simulate it first.");
@@ -146,9 +148,10 @@ StudyReplays::Deliver StudyReplays::simulateSome(const std::shared_ptr<const Sim
                                                  ListedTrials trials) {
     trial::TrialBatch batch = simulation->batch;
     const auto first = static_cast<std::ptrdiff_t>(trials.outcomes.size());
+    const int atOnce = trials.request.stream ? kStreamsAtOnce : kAtOnce;
     batch.trials.assign(
         simulation->batch.trials.begin() + first,
-        simulation->batch.trials.begin() + std::min<std::ptrdiff_t>(first + kAtOnce, trials.wanted));
+        simulation->batch.trials.begin() + std::min<std::ptrdiff_t>(first + atOnce, trials.wanted));
     const auto outcomes = study::runTrials(*simulation->engine, {&batch, 1}, simulation->control);
     if (!outcomes) return outcomes.error();
     trials.outcomes.insert(trials.outcomes.end(), outcomes->front().begin(), outcomes->front().end());
