@@ -298,10 +298,10 @@ std::vector<std::string> findStreamProblems(const Settings& settings, double par
 base::Result<Streams> measureStreams(const StudyInputs& inputs,
                                      const std::shared_ptr<const track::Track>& track,
                                      const IndividualId& individual, const std::optional<trial::Goal>& given,
-                                     std::vector<double> inflows, base::RunControl control) {
+                                     std::vector<double> inflows, const base::RunControl& control) {
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     std::ranges::sort(inflows);
-    inflows.erase(std::ranges::unique(inflows).begin(), inflows.end());
+    inflows.erase(std::unique(inflows.begin(), inflows.end()), inflows.end());
     if (inflows.empty()) return base::Error{"Name at least one inflow, in parts a minute."};
     std::string problems;
     for (const double inflow : inflows)

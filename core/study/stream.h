@@ -109,7 +109,7 @@ std::vector<std::string> findStreamProblems(const Settings& settings, double par
 base::Result<Streams> measureStreams(const StudyInputs& inputs,
                                      const std::shared_ptr<const track::Track>& track,
                                      const IndividualId& individual, const std::optional<trial::Goal>& given,
-                                     std::vector<double> inflows, base::RunControl control);
+                                     std::vector<double> inflows, const base::RunControl& control);
 
 /// A table of all of it, for people.
 std::string formatStreams(const Streams& streams);

@@ -347,11 +347,12 @@ std::vector<Row> runHeap(const trial::EngineKind& kind, const base::RunControl& 
         const auto part = makePaperCuboid();
         // A column of layers of two, dropped at once.
         for (int k = 0; k < 8; ++k) {
+            const int layer = k / 2;
             const double side = k % 2 == 0 ? -4.0 : 4.0;
             addPart(scene, part,
                     {random.rotation(),
                      Vec3(0.12 + (side + 4.0 * (k % 2)) * kMillimetre, side * 2.0 * kMillimetre,
-                          kLevel + (8.0 + 16.0 * (k / 2)) * kMillimetre)});
+                          kLevel + (8.0 + 16.0 * layer) * kMillimetre)});
         }
         const trial::Trajectory trajectory = replayScene(*engine, scene, 1e-3, control);
         const double rest = static_cast<double>(scene.trials[0].parts.size()) * part->massProperties.mass *

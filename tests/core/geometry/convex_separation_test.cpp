@@ -16,6 +16,7 @@ namespace {
 
 ConvexPolytope makeBox(const Vec3& half) {
     std::vector<Vec3> corners;
+    corners.reserve(8);
     for (int i = 0; i < 8; ++i)
         corners.emplace_back(
             Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1).cwiseProduct(half));

@@ -241,7 +241,7 @@ class StreamTest : public QObject {
         study::StudyInputs inputs = crowdInputs();
         const auto track = makeTrack(inputs);
         const auto reason = [&](std::vector<double> inflows) {
-            return fake::messageOf(study::measureStreams(inputs, track, {}, std::nullopt, inflows, {}));
+            return fake::messageOf(study::measureStreams(inputs, track, {}, std::nullopt, std::move(inflows), {}));
         };
         QVERIFY(reason({}).contains("at least one inflow"));
         QVERIFY(reason({30.0, 0.0}).contains("0 parts a minute; 0.1 to 10000"));
