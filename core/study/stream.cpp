@@ -191,30 +191,37 @@ trial::TrialBatch makeStreamBatch(const Settings& settings, const std::shared_pt
 }
 
 std::vector<Jam> findJams(const trial::Outcome& outcome, const trial::Termination& termination) {
-    // Times in which somebody stands, as pieces that do not overlap.
-    std::vector<trial::Stop> stops = outcome.stops;
-    std::ranges::sort(stops, {}, &trial::Stop::from);
-    std::vector<Jam> pieces;
-    for (const trial::Stop& stop : stops) {
-        if (!pieces.empty() && stop.from <= pieces.back().to)
-            pieces.back().to = std::max(pieces.back().to, stop.to);
-        else
-            pieces.push_back({stop.from, stop.to, true});
-    }
-    // Cut where parts arrive all the same.
-    std::vector<Jam> jams;
     const std::vector<double> finishes = listFinishes(outcome);
-    for (const Jam& piece : pieces) {
-        double from = piece.from;
-        const auto close = [&](double to) {
-            if (to - from >= termination.stuckTime) jams.push_back({from, to, to < termination.until});
-            from = to;
-        };
-        for (auto finish = std::ranges::upper_bound(finishes, piece.from);
-             finish != finishes.end() && *finish < piece.to; ++finish)
-            close(*finish);
-        close(piece.to);
+    // Between these nothing changes.
+    std::vector<double> times = finishes;
+    for (const trial::Stop& stop : outcome.stops)
+        times.insert(times.end(), {stop.from, stop.to});
+    for (const trial::PartOutcome& part : outcome.parts)
+        if (part.entered) times.insert(times.end(), {*part.entered, part.time});
+    std::ranges::sort(times);
+    const auto stands = [&](double time) {
+        const auto standing = std::ranges::count_if(
+            outcome.stops, [time](const trial::Stop& stop) { return stop.from <= time && time < stop.to; });
+        if (standing != 1) return standing > 1;
+        // One that others pass is in nobody's way.
+        return std::ranges::count_if(outcome.parts, [time](const trial::PartOutcome& part) {
+                   return part.entered && *part.entered <= time && time < part.time;
+               }) == 1;
+    };
+    std::vector<Jam> jams;
+    bool jammed = false;
+    double from = 0.0;
+    const auto close = [&](double to) {
+        if (jammed && to - from >= termination.stuckTime) jams.push_back({from, to, to < termination.until});
+        jammed = false;
+    };
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+        const bool standing = stands(0.5 * (times[i] + times[i + 1]));
+        if (!standing || std::ranges::binary_search(finishes, times[i])) close(times[i]);
+        if (standing && !jammed) from = times[i];
+        jammed = standing;
     }
+    if (!times.empty()) close(times.back());
     return jams;
 }
 
@@ -363,8 +370,8 @@ std::string formatStreams(const Streams& streams) {
                         fmt::format("{:.1f} ({})", 100.0 * result.jammedShare(), sum.jams), note);
     }
     text += fmt::format(
-        "In brackets: 95 %, over {} streams of {:g} s each after {:g} s of warm-up. Jammed: somebody stands "
-        "still and nobody arrives. Full: more comes than gets on.\n",
+        "In brackets: 95 %, over {} streams of {:g} s each after {:g} s of warm-up. Jammed: nobody "
+        "arrives, and all on the track or two of them stand still. Full: more comes than gets on.\n",
         streams.settings.streams, streams.settings.duration, streams.settings.warmUp);
     return text;
 }

@@ -42,7 +42,7 @@ struct StreamCounts {
     friend bool operator==(const StreamCounts&, const StreamCounts&) = default;
 };
 
-/// A time in which at least one part stands still and none arrives, for Termination::stuckTime or longer. [s]
+/// No part arrives, and all on the track or two of them stand still, for Termination::stuckTime or more. [s]
 struct Jam {
     double from = 0.0;
     double to = 0.0;

@@ -76,7 +76,8 @@ ChartSheet streamSheet(const study::Streams& streams) {
         {"arrived", tr("all that arrive"), tr("Parts that leave the track at its end, however they lie."),
          kArrived},
         {"offered", tr("all that come"), tr("Parts that the bowl delivers."), kOffered},
-        {"jams", tr("jams"), tr("Time in which somebody stands still and nobody arrives."), std::nullopt,
+        {"jams", tr("jams"),
+         tr("Time in which nobody arrives, and all on the track or two of them stand still."), std::nullopt,
          anyJam}};
     sheet.plots = {std::move(rates), std::move(shares), std::move(jams)};
     return sheet;

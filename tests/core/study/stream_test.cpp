@@ -165,24 +165,31 @@ class StreamTest : public QObject {
                             const QList<double>& jams) { QTest::newRow(name) << stops << finishes << jams; };
         row("nobody stands", {}, {1, 2}, {});
         row("one stands, others pass", {10, 20}, {11, 12, 13, 14, 15, 16, 17, 18, 19, 20}, {});
-        row("one stands and blocks", {10, 20}, {9, 10, 21}, {10, 20});
-        row("cut by one that passes", {10, 20}, {12, 12.5}, {10, 12, 12.5, 20});
-        row("a row stands", {10, 15, 11, 20, 12, 18}, {}, {10, 20});
+        row("one stands alone", {10, 20}, {9, 25}, {10, 20});
+        row("alone but for a while", {10, 20}, {15}, {15, 20});
+        row("two stand, a third comes", {10, 20, 12, 20}, {23}, {10, 20});
+        row("two stand, others pass", {10, 20, 12, 20}, {14, 15, 19}, {12, 14, 15, 19});
         row("two jams", {10, 12, 30, 33}, {}, {10, 12, 30, 33});
-        row("to the end", {50, 60}, {52}, {50, 52, 52, 60});
+        row("to the end", {50, 60}, {52}, {52, 60});
     }
     void jamsAreFound() {
         QFETCH(QList<double>, stops);
         QFETCH(QList<double>, finishes);
         QFETCH(QList<double>, jams);
         trial::Outcome outcome;
-        for (const double time : finishes) {
+        const auto addPart = [&](double entered, double time, trial::Ending ending) {
             trial::PartOutcome& part = outcome.parts.emplace_back();
-            part.ending = trial::Ending::finished;
+            part.entered = entered;
             part.time = time;
+            part.ending = ending;
+        };
+        for (const double time : finishes)
+            addPart(time - 4.0, time, trial::Ending::finished);
+        for (qsizetype i = 0; i < stops.size(); i += 2) {
+            outcome.stops.push_back({outcome.parts.size(), stops[i], stops[i + 1]});
+            addPart(stops[i], stops[i + 1],
+                    stops[i + 1] < 60.0 ? trial::Ending::fellOff : trial::Ending::timedOut);
         }
-        for (qsizetype i = 0; i < stops.size(); i += 2)
-            outcome.stops.push_back({0, stops[i], stops[i + 1]});
         trial::Termination termination;
         termination.until = 60.0;
         QList<double> found;
@@ -241,7 +248,8 @@ class StreamTest : public QObject {
         study::StudyInputs inputs = crowdInputs();
         const auto track = makeTrack(inputs);
         const auto reason = [&](std::vector<double> inflows) {
-            return fake::messageOf(study::measureStreams(inputs, track, {}, std::nullopt, std::move(inflows), {}));
+            return fake::messageOf(
+                study::measureStreams(inputs, track, {}, std::nullopt, std::move(inflows), {}));
         };
         QVERIFY(reason({}).contains("at least one inflow"));
         QVERIFY(reason({30.0, 0.0}).contains("0 parts a minute; 0.1 to 10000"));
