@@ -69,19 +69,6 @@ inline std::vector<LikeTrials> groupLikeStreams(std::span<const trial::TrialBatc
     return groups;
 }
 
-/// Places of all trials of the batches that are not of one part.
-struct StreamPlace {
-    std::size_t batch = 0;
-    std::size_t trial = 0;
-};
-inline std::vector<StreamPlace> listStreams(std::span<const trial::TrialBatch> batches) {
-    std::vector<StreamPlace> places;
-    for (std::size_t b = 0; b < batches.size(); ++b)
-        for (std::size_t i = 0; i < batches[b].trials.size(); ++i)
-            if (!isOfOnePart(batches[b], batches[b].trials[i])) places.push_back({b, i});
-    return places;
-}
-
 /// Like trials, handed out one by one to the threads of an engine. A `Scene` is what an engine prepares for
 /// all of them in one batch; it is made, by the batch's place, when the first one is handed out.
 template <class Scene>

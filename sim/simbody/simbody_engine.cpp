@@ -134,22 +134,26 @@ base::Result<std::vector<std::vector<trial::Outcome>>> SimbodyEngine::run(
         }
         if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     }
-    const std::vector<contact::StreamPlace> streams = contact::listStreams(batches);
-    try {
-        base::parallelFor(streams.size(), threads_, [&](std::size_t i, unsigned) {
-            const auto [b, trial] = streams[i];
-            const double step = batches[b].stepOf(step_, kDefaultStep);
-            StreamRun run(std::make_shared<const StreamScene>(batches[b]), trial, step);
-            trial::CostLaps laps(costs_.get());
-            for (long steps = 1; run.step(laps); ++steps)
-                if (steps % kStepsPerLook == 0 && !control.mayGoOn()) return;
-            outcomes[b][trial] = run.outcome();
-            control.advance(1);
-        });
-    } catch (const std::exception& e) {
-        return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
+    for (const contact::LikeTrials& like : contact::groupLikeStreams(batches)) {
+        contact::TrialQueue<StreamScene> queue(
+            like.members, [&](std::size_t b) { return std::make_shared<const StreamScene>(batches[b]); });
+        const double step = like.batch->stepOf(step_, kDefaultStep);
+        try {
+            base::parallelFor(threads_, threads_, [&](std::size_t, unsigned) {
+                trial::CostLaps laps(costs_.get());
+                while (const auto job = queue.next()) {
+                    StreamRun run(job->scene, job->trial, step);
+                    for (long steps = 1; run.step(laps); ++steps)
+                        if (steps % kStepsPerLook == 0 && !control.mayGoOn()) return;
+                    outcomes[job->batch][job->trial] = run.outcome();
+                    control.advance(1);
+                }
+            });
+        } catch (const std::exception& e) {
+            return base::Error{std::string("Simbody could not simulate the trials: ") + e.what()};
+        }
+        if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     }
-    if (control.cancelled()) return base::Error{"The simulation was cancelled."};
     return outcomes;
 }
 
