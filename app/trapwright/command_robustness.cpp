@@ -227,9 +227,7 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
         "condition, in its worst corners, and the map of the worst two conditions.",
         "trapwright robustness cuboid.trap --engine native",
         [options](const Console& console) { return run(*options, console); });
-    command.addOption("FILE", options->subject.track.file, "A study, or a track as JSON in mm").required();
-    addIndividualOptions(command, options->subject.choice);
-    addTrackOptions(command, options->subject.track);
+    addSubjectOptions(command, options->subject);
     command.addOption("--trials", options->plan.trials, "At each place (200)");
     command.addOption("--box-trials", options->plan.boxTrials, "All over the box (1000)");
     command.addOption("--points", options->plan.sweepPoints, "Of each condition (7)");
@@ -254,11 +252,6 @@ void addRobustnessCommand(CLI::App& program, Invocation& invocation) {
         .addOption("--best", options->best,
                    "So many tracks of the last selection, one after the other, told by their worst corner")
         .range(1, 1000);
-    command.addFlag("--save", options->subject.save,
-                    "Keep it in the study, for the Review page; replaces what it held");
-    command.addOption("--engine", options->subject.engine,
-                      "What simulates (default: what the study learns with)");
-    command.addOption("--threads", options->subject.threads, "Threads (default: all processors)");
 }
 
 }  // namespace trapwright::app

@@ -138,9 +138,7 @@ void addStreamCommand(CLI::App& program, Invocation& invocation) {
                                  "over how many come.",
                                  "trapwright stream cuboid.trap --inflow 30 60 120",
                                  [options](const Console& console) { return run(*options, console); });
-    command.addOption("FILE", options->subject.track.file, "A study, or a track as JSON in mm").required();
-    addIndividualOptions(command, options->subject.choice);
-    addTrackOptions(command, options->subject.track);
+    addSubjectOptions(command, options->subject);
     command.addOption("--inflow", options->inflows, "Parts a minute, one or several (10 30 60 100 180 300)");
     command.addOption("--streams", options->streams, "Of each inflow (default: the study's)").range(2, 10000);
     command.addOption("--duration", options->duration, "Of each that counts, in s (default: the study's)");
@@ -155,11 +153,6 @@ void addStreamCommand(CLI::App& program, Invocation& invocation) {
                    "The orientation that counts as success, w x y z (default: what the study wants, or the "
                    "most frequent final one of the least inflow)")
         .values(4);
-    command.addFlag("--save", options->subject.save,
-                    "Keep it in the study, for the Review page; replaces what it held");
-    command.addOption("--engine", options->subject.engine,
-                      "What simulates (default: what the study learns with)");
-    command.addOption("--threads", options->subject.threads, "Threads (default: all processors)");
 }
 
 }  // namespace trapwright::app

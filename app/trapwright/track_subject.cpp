@@ -55,6 +55,16 @@ Attempt<TrackSubject> loadOfStudy(const SubjectRequest& request) {
 
 }  // namespace
 
+void addSubjectOptions(Command command, SubjectRequest& request) {
+    command.addOption("FILE", request.track.file, "A study, or a track as JSON in mm").required();
+    addIndividualOptions(command, request.choice);
+    addTrackOptions(command, request.track);
+    command.addFlag("--save", request.save,
+                    "Keep it in the study, for the Review page; replaces what it held");
+    command.addOption("--engine", request.engine, "What simulates (default: what the study learns with)");
+    command.addOption("--threads", request.threads, "Threads (default: all processors)");
+}
+
 bool isTrackFile(const std::string& file) {
     std::ifstream stream(file);
     stream >> std::ws;

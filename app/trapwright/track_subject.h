@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/trapwright/command.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/track_source.h"
 #include "core/store/study_file.h"
@@ -32,6 +33,9 @@ struct SubjectRequest {
     unsigned threads = 0;
     bool save = false;  // what comes of it, in the study
 };
+
+/// Adds FILE, those of addIndividualOptions() and addTrackOptions(), --save, --engine and --threads.
+void addSubjectOptions(Command command, SubjectRequest& request);
 
 /// Studies are databases; a track is JSON.
 bool isTrackFile(const std::string& file);
