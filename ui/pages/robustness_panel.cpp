@@ -1,10 +1,8 @@
 #include "ui/pages/robustness_panel.h"
 
-#include <QLabel>
-#include <QVBoxLayout>
-
 #include "core/stats/binomial.h"
 #include "ui/charts/robustness_chart.h"
+#include "ui/pages/panel_head.h"
 
 namespace trapwright::pages {
 
@@ -27,23 +25,11 @@ QString linkOf(std::size_t link, const study::PlaceResult& result) {
 
 }  // namespace
 
-RobustnessPanel::RobustnessPanel() : head_(new QLabel(this)), chart_(new charts::RobustnessChart(this)) {
+RobustnessPanel::RobustnessPanel()
+    : chart_(new charts::RobustnessChart(this)),
+      head_(new PanelHead("review.robustness.head", this, chart_)) {
     setObjectName("review.robustnessPanel");
     setAccessibleName(tr("Robustness"));
-    setAutoFillBackground(true);
-    setBackgroundRole(QPalette::Base);
-    head_->setObjectName("review.robustness.head");
-    head_->setTextFormat(Qt::RichText);
-    head_->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
-    head_->setWordWrap(true);
-    // It must not widen the window's middle.
-    head_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    head_->setContentsMargins(8, 6, 8, 0);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
-    column->addWidget(head_);
-    column->addWidget(chart_, 1);
     chart_->setEmptyText(
         tr("How this track does with other friction, restitution, stroke and size of the parts is not known "
            "yet. Measure its robustness to see it."));

@@ -9,13 +9,13 @@
 #include "core/workflow/study_trials.h"
 #include "ui/session/study_runs.h"
 
-class QLabel;
-
 namespace trapwright::charts {
 class RobustnessChart;
 }
 
 namespace trapwright::pages {
+
+class PanelHead;
 
 /// How robust a track is: success as set, over the operating box and in its worst corners, each a link to the
 /// trials, above the curves.
@@ -41,8 +41,8 @@ class RobustnessPanel : public QWidget {
     std::optional<study::RobustnessRecord> measured_;
     study::Settings settings_;               // with the box that it was measured in
     std::vector<study::PlaceResult> links_;  // of the head, in their order
-    QLabel* head_;
     charts::RobustnessChart* chart_;
+    PanelHead* head_;
 };
 
 }  // namespace trapwright::pages

@@ -1,13 +1,12 @@
 #include "ui/pages/stream_panel.h"
 
-#include <QLabel>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "ui/charts/curve_chart.h"
 #include "ui/charts/stream_sheet.h"
 #include "ui/look/text.h"
+#include "ui/pages/panel_head.h"
 
 namespace trapwright::pages {
 
@@ -24,23 +23,10 @@ QString boundsText(double low, double high) {
 }  // namespace
 
 StreamPanel::StreamPanel()
-    : head_(new QLabel(this)), chart_(new charts::CurveChart("stream", tr("Stream"), this)) {
+    : chart_(new charts::CurveChart("stream", tr("Stream"), this)),
+      head_(new PanelHead("review.stream.head", this, chart_)) {
     setObjectName("review.streamPanel");
     setAccessibleName(tr("Stream of parts"));
-    setAutoFillBackground(true);
-    setBackgroundRole(QPalette::Base);
-    head_->setObjectName("review.stream.head");
-    head_->setTextFormat(Qt::RichText);
-    head_->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
-    head_->setWordWrap(true);
-    // It must not widen the window's middle.
-    head_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    head_->setContentsMargins(8, 6, 8, 0);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
-    column->addWidget(head_);
-    column->addWidget(chart_, 1);
     chart_->setEmptyText(
         tr("How many parts a minute this track delivers when they follow each other is not known yet. "
            "Simulate streams of parts to see it."));

@@ -6,13 +6,13 @@
 #include "core/study/stream.h"
 #include "core/workflow/study_trials.h"
 
-class QLabel;
-
 namespace trapwright::charts {
 class CurveChart;
 }
 
 namespace trapwright::pages {
+
+class PanelHead;
 
 /// Parts that follow each other on a track: how many a minute leave it as wanted, over how many come. Each
 /// inflow is a link to a film of its streams.
@@ -34,8 +34,8 @@ class StreamPanel : public QWidget {
     void film(std::size_t result);
 
     std::optional<study::StreamsRecord> streams_;
-    QLabel* head_;
     charts::CurveChart* chart_;
+    PanelHead* head_;
 };
 
 }  // namespace trapwright::pages
