@@ -28,6 +28,7 @@ struct Options {
     bool regular = false;
     bool anyhow = false;
     bool nominal = false;
+    std::optional<std::string> returns;
 };
 
 Json toJson(const stats::MeanEstimate& estimate, double scale = 1.0) {
@@ -45,12 +46,16 @@ Json toJson(const study::StreamResult& result) {
                  {"oriented_per_min", toJson(result.rate(&study::StreamCounts::success))}};
     const auto share = result.successShare();
     json["success"] = share ? toJson(*share) : Json();
-    json.update({{"fell_off_per_min", toJson(result.rate(&study::StreamCounts::fellOff))},
+    const auto efficiency = result.efficiency();
+    json["efficiency"] = efficiency ? toJson(*efficiency) : Json();
+    json.update({{"returned_per_min", toJson(result.rate(&study::StreamCounts::returned))},
+                 {"fell_off_per_min", toJson(result.rate(&study::StreamCounts::fellOff))},
                  {"counts",
                   {{"offered", sum.offered},
                    {"entered", sum.entered},
                    {"success", sum.success},
                    {"wrong_orientation", sum.wrong},
+                   {"returned", sum.returned},
                    {"fell_off", sum.fellOff}}},
                  {"transit_s", result.transit},
                  {"spacing_s", result.spacing},
@@ -93,6 +98,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (*expected) subject->goal = **expected;
     study::StudyInputs& inputs = subject->inputs;
     takeOptions(options, inputs.settings);
+    if (options.returns) {
+        const auto changed =
+            study::settingsFromJson(Json{{"track", {{"returns", *options.returns}}}}.dump(), inputs.settings);
+        if (!changed) return Failure{ExitCode::usage, "--returns: " + changed.error().message};
+        inputs.settings = *changed;
+    }
     if (const auto checked = study::checkInputs(inputs); !checked)
         return Failure{ExitCode::usage, checked.error().message};
     std::vector<double> inflows = options.inflows;
@@ -146,6 +157,11 @@ void addStreamCommand(CLI::App& program, Invocation& invocation) {
     command.addFlag("--regular", options->regular, "Parts come after equal gaps, not at random");
     command.addFlag("--anyhow", options->anyhow,
                     "Parts come in any orientation, as while learning, not in their stable poses");
+    command
+        .addOption("--returns", options->returns,
+                   "Where parts that fall off come again: nowhere, inner, outer or anywhere (default: as in "
+                   "the study; nowhere)")
+        .type("PLACE");
     command.addFlag("--nominal", options->nominal,
                     "All as set, not each stream somewhere else in the operating box");
     command

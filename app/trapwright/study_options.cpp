@@ -12,12 +12,15 @@
 
 #include "app/trapwright/engines.h"
 #include "app/trapwright/program.h"
+#include "app/trapwright/track_subject.h"
 #include "core/base/file.h"
 #include "core/base/parallel.h"
 #include "core/study/evaluator.h"
 #include "core/study/field_text.h"
 #include "core/study/presets.h"
 #include "core/study/runner.h"
+#include "core/study/track_design.h"
+#include "core/track/track_file.h"
 #include "core/workflow/learning.h"
 #include "core/workflow/proposal.h"
 #include "core/workflow/study_design.h"
@@ -144,7 +147,7 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || surface || settingsFile || paper || sorting || time || beginWith;
+           contact || surface || settingsFile || paper || sorting || time || beginWith || behind;
 }
 
 bool SettingOptions::given() const {
@@ -199,6 +202,15 @@ void addCreationOptions(Command command, CreationOptions& options) {
             .type("STUDY");
     for (const Option& other : {preset, part, contact, surface, settings, paper, sorting, time})
         beginWith.excludes(other);
+    Option behind =
+        command
+            .addOption("--behind", options.behind,
+                       "Learn traps that throw out what still lies wrong behind a track that is there: of a "
+                       "study, with its part and its settings (its chosen track, or else its best), or of a "
+                       "track's file, with --part or --preset")
+            .type("STUDY|TRACK");
+    for (const Option& other : {paper, sorting, time, beginWith})
+        behind.excludes(other);
 }
 
 void addSettingOptions(Command command, SettingOptions& options) {
@@ -251,6 +263,27 @@ Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options) {
 
 namespace {
 
+/// The study, as far as it is of what was read of another one.
+Attempt<store::StudyFile> createOf(const std::string& path, const workflow::StudyDesign& design,
+                                   const study::KnownTracks& known, const SettingOptions& options,
+                                   const Console& console) {
+    const auto settings = applySettings(design.settings, options);
+    if (!settings) return settings.error();
+    if (const auto checked = study::checkInputs({*settings, design.part, nullptr}); !checked)
+        return Failure{ExitCode::usage, checked.error().message};
+    if (const std::string problem = study::findKnownProblem(*settings, known); !problem.empty())
+        return Failure{ExitCode::usage, problem};
+    for (const std::string& recommendation : study::findRecommendations(*settings))
+        console.note(recommendation);
+    auto file = store::StudyFile::create(path, *settings, design.stored, kProgram);
+    if (!file) return describeCreateFailure(path, file.error());
+    if (!known.tracks.empty()) {
+        if (const auto saved = file->saveKnownTracks(known, *settings); !saved)
+            return describeStudyFailure(saved.error(), ExitCode::badInput);
+    }
+    return std::move(*file);
+}
+
 /// A study with part, settings and tracks of another one.
 Attempt<store::StudyFile> createFrom(const std::string& path, const std::string& other,
                                      const SettingOptions& options, const Console& console) {
@@ -261,19 +294,24 @@ Attempt<store::StudyFile> createFrom(const std::string& path, const std::string&
     const auto known = workflow::collectTracks(*from);
     if (!known) return Failure{ExitCode::badInput, known.error().message};
     design->settings.evolution.firstGeneration = search::ga::FirstGeneration::known;
-    const auto settings = applySettings(design->settings, options);
-    if (!settings) return settings.error();
-    if (const auto checked = study::checkInputs({*settings, design->part, nullptr}); !checked)
-        return Failure{ExitCode::usage, checked.error().message};
-    if (const std::string problem = study::findKnownProblem(*settings, *known); !problem.empty())
-        return Failure{ExitCode::usage, problem};
-    for (const std::string& recommendation : study::findRecommendations(*settings))
-        console.note(recommendation);
-    auto file = store::StudyFile::create(path, *settings, design->stored, kProgram);
-    if (!file) return describeCreateFailure(path, file.error());
-    if (const auto saved = file->saveKnownTracks(*known, *settings); !saved)
-        return describeStudyFailure(saved.error(), ExitCode::badInput);
-    return std::move(*file);
+    return createOf(path, *design, *known, options, console);
+}
+
+/// A study with part and settings of another one, and its track before traps of its own.
+Attempt<store::StudyFile> createBehind(const std::string& path, const std::string& other,
+                                       const SettingOptions& options, const Console& console) {
+    const auto from = store::StudyFile::openReadOnly(other);
+    if (!from) return describeStudyFailure(from.error(), ExitCode::badInput);
+    auto design = workflow::loadDesign(*from);
+    if (!design) return Failure{ExitCode::badInput, design.error().message};
+    const auto individual = findIndividual(*from, {});
+    if (!individual) return individual.error();
+    const auto track = study::decodeTrack(design->settings.track, individual->record.design);
+    if (!track) return Failure{ExitCode::badInput, track.error().message};
+    auto rejecting = study::rejectingMode(design->settings, *track);
+    if (!rejecting) return Failure{ExitCode::usage, "--behind " + other + ": " + rejecting.error().message};
+    design->settings = std::move(*rejecting);
+    return createOf(path, *design, {}, options, console);
 }
 
 }  // namespace
@@ -281,6 +319,15 @@ Attempt<store::StudyFile> createFrom(const std::string& path, const std::string&
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& options, const Console& console) {
     if (creation.beginWith) return createFrom(path, *creation.beginWith, options, console);
+    if (creation.behind && !isTrackFile(*creation.behind)) {
+        if (creation.preset || !creation.part.part.empty() || creation.contact || creation.surface ||
+            creation.settingsFile)
+            return Failure{ExitCode::usage,
+                           fmt::format("--behind {}: part and settings are those of the study; give none, or "
+                                       "a track's file.",
+                                       *creation.behind)};
+        return createBehind(path, *creation.behind, options, console);
+    }
     auto settings = startingSettings(creation);
     if (!settings) return settings.error();
     PartRequest request = completeRequest(creation.part, *settings, creation);
@@ -303,6 +350,17 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
         auto pair = findPair(*creation.surface, *loaded);
         if (!pair) return pair.error();
         study::useContact(*settings, *pair);
+        applied = applySettings(*settings, options);
+        if (!applied) return applied.error();
+    }
+    if (creation.behind) {
+        const auto file = track::readTrackFile(*creation.behind);
+        if (!file) return Failure{ExitCode::badInput, file.error().message};
+        auto rejecting = study::rejectingMode(*settings, file->track);
+        if (!rejecting)
+            return Failure{ExitCode::usage,
+                           "--behind " + *creation.behind + ": " + rejecting.error().message};
+        settings = std::move(*rejecting);
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }

@@ -26,6 +26,8 @@ struct CreationOptions {
     std::optional<std::string> time;  // that the user has: "10min"
     // A study whose part, settings and tracks it begins with; instead of all of the above.
     std::optional<std::string> beginWith;
+    // A track, or a study, that traps which throw out what lies wrong are learned behind.
+    std::optional<std::string> behind;
 
     /// Whether the user gave any of them.
     [[nodiscard]] bool given() const;

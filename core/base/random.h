@@ -27,6 +27,7 @@ enum class Purpose : std::uint8_t {
     corners = 16,
     mending = 17,
     stream = 18,
+    learningStream = 19,
     test = 255
 };
 

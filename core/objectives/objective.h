@@ -12,6 +12,7 @@
 #include "core/trial/goal.h"
 #include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
+#include "core/trial/returns.h"
 
 namespace trapwright::objectives {
 
@@ -32,8 +33,11 @@ struct Evaluation {
     std::span<const trial::BoxPlace> places{};
     /// Of trials in its corners that are not among these, where there are any.
     std::optional<stats::Count> corners{};
-    bool isVaried = false;    // trials are, or would be, all over an operating box
-    bool hasCorners = false;  // and some of them in its corners
+    /// Parts of streams that left the track as wanted, of those that came to it. None: no stream was sent.
+    std::optional<stats::Count> streams{};
+    trial::Returns returns = trial::Returns::nowhere;  // where parts that fall off come again
+    bool isVaried = false;                             // trials are, or would be, all over an operating box
+    bool hasCorners = false;                           // and some of them in its corners
 };
 
 /// What there is to attain.

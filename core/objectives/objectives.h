@@ -29,8 +29,12 @@ inline constexpr std::string_view kWanted = "F_W";
 inline constexpr std::string_view kWantedObjectives = "F_C, F_D, F_O, F_W";
 /// Of the objective that counts successes in corners of the operating box.
 inline constexpr std::string_view kCorners = "corners";
-/// Of the objective that forgives what falls off.
+/// Of the objective that forgives what falls off where it comes again.
 inline constexpr std::string_view kSorting = "sorting";
+/// Of the objective that counts how few wrong ones there are of what comes to the end.
+inline constexpr std::string_view kPurity = "purity";
+/// Of the objective that streams of parts are sent for.
+inline constexpr std::string_view kThroughput = "throughput";
 
 /// Objectives by their keys, commas between them. An error that names what there is not, what is named twice,
 /// and what there is.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/objectives/objectives.h"
+#include "core/trial/returns.h"
 
 namespace trapwright::objectives {
 
@@ -33,12 +34,33 @@ Measured measureCorrect(const Evaluation& evaluation) {
     return measureShare(oriented, static_cast<double>(finished));
 }
 
+int countReturned(const Evaluation& evaluation) {
+    int count = 0;
+    for (const trial::Outcome& outcome : evaluation.outcomes)
+        for (const trial::PartOutcome& part : outcome.parts)
+            count += trial::comesAgain(part, *evaluation.track, evaluation.returns) ? 1 : 0;
+    return count;
+}
+
+Measured measurePurity(const Evaluation& evaluation) {
+    if (evaluation.outcomes.empty()) return {};
+    const trial::Tally tally = countVerdicts(evaluation);
+    const double parts = tally.trials() - countReturned(evaluation);
+    const double wrong = (parts - tally.success + 1.0) / (parts + 2.0);
+    return {-std::log10(wrong), std::sqrt((1.0 - wrong) / (wrong * (parts + 2.0))) / std::log(10.0)};
+}
+
+Measured measureThroughput(const Evaluation& evaluation) {
+    if (!evaluation.streams) return {};
+    return measureShare(evaluation.streams->successes, evaluation.streams->trials);
+}
+
 Measured measureSorting(const Evaluation& evaluation) {
     // What a track has on which nothing finishes: more than parts that end at random ever have.
     constexpr double kMostBits = 8.0;
     const trial::Tally tally = countVerdicts(evaluation);
     const double parts = tally.trials();
-    const double staying = parts - tally.fellOff;
+    const double staying = parts - countReturned(evaluation);
     if (staying < 2.0) return {kMostBits};
     const double itself = evaluation.wanted ? 0.0 : 1.0;
     const double of = staying - itself;
@@ -123,13 +145,41 @@ Objective sorting() {
     objective.name = "Sorting";
     objective.unit = "bit";
     objective.help =
-        "How many times the share of right parts, of those that stay on the track, has to double to be all, "
+        "How many times the share of right parts, of those that do not come again, has to double to be all, "
         "and a sixth of a bit for each halving of their number. Lower is better.";
     objective.decimals = 2;
     objective.moreIsBetter = false;
     objective.usesTolerance = true;
     objective.measure = &measureSorting;
     objective.attainable = [](const Task&) { return 0.0; };
+    return objective;
+}
+
+Objective purity() {
+    Objective objective;
+    objective.key = kPurity;
+    objective.symbol = "Purity";
+    objective.name = "Purity";
+    objective.unit = "nines";
+    objective.help =
+        "How few of the parts that do not come again are wrong: 2 are 99 % right, 3 are 99.9 %. Limited by "
+        "how many parts are tried. Higher is better.";
+    objective.decimals = 2;
+    objective.usesTolerance = true;
+    objective.measure = &measurePurity;
+    return objective;
+}
+
+Objective throughput() {
+    Objective objective = successShare();
+    objective.key = kThroughput;
+    objective.symbol = "Throughput";
+    objective.name = "Throughput";
+    objective.help =
+        "Parts of streams that leave the track as wanted, of those that come to it. Higher is better.";
+    objective.isSuccess = false;
+    objective.applies = [](const Evaluation& evaluation) { return evaluation.streams.has_value(); };
+    objective.measure = &measureThroughput;
     return objective;
 }
 

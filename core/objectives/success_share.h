@@ -27,13 +27,24 @@ std::vector<bool> listRight(const Evaluation& evaluation);
 Objective correctShare();
 
 /// For tracks that throw out what lies wrong, so that it comes again, in bits: minus the binary logarithm of
-/// the share of those that do not fall off that finish in the wanted orientation, and kBitsOfHalving for each
-/// halving of the parts by what falls off. Four equally frequent ways have 2 bits, and one of the four alone
-/// a third: order is worth more than what it costs. What gets stuck counts as wrong. The part that makes an
-/// orientation the mode is left out, or of few parts a large share would lie so by chance.
+/// the share of those that do not come again (trial::comesAgain) that finish in the wanted orientation, and
+/// kBitsOfHalving for each halving of the parts by what comes again. Four equally frequent ways have 2 bits,
+/// and one of the four alone a third: order is worth more than what it costs. What gets stuck or is lost
+/// counts as wrong. The part that makes an orientation the mode is left out, or of few parts a large share
+/// would lie so by chance.
 Objective sorting();
 /// With 1, throwing out half of the ways would gain nothing; with 0, throwing out almost all parts would cost
 /// nothing (decisions.md#sorting).
 inline constexpr double kBitsOfHalving = 1.0 / 6.0;
+
+/// For tracks behind whose end nothing may be wrong, in nines: minus the decimal logarithm of the share of
+/// wrong parts among those that neither finish as wanted nor come again, by Laplace's rule of succession
+/// ((wrong + 1) / (all + 2)), so that with none wrong more parts that arrive are more certainty. What gets
+/// stuck or is lost counts as wrong.
+Objective purity();
+
+/// Parts of streams that leave the track as wanted, of those that come to it (core/study/stream). Without
+/// streams nothing, so that a search may send them over its best tracks alone.
+Objective throughput();
 
 }  // namespace trapwright::objectives

@@ -413,13 +413,21 @@ CREATE TABLE stream (               -- of an individual, the newest
 );
 )sql";
 
-constexpr std::array<Migration, 22> kMigrations = {
+// Where parts that fall off come again; what sorting forgave fell anywhere.
+constexpr const char* kVersion23 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.track.given', '',
+    '$.track.returns', CASE WHEN json_extract(settings, '$.evolution.objectives') LIKE '%sorting%'
+                       THEN 'anywhere' ELSE 'nowhere' END,
+    '$.evolution.streamShare', 0.1, '$.evolution.streamsEach', 2);
+)sql";
+
+constexpr std::array<Migration, 23> kMigrations = {
     {{1, kVersion1},   {2, kVersion2},   {3, kVersion3},   {4, kVersion4},
      {5, kVersion5},   {6, kVersion6},   {7, kVersion7},   {8, kVersion8, &turnGenesIntoDesigns},
      {9, kVersion9},   {10, kVersion10}, {11, kVersion11}, {12, kVersion12},
      {13, kVersion13}, {14, kVersion14}, {15, kVersion15}, {16, kVersion16},
      {17, kVersion17}, {18, kVersion18}, {19, kVersion19}, {20, kVersion20},
-     {21, kVersion21}, {22, kVersion22}}};
+     {21, kVersion21}, {22, kVersion22}, {23, kVersion23}}};
 
 }  // namespace
 

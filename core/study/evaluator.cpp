@@ -8,6 +8,8 @@
 #include "core/geometry/self_overlap.h"
 #include "core/objectives/success_share.h"
 #include "core/search/racing.h"
+#include "core/search/ranking.h"
+#include "core/study/stream.h"
 #include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
@@ -22,6 +24,7 @@ struct Candidate {
     bool simulated = false;
     std::vector<trial::Outcome> outcomes;  // so far
     std::vector<trial::BoxPlace> places;   // of these trials; empty: all alike
+    std::optional<stats::Count> streams;   // that were sent over it
     IndividualRecord record;
     std::string failure;
 };
@@ -96,8 +99,9 @@ class Race {
         std::vector<int> trials = countTrials();
         for (const search::RacingStep& step : round)
             trials[step.individual] = step.trials;
+        const int streams = std::min(running_, countStreamed(settings())) * settings().streamsEach;
         return {generation_, static_cast<int>(candidates_->size()), running_,
-                search::countRacingTrials(trials, running_, stages_), doneBefore};
+                search::countRacingTrials(trials, running_, stages_) + streams, doneBefore};
     }
 
     base::Status run(std::span<const search::RacingStep> round, const base::RunControl& control) {
@@ -121,6 +125,45 @@ class Race {
         return base::success();
     }
 
+    /// Over the best that have all trials.
+    base::Status sendStreams(const base::RunControl& control) {
+        std::vector<std::size_t> sent;
+        std::vector<double> fitnesses;
+        for (const Candidate& candidate : *candidates_)
+            fitnesses.push_back(candidate.record.fitness.total);
+        for (const std::size_t i : search::rankByFitness(fitnesses)) {
+            const Candidate& candidate = (*candidates_)[i];
+            if (static_cast<int>(sent.size()) == countStreamed(settings())) break;
+            if (candidate.simulated && candidate.record.trials == settings().trialsPerEvaluation)
+                sent.push_back(i);
+        }
+        if (sent.empty()) return base::success();
+        std::vector<trial::TrialBatch> batches(sent.size());
+        base::parallelFor(sent.size(), inputs_->threads, [&](std::size_t i, unsigned /*worker*/) {
+            batches[i] = makeLearningStreams(inputs_->settings, specimens_, (*candidates_)[sent[i]].track,
+                                             generation_);
+        });
+        const auto outcomes = runTrials(*inputs_->engine, batches, control);
+        if (!outcomes) return outcomes.error();
+        for (std::size_t i = 0; i < sent.size(); ++i) {
+            Candidate& candidate = (*candidates_)[sent[i]];
+            const objectives::Evaluation evaluation = evaluate(candidate);
+            const trial::Goal goal = trial::findGoal(evaluation.wanted, candidate.outcomes,
+                                                     *evaluation.symmetry, evaluation.tolerance);
+            candidate.streams = countThroughput(inputs_->settings.stream, goal, *evaluation.symmetry,
+                                                evaluation.tolerance, batches[i], (*outcomes)[i]);
+            candidate.record.fitness = objectives::measureSum(evaluate(candidate), summed_);
+        }
+        return base::success();
+    }
+
+    [[nodiscard]] objectives::Evaluation evaluate(const Candidate& candidate) const {
+        objectives::Evaluation evaluation = makeEvaluation(
+            *inputs_, *candidate.track, candidate.record.overlaps, candidate.outcomes, candidate.places);
+        evaluation.streams = candidate.streams;
+        return evaluation;
+    }
+
  private:
     [[nodiscard]] const EvolutionSettings& settings() const { return inputs_->settings.evolution; }
 
@@ -134,10 +177,7 @@ class Race {
     void score(std::span<const trial::Outcome> more, Candidate& candidate) const {
         candidate.outcomes.insert(candidate.outcomes.end(), more.begin(), more.end());
         countEndings(more, candidate.record);
-        candidate.record.fitness =
-            objectives::measureSum(makeEvaluation(*inputs_, *candidate.track, candidate.record.overlaps,
-                                                  candidate.outcomes, candidate.places),
-                                   summed_);
+        candidate.record.fitness = objectives::measureSum(evaluate(candidate), summed_);
     }
 
     const StudyInputs* inputs_;
@@ -190,6 +230,16 @@ objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings) {
     return std::move(list).value();
 }
 
+int countStreamed(const EvolutionSettings& settings) {
+    const objectives::ObjectiveList summed = summedObjectives(settings);
+    const bool counts = std::ranges::any_of(summed, [](const objectives::Objective* objective) {
+        return objective->key == objectives::kThroughput;
+    });
+    return counts
+               ? search::countShare(static_cast<std::size_t>(settings.populationSize), settings.streamShare)
+               : 0;
+}
+
 objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Track& track, int overlaps,
                                       std::span<const trial::Outcome> outcomes,
                                       std::span<const trial::BoxPlace> places) {
@@ -208,6 +258,7 @@ objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Tr
     evaluation.distance = inputs.settings.evolution.orientationDistance;
     evaluation.tolerance = inputs.settings.validation.tolerance;
     evaluation.wanted = findWanted(inputs.settings.target, *inputs.part);
+    evaluation.returns = inputs.settings.track.returns;
     return evaluation;
 }
 
@@ -272,14 +323,13 @@ base::Result<JudgedGeneration> evaluateGeneration(const StudyInputs& inputs, int
         if (const auto ran = race.run(round, control); !ran) return ran.error();
         round = race.findNextRound();
     } while (!round.empty());
+    if (const auto sent = race.sendStreams(control); !sent) return sent.error();
 
     // Nothing of learning looks at success and what else does not count in F, so it is measured once, when
     // all trials are known.
     base::parallelFor(candidates.size(), inputs.threads, [&](std::size_t i, unsigned /*worker*/) {
         Candidate& candidate = candidates[i];
-        const std::vector<trial::Outcome>& outcomes = candidate.outcomes;
-        objectives::Evaluation evaluation =
-            makeEvaluation(inputs, *candidate.track, candidate.record.overlaps, outcomes, candidate.places);
+        objectives::Evaluation evaluation = race.evaluate(candidate);
         candidate.record.oriented = objectives::countSuccess(evaluation);
         evaluation.oriented = candidate.record.oriented;
         candidate.record.fitness = objectives::measureOthers(evaluation, candidate.record.fitness);

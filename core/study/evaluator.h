@@ -81,6 +81,9 @@ struct StudyInputs {
 /// What counts in F. The settings must be without problems (findProblems).
 objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings);
 
+/// How many of a generation streams of parts are sent over: none unless the objective throughput counts.
+int countStreamed(const EvolutionSettings& settings);
+
 /// These outcomes on this track as objectives look at them, with the trials' places in the operating box
 /// (listPlaces). All must outlive the evaluation.
 objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Track& track, int overlaps,
@@ -108,8 +111,8 @@ struct JudgedGeneration {
 /// Judges every proposal of a generation (paper, section 3, step 2a): its track is built, overlapping
 /// triangles are counted, and all trials of all individuals go to the engine at once; in a race, those of
 /// each round (core/search/racing.h). A track that overlaps itself is not simulated unless the settings
-/// want it. `planned` is called before the trials, in a race before those of each round. An error if
-/// cancelled.
+/// want it. Where throughput counts, streams of parts are then sent over the best tracks. `planned` is called
+/// before the trials, in a race before those of each round. An error if cancelled.
 base::Result<JudgedGeneration> evaluateGeneration(const StudyInputs& inputs, int generation,
                                                   std::span<const search::Proposal> proposals,
                                                   const std::function<void(const GenerationPlan&)>& planned,

@@ -624,6 +624,8 @@ class Planner {
 }  // namespace
 
 std::string findPlanningProblem(const TrackSettings& settings) {
+    if (!settings.given.empty())
+        return "Traps behind one that is given (track.given) are not planned; choose graded.";
     const auto chain = traps::readTraps(settings.traps);
     if (!chain) return chain.error().message;
     const std::string_view groove = traps::groove().key;

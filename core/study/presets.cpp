@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/resources.h"
+#include "core/study/track_design.h"
 
 namespace trapwright::study {
 
@@ -67,6 +68,8 @@ base::Result<Settings> presetSettings(const std::string& name) {
 
 Settings paperMode(Settings settings) {
     settings.track.traps = "free-form";
+    settings.track.given.clear();
+    settings.track.returns = trial::Returns::nowhere;
     settings.track.encoding = PointEncoding::free;
     settings.track.shape.type = track::FeederType::bowl;
     settings.track.shape.bowlRadius = 175e-3;
@@ -91,6 +94,7 @@ Settings paperMode(Settings settings) {
 Settings turningMode(Settings settings, const part::Part& part) {
     const auto inProportion = [&](double ofCuboid) { return scaleLength(ofCuboid, 7.5e-3, part); };
     settings.track.traps = "free-form";
+    settings.track.given.clear();
     settings.track.crossSections = 5;
     settings.track.pointsPerSection = 8;
     settings.track.minSegmentLength = inProportion(15e-3);
@@ -107,6 +111,8 @@ Settings turningMode(Settings settings, const part::Part& part) {
 Settings sortingMode(Settings settings, const part::Part& part) {
     const auto inProportion = [&](double ofWedge) { return scaleLength(ofWedge, 8.9e-3, part); };
     settings.track.traps = "groove, groove, 8 x gap";
+    settings.track.given.clear();
+    if (settings.track.returns == trial::Returns::nowhere) settings.track.returns = trial::Returns::anywhere;
     settings.track.pointsPerSection = 9;
     settings.track.minSegmentLength = inProportion(5e-3);
     settings.track.maxSegmentLength = inProportion(30e-3);
@@ -128,6 +134,27 @@ Settings sortingMode(Settings settings, const part::Part& part) {
     settings.evolution.racingTrials = 20;
     settings.evolution.tournamentSize = 6;
     settings.evolution.generations = 2;
+    return settings;
+}
+
+base::Result<Settings> rejectingMode(Settings settings, const track::Track& track) {
+    settings.track.traps = "2 x cut-out";
+    auto behind = placeBehind(track, settings.track);
+    if (!behind) return behind.error();
+    settings.track = *std::move(behind);
+    if (settings.track.returns == trial::Returns::nowhere) settings.track.returns = trial::Returns::anywhere;
+    EvolutionSettings& evolution = settings.evolution;
+    evolution.search = search::Method::genetic;
+    evolution.objectives = "F_C, purity, success";
+    evolution.firstGeneration = search::ga::FirstGeneration::graded;
+    // Few numbers are looked for, and one wrong part in a hundred is to be seen.
+    evolution.populationSize = 50;
+    evolution.trialsPerEvaluation = 400;
+    evolution.racingTrials = 50;
+    evolution.tournamentSize = std::min(evolution.tournamentSize, evolution.populationSize);
+    evolution.generations = 30;
+    evolution.cornerShare = 0.0;
+    evolution.cornersFrom = 0;
     return settings;
 }
 

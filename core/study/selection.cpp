@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/study/operating_box.h"
+#include "core/study/stream.h"
 #include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
@@ -21,10 +22,10 @@ double calcWorth(const SelectionEntry& entry) {
     return entry.corners.trials > 0 ? 0.5 * (success + entry.corners.share()) : success;
 }
 
-bool isBetter(const SelectionEntry& a, const SelectionEntry& b, bool fallsAreForgiven) {
+bool isBetter(const SelectionEntry& a, const SelectionEntry& b, bool byFitness) {
     const auto rank = [&](const SelectionEntry& entry) {
-        return std::make_tuple(fallsAreForgiven ? 0.0 : -calcWorth(entry), -entry.fitness.total,
-                               entry.generation, entry.individual);
+        return std::make_tuple(byFitness ? 0.0 : -calcWorth(entry), -entry.fitness.total, entry.generation,
+                               entry.individual);
     };
     return rank(a) < rank(b);
 }
@@ -61,7 +62,7 @@ std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) 
 bool forgivesFalls(const EvolutionSettings& settings) {
     const objectives::ObjectiveList summed = summedObjectives(settings);
     return std::any_of(summed.begin(), summed.end(), [](const objectives::Objective* objective) {
-        return objective->key == objectives::kSorting;
+        return objective->key == objectives::kSorting || objective->key == objectives::kPurity;
     });
 }
 
@@ -100,6 +101,11 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     for (std::size_t i = 0; cornerTrials > 0 && i < ranked.size(); ++i)
         batches.push_back(
             makeCornerBatch(makeScene(settings, specimens, batches[i].track), ranked[i], cornerTrials));
+    const bool hasStreams = countStreamed(settings.evolution) > 0;
+    const std::size_t firstStream = batches.size();
+    for (std::size_t i = 0; hasStreams && i < ranked.size(); ++i)
+        batches.push_back(makeStreamBatch(settings, inputs.part, batches[i].track, ranked[i],
+                                          settings.stream.partsPerMinute));
     const auto outcomes = runTrials(*inputs.engine, batches, std::move(control));
     if (!outcomes) return outcomes.error();
 
@@ -126,12 +132,16 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
             makeEvaluation(inputs, *batches[i].track, ranked[i].record.overlaps, own, places);
         evaluation.oriented = entry.oriented;
         if (cornerTrials > 0) evaluation.corners = entry.corners;
+        if (hasStreams)
+            evaluation.streams = countThroughput(settings.stream, entry.goal, inputs.part->symmetry,
+                                                 settings.validation.tolerance, batches[firstStream + i],
+                                                 (*outcomes)[firstStream + i]);
         entry.fitness = objectives::measureAll(evaluation, summed);
         record.entries.push_back(std::move(entry));
     }
     std::sort(record.entries.begin(), record.entries.end(),
-              [forgives = forgivesFalls(settings.evolution)](
-                  const SelectionEntry& a, const SelectionEntry& b) { return isBetter(a, b, forgives); });
+              [byFitness = hasStreams || forgivesFalls(settings.evolution)](
+                  const SelectionEntry& a, const SelectionEntry& b) { return isBetter(a, b, byFitness); });
     record.made.maker = makerOf(*inputs.engine);
     for (const SelectionEntry& entry : record.entries) {
         const auto place = std::find_if(ranked.begin(), ranked.end(), [&](const Individual& winner) {

@@ -18,7 +18,7 @@ namespace trapwright::study {
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count);
 
 /// Whether parts that fall off are thrown back and come again, so that fitness, not the success of all parts,
-/// says which track is best: the objective sorting counts.
+/// says which track is best: the objective sorting or purity counts.
 bool forgivesFalls(const EvolutionSettings& settings);
 
 /// The winner that is best by what was counted while learning: the greatest success, then the highest
@@ -34,7 +34,8 @@ int countCornerTrials(const Settings& settings);
 /// all generations' winners are re-simulated with many fresh trials each. Best first: by the number of parts
 /// that finish within the tolerance of what is wanted, or of that track's modal orientation, over the
 /// operating box and, where trials vary over one, in its corners, on average of both; then by fitness, then
-/// the earlier generation; where falls are forgiven by fitness first. Errors: settings or part that cannot be
+/// the earlier generation; where falls are forgiven or throughput counts (streams are sent as measureStreams
+/// does at the study's inflow) by fitness first. Errors: settings or part that cannot be
 /// used, no winners, engine, cancelled.
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Individual> winners,
                                             base::RunControl control);

@@ -11,6 +11,7 @@
 #include "core/search/methods.h"
 #include "core/traps/trap_kind.h"
 #include "core/trial/batch.h"
+#include "core/trial/returns.h"
 #include "core/trial/start.h"
 
 namespace trapwright::study {
@@ -20,6 +21,9 @@ using PointEncoding = traps::PointEncoding;
 /// The track's form.
 struct TrackSettings : traps::TrapParameters {
     std::string traps = "free-form";  // kinds of trap, one after the other (traps::readTraps)
+    /// Cross-sections of a trap that is there already, before those (describeSections); empty: none.
+    std::string given{};
+    trial::Returns returns = trial::Returns::nowhere;  // where parts that fall off come again
 
     friend bool operator==(const TrackSettings& a, const TrackSettings& b);
 };
@@ -50,6 +54,10 @@ struct EvolutionSettings {
     int racingTrials = 0;              // of everybody before the best go on to N; 0: N for everybody
     double racingShare = 0.3;          // of the population that gets all N in a race
     bool commonRandomNumbers = false;  // trial i is the same for all individuals of a generation
+    // Of the population, the best by single parts, that streams of parts are sent over where the objective
+    // throughput counts; and how many over each.
+    double streamShare = 0.1;
+    int streamsEach = 2;
     // A part without progress for so long counts as stuck while learning, if that is less than
     // Termination::stuckTime, which counts in selection and validation. [s]
     double learningStuckTime = 0.6;
@@ -167,7 +175,8 @@ void takePoseWeights(PartSettings& part, const PartSettings& other);
 
 /// Whether scores of the first so many generations that were made with `before` still hold with `after`: only
 /// the number of generations, the weights of the stable poses and what concerns selection, validation,
-/// streams, the real feeder and corners of the operating box in generations to come differ.
+/// streams unless throughput counts, the real feeder and corners of the operating box in generations to come
+/// differ.
 bool keepsScores(const Settings& before, const Settings& after, int generations);
 
 /// The share of the trials of a generation that are in corners of the operating box.

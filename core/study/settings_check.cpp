@@ -40,6 +40,10 @@ class RangeCheck {
             if (const auto chain = traps::readTraps(value); !chain)
                 problems.push_back("track.traps is \"" + value + "\". " + chain.error().message);
         }
+        if (key == "track.given") {
+            if (const auto sections = readSections(value); !sections)
+                problems.push_back("track.given cannot be read. " + sections.error().message);
+        }
         if (key == "evolution.objectives") {
             if (const auto list = objectives::readObjectives(value); !list)
                 problems.push_back("evolution.objectives is \"" + value + "\". " + list.error().message);
@@ -88,6 +92,27 @@ std::vector<std::string> findTrackProblems(const TrackSettings& track) {
                            shown(track.minSegmentLength, FileUnit::millimetre) +
                            "; it must not be more than track.maxSegmentLength_mm, which is " +
                            shown(track.maxSegmentLength, FileUnit::millimetre) + ".");
+    }
+    if (const auto given = readSections(track.given); given && !given->empty()) {
+        const auto points = static_cast<int>(given->front().points.size());
+        if (points != track.pointsPerSection)
+            problems.push_back(fmt::format(
+                "track.pointsPerSection is {}; the cross-sections of track.given have {} points, and all of "
+                "a track must have as many.",
+                track.pointsPerSection, points));
+        const double half = 0.5 * track.segmentWidth;
+        const auto isInside = [&](const base::Vec2& point) {
+            constexpr double kRounding = 1e-9;
+            return std::abs(point.x()) <= half + kRounding && point.y() >= -kRounding &&
+                   point.y() <= track.segmentHeight + kRounding;
+        };
+        if (!std::ranges::all_of(*given, [&](const track::CrossSection& section) {
+                return std::ranges::all_of(section.points, isInside);
+            }))
+            problems.push_back(
+                fmt::format("track.given has points outside the box of the track's segments, {} wide "
+                            "(track.segmentWidth_mm) and {} high (track.segmentHeight_mm).",
+                            millimetres(track.segmentWidth), millimetres(track.segmentHeight)));
     }
     if (track.startFromLeadInEnd >= track.leadInLength) {
         problems.push_back(
@@ -262,8 +287,22 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
             "evolution.firstGeneration is known, but only the genetic search begins with tracks that are "
             "known; "
             "genetic is recommended as evolution.search.");
+    const auto counts = [&summed](std::string_view key) {
+        return summed &&
+               std::ranges::any_of(*summed, [key](const auto* objective) { return objective->key == key; });
+    };
+    if ((counts(objectives::kSorting) || counts(objectives::kPurity)) &&
+        settings.track.returns == trial::Returns::nowhere)
+        recommendations.push_back(
+            "evolution.objectives forgives parts that fall off where they come again, but track.returns is "
+            "nowhere, so that all of them count as wrong; anywhere, or the side at which they fall back into "
+            "the bowl, is recommended.");
+    if (counts(objectives::kThroughput) && evolution.streamShare == 0.0)
+        recommendations.push_back(
+            "evolution.objectives counts throughput, but evolution.streamShare is 0, so that no streams of "
+            "parts are sent; 0.1 is recommended.");
     const double fall = calcTypicalFall(settings.track);
-    if (fall > 0.5 * settings.track.segmentHeight) {
+    if (fall > 0.5 * settings.track.segmentHeight && settings.track.given.empty()) {
         recommendations.push_back(
             "Traps that fall (track.traps) fall by " + millimetres(std::ceil(1e3 * fall) * 1e-3) +
             " on a typical track, but only half of track.segmentHeight_mm lies below the lead-in, and what "

@@ -61,6 +61,12 @@ void visitFields(Visitor& v, SettingsType& s) {
              Choices<track::Conveying, 2>{{{"clockwise", track::Conveying::clockwise},
                                            {"anticlockwise", track::Conveying::anticlockwise}}});
     v.text("track.traps", s.track.traps);
+    v.text("track.given", s.track.given);
+    v.choice("track.returns", s.track.returns,
+             Choices<trial::Returns, 4>{{{"nowhere", trial::Returns::nowhere},
+                                         {"inner", trial::Returns::innerSide},
+                                         {"outer", trial::Returns::outerSide},
+                                         {"anywhere", trial::Returns::anywhere}}});
     v.count({"track.crossSections", 1, 200}, s.track.crossSections);
     v.count({"track.pointsPerSection", 2, 200}, s.track.pointsPerSection);
     v.number({"track.minSegmentLength_mm", mm, 0.1, 1000.0}, s.track.minSegmentLength);
@@ -99,6 +105,8 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.count({"evolution.racingTrials", 0, 1000000}, s.evolution.racingTrials);
     v.number({"evolution.racingShare", none, search::kTopShare, 1.0}, s.evolution.racingShare);
     v.flag("evolution.commonRandomNumbers", s.evolution.commonRandomNumbers);
+    v.number({"evolution.streamShare", none, 0.0, 1.0}, s.evolution.streamShare);
+    v.count({"evolution.streamsEach", 1, 1000}, s.evolution.streamsEach);
     v.number({"evolution.learningStuckTime_s", none, 0.05, 600.0}, s.evolution.learningStuckTime);
     v.number({"evolution.learningStep_ms", FileUnit::millisecond, 0.0, 1.0}, s.evolution.learningStep);
     v.count({"evolution.generations", 1, 1000000}, s.evolution.generations);

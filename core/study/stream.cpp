@@ -71,6 +71,66 @@ bool isOfPart(trial::Condition condition) {
            condition == trial::Condition::startSpeed;
 }
 
+/// Which streams are drawn.
+struct StreamDraw {
+    int streams = 0;
+    double partsPerMinute = 0.0;
+    bool varied = false;  // each somewhere else in the operating box
+    base::Purpose purpose = base::Purpose::stream;
+};
+
+trial::TrialBatch drawStreams(const Settings& settings, const Specimens& specimens,
+                              const std::shared_ptr<const track::Track>& track,
+                              const IndividualId& individual, const StreamDraw& draw) {
+    const SimulationSettings& simulation = settings.simulation;
+    trial::TrialBatch batch;
+    batch.track = track;
+    batch.parts = draw.varied ? specimens.varied : std::vector{specimens.drawn};
+    batch.drive = simulation.drive;
+    batch.contact = simulation.contact;
+    batch.partsContact = settings.stream.contact;
+    batch.termination = terminationOn(simulation, *track);
+    batch.termination.until = durationOf(settings.stream);
+    batch.gravity = simulation.gravity;
+
+    base::StreamKey key{settings.evolution.seed, static_cast<std::uint32_t>(individual.generation),
+                        static_cast<std::uint32_t>(individual.individual), 0, draw.purpose};
+    const BoxPlaces places(
+        simulation, settings.box,
+        {key.seed, key.generation, static_cast<std::uint32_t>(key.purpose), 0, base::Purpose::conditions});
+    const std::vector<trial::BoxPlace> drawn = places.draw(0, draw.streams);
+    const DrawnStarts starts(settings, *specimens.drawn);
+    for (int i = 0; i < draw.streams; ++i) {
+        trial::TrialSpec& spec = batch.trials.emplace_back();
+        key.trial = static_cast<std::uint32_t>(i) * kKeysOfStream;
+        spec.stream = key;
+        base::Random random(key);
+        spec.phase = random.uniform(0.0, 2.0 * base::kPi);
+        for (const double time : drawArrivals(settings.stream, draw.partsPerMinute, random)) {
+            ++key.trial;
+            base::Random own({key.seed, key.generation, key.individual, key.trial, base::Purpose::specimen});
+            // What is the track's and the drive's is that of the stream, what is the part's its own.
+            trial::BoxPlace place = drawn[static_cast<std::size_t>(i)];
+            for (std::size_t c = 0; c < place.size(); ++c)
+                if (isOfPart(static_cast<trial::Condition>(c))) place[c] = own.uniform();
+            const auto count = static_cast<double>(batch.parts.size());
+            const auto specimen = std::min(
+                static_cast<std::size_t>(place[static_cast<std::size_t>(trial::Condition::part)] * count),
+                batch.parts.size() - 1);
+            trial::TrialSpec one = trial::drawTrial(*track, *batch.parts[specimen], starts.draw(own), key);
+            if (draw.varied) {
+                putAt(simulation, settings.box, place, *track, one);
+                if (!spec.contact) std::tie(spec.contact, spec.drive) = std::pair(one.contact, one.drive);
+            }
+            spec.parts.push_back(one.parts.front());
+            spec.parts.back().part = specimen;
+            spec.parts.back().time = time;
+        }
+        if (draw.varied) spec.place = drawn[static_cast<std::size_t>(i)];
+    }
+    return batch;
+}
+
 /// Times at which parts pass the finish. Rising. [s]
 std::vector<double> listFinishes(const trial::Outcome& outcome) {
     std::vector<double> times;
@@ -86,7 +146,9 @@ struct Counting {
     const part::SymmetryGroup* symmetry;
     double tolerance;
     double warmUp;
-    std::vector<double> transits, gaps;
+    const track::Track* track;
+    trial::Returns returns;
+    std::vector<double> transits{}, gaps{};
 
     StreamCounts count(const trial::TrialSpec& spec, const trial::Outcome& outcome,
                        const trial::Termination& termination) {
@@ -105,7 +167,7 @@ struct Counting {
                     ++counts.wrong;
                     break;
                 default:
-                    ++counts.fellOff;
+                    ++(trial::comesAgain(part, *track, returns) ? counts.returned : counts.fellOff);
                     continue;
             }
             transits.push_back(part.time - part.entered.value_or(0.0));
@@ -130,6 +192,36 @@ double quantileOf(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(place)];
 }
 
+/// Of how many one stream has, those that arrive as wanted. None: there are none.
+template <class Number>
+std::optional<stats::MeanEstimate> estimateRatio(std::span<const StreamCounts> streams, Number numberOf) {
+    int right = 0;
+    int all = 0;
+    for (const StreamCounts& one : streams) {
+        right += one.success;
+        all += numberOf(one);
+    }
+    if (all == 0) return std::nullopt;
+    const double share = static_cast<double>(right) / all;
+    const double mean = static_cast<double>(all) / static_cast<double>(streams.size());
+    std::vector<double> values;
+    values.reserve(streams.size());
+    for (const StreamCounts& one : streams)
+        values.push_back(share + (one.success - share * numberOf(one)) / mean);
+    stats::MeanEstimate estimate = stats::estimateMean(values);
+    estimate.mean = share;
+    const stats::Interval exact = stats::calcClopperPearson(right, all);
+    estimate.interval = {std::max(0.0, std::min(estimate.interval.low, exact.low)),
+                         std::min(1.0, std::max(estimate.interval.high, exact.high))};
+    return estimate;
+}
+
+std::string shareText(const std::optional<stats::MeanEstimate>& share) {
+    if (!share) return "none arrives";
+    return fmt::format("{:.2f} ({:.2f} ... {:.2f})", 100.0 * share->mean, 100.0 * share->interval.low,
+                       100.0 * share->interval.high);
+}
+
 std::string rateText(const stats::MeanEstimate& rate) {
     return fmt::format("{:.1f} ({:.1f} ... {:.1f})", rate.mean, std::max(0.0, rate.interval.low),
                        rate.interval.high);
@@ -141,53 +233,43 @@ trial::TrialBatch makeStreamBatch(const Settings& settings, const std::shared_pt
                                   const std::shared_ptr<const track::Track>& track,
                                   const IndividualId& individual, double partsPerMinute) {
     const bool varied = settings.validation.conditions == TrialConditions::varied;
-    const SimulationSettings& simulation = settings.simulation;
-    trial::TrialBatch batch;
-    batch.track = track;
-    batch.parts = varied ? makeSpecimens(settings, part).varied : std::vector{part};
-    batch.drive = simulation.drive;
-    batch.contact = simulation.contact;
-    batch.partsContact = settings.stream.contact;
-    batch.termination = terminationOn(simulation, *track);
-    batch.termination.until = durationOf(settings.stream);
-    batch.gravity = simulation.gravity;
+    return drawStreams(settings, varied ? makeSpecimens(settings, part) : Specimens{part, {}}, track,
+                       individual, {settings.stream.streams, partsPerMinute, varied, base::Purpose::stream});
+}
 
-    base::StreamKey key{settings.evolution.seed, static_cast<std::uint32_t>(individual.generation),
-                        static_cast<std::uint32_t>(individual.individual), 0, base::Purpose::stream};
-    const BoxPlaces places(
-        simulation, settings.box,
-        {key.seed, key.generation, static_cast<std::uint32_t>(key.purpose), 0, base::Purpose::conditions});
-    const std::vector<trial::BoxPlace> drawn = places.draw(0, settings.stream.streams);
-    const DrawnStarts starts(settings, *part);
-    for (int i = 0; i < settings.stream.streams; ++i) {
-        trial::TrialSpec& spec = batch.trials.emplace_back();
-        key.trial = static_cast<std::uint32_t>(i) * kKeysOfStream;
-        spec.stream = key;
-        base::Random random(key);
-        spec.phase = random.uniform(0.0, 2.0 * base::kPi);
-        for (const double time : drawArrivals(settings.stream, partsPerMinute, random)) {
-            ++key.trial;
-            base::Random own({key.seed, key.generation, key.individual, key.trial, base::Purpose::specimen});
-            // What is the track's and the drive's is that of the stream, what is the part's its own.
-            trial::BoxPlace place = drawn[static_cast<std::size_t>(i)];
-            for (std::size_t c = 0; c < place.size(); ++c)
-                if (isOfPart(static_cast<trial::Condition>(c))) place[c] = own.uniform();
-            const auto count = static_cast<double>(batch.parts.size());
-            const auto specimen = std::min(
-                static_cast<std::size_t>(place[static_cast<std::size_t>(trial::Condition::part)] * count),
-                batch.parts.size() - 1);
-            trial::TrialSpec one = trial::drawTrial(*track, *batch.parts[specimen], starts.draw(own), key);
-            if (varied) {
-                putAt(simulation, settings.box, place, *track, one);
-                if (!spec.contact) std::tie(spec.contact, spec.drive) = std::pair(one.contact, one.drive);
-            }
-            spec.parts.push_back(one.parts.front());
-            spec.parts.back().part = specimen;
-            spec.parts.back().time = time;
-        }
-        if (varied) spec.place = drawn[static_cast<std::size_t>(i)];
-    }
+trial::TrialBatch makeLearningStreams(const Settings& settings, const Specimens& specimens,
+                                      const std::shared_ptr<const track::Track>& track, int generation) {
+    const EvolutionSettings& evolution = settings.evolution;
+    trial::TrialBatch batch =
+        drawStreams(settings, specimens, track, {generation, 0},
+                    {evolution.streamsEach, settings.stream.partsPerMinute,
+                     evolution.conditions == TrialConditions::varied, base::Purpose::learningStream});
+    batch.step = chooseLearningStep(settings);
     return batch;
+}
+
+stats::Count countThroughput(const StreamSettings& settings, const trial::Goal& goal,
+                             const part::SymmetryGroup& symmetry, double tolerance,
+                             const trial::TrialBatch& batch, std::span<const trial::Outcome> outcomes) {
+    stats::Count count;
+    const double end = durationOf(settings);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        int offered = 0;
+        int right = 0;
+        for (std::size_t k = 0; k < outcomes[i].parts.size(); ++k) {
+            const double time = batch.trials[i].parts[k].time;
+            offered += time >= settings.warmUp && time < end ? 1 : 0;
+            const trial::PartOutcome& part = outcomes[i].parts[k];
+            right += part.time >= settings.warmUp &&
+                             trial::judge(part, goal, symmetry, tolerance) == trial::Verdict::success
+                         ? 1
+                         : 0;
+        }
+        count.trials += offered;
+        // By chance more may leave the track than come.
+        count.successes += std::min(right, offered);
+    }
+    return count;
 }
 
 std::vector<Jam> findJams(const trial::Outcome& outcome, const trial::Termination& termination) {
@@ -230,7 +312,7 @@ StreamCounts StreamResult::sum() const {
     for (const StreamCounts& one : streams) {
         for (int StreamCounts::*count :
              {&StreamCounts::offered, &StreamCounts::entered, &StreamCounts::success, &StreamCounts::wrong,
-              &StreamCounts::fellOff, &StreamCounts::jams, &StreamCounts::uncleared})
+              &StreamCounts::returned, &StreamCounts::fellOff, &StreamCounts::jams, &StreamCounts::uncleared})
             sum.*count += one.*count;
         sum.jammed += one.jammed;
     }
@@ -252,19 +334,11 @@ stats::MeanEstimate StreamResult::arrivals() const {
 }
 
 std::optional<stats::MeanEstimate> StreamResult::successShare() const {
-    const StreamCounts all = sum();
-    if (all.arrived() == 0) return std::nullopt;
-    const double share = static_cast<double>(all.success) / all.arrived();
-    const double mean = static_cast<double>(all.arrived()) / static_cast<double>(streams.size());
-    std::vector<double> values;
-    for (const StreamCounts& one : streams)
-        values.push_back(share + (one.success - share * one.arrived()) / mean);
-    stats::MeanEstimate estimate = stats::estimateMean(values);
-    estimate.mean = share;
-    const stats::Interval exact = stats::calcClopperPearson(all.success, all.arrived());
-    estimate.interval = {std::max(0.0, std::min(estimate.interval.low, exact.low)),
-                         std::min(1.0, std::max(estimate.interval.high, exact.high))};
-    return estimate;
+    return estimateRatio(streams, [](const StreamCounts& one) { return one.arrived(); });
+}
+
+std::optional<stats::MeanEstimate> StreamResult::efficiency() const {
+    return estimateRatio(streams, [](const StreamCounts& one) { return one.left(); });
 }
 
 double StreamResult::jammedShare() const {
@@ -328,7 +402,8 @@ base::Result<Streams> measureStreams(const StudyInputs& inputs,
         if (!outcomes) return outcomes.error();
         const std::vector<trial::Outcome>& own = outcomes->front();
         if (!goal) goal = trial::findGoal(std::nullopt, own, inputs.part->symmetry, tolerance);
-        Counting counting{&*goal, &inputs.part->symmetry, tolerance, inputs.settings.stream.warmUp, {}, {}};
+        Counting counting{&*goal,      &inputs.part->symmetry,       tolerance, inputs.settings.stream.warmUp,
+                          track.get(), inputs.settings.track.returns};
         StreamResult& result = streams.results.emplace_back();
         result.partsPerMinute = inflow;
         result.duration = inputs.settings.stream.duration;
@@ -343,14 +418,14 @@ base::Result<Streams> measureStreams(const StudyInputs& inputs,
 }
 
 std::string formatStreams(const Streams& streams) {
-    constexpr const char* kColumns = "{:>8} {:<24} {:<22} {:>7} {:>8} {:>9} {:>11} {}\n";
-    std::string text = fmt::format(kColumns, "Inflow", "  as wanted", "  share as wanted", "fell", "transit",
-                                   "spacing", "jammed", "");
-    text +=
-        fmt::format(kColumns, "[1/min]", "  [1/min]", "  [%]", "[1/min]", "[s]", "[s]", "[%] (times)", "");
+    constexpr const char* kColumns = "{:>8} {:<24} {:<22} {:>7} {:>7} {:>7} {:>8} {:>9} {:>11} {}\n";
+    std::string text = fmt::format(kColumns, "Inflow", "  as wanted", "  share as wanted", "of all", "back",
+                                   "lost", "transit", "spacing", "jammed", "");
+    text += fmt::format(kColumns, "[1/min]", "  [1/min]", "  [%]", "[%]", "[1/min]", "[1/min]", "[s]", "[s]",
+                        "[%] (times)", "");
     for (const StreamResult& result : streams.results) {
-        const auto share = result.successShare();
         const StreamCounts sum = result.sum();
+        const auto efficiency = result.efficiency();
         std::string note;
         const auto add = [&](int count, const char* what) {
             if (count == 0) return;
@@ -359,19 +434,24 @@ std::string formatStreams(const Streams& streams) {
         };
         add(result.countFull(), "are full");
         add(sum.uncleared, "end jammed");
-        text +=
-            fmt::format(kColumns, fmt::format("{:g}", result.partsPerMinute),
-                        "  " + rateText(result.rate(&StreamCounts::success)),
-                        "  " + (share ? fmt::format("{:.2f} ({:.2f} ... {:.2f})", 100.0 * share->mean,
-                                                    100.0 * share->interval.low, 100.0 * share->interval.high)
-                                      : "none arrives"),
-                        fmt::format("{:.1f}", result.rate(&StreamCounts::fellOff).mean),
-                        fmt::format("{:.2f}", result.transit), fmt::format("{:.2f}", result.spacing),
-                        fmt::format("{:.1f} ({})", 100.0 * result.jammedShare(), sum.jams), note);
+        const auto perMinute = [&](int StreamCounts::*count) {
+            return fmt::format("{:.1f}", result.rate(count).mean);
+        };
+        text += fmt::format(kColumns, fmt::format("{:g}", result.partsPerMinute),
+                            "  " + rateText(result.rate(&StreamCounts::success)),
+                            "  " + shareText(result.successShare()),
+                            efficiency ? fmt::format("{:.1f}", 100.0 * efficiency->mean) : "-",
+                            perMinute(&StreamCounts::returned), perMinute(&StreamCounts::fellOff),
+                            fmt::format("{:.2f}", result.transit), fmt::format("{:.2f}", result.spacing),
+                            fmt::format("{:.1f} ({})", 100.0 * result.jammedShare(), sum.jams), note);
     }
     text += fmt::format(
-        "In brackets: 95 %, over {} streams of {:g} s each after {:g} s of warm-up. Jammed: nobody "
-        "arrives, and all on the track or two of them stand still. Full: more comes than gets on.\n",
+        "In brackets: 95 %, over {} streams of {:g} s each after {:g} s of warm-up. Share as wanted: of "
+        "those "
+        "that arrive; of all: of those that leave the track in any way, with what falls back and comes "
+        "again. "
+        "Jammed: nobody arrives, and all on the track or two of them stand still. Full: more comes than gets "
+        "on.\n",
         streams.settings.streams, streams.settings.duration, streams.settings.warmUp);
     return text;
 }

@@ -10,6 +10,7 @@
 #include "core/base/run_control.h"
 #include "core/stats/mean.h"
 #include "core/study/evaluator.h"
+#include "core/study/operating_box.h"
 #include "core/study/settings.h"
 #include "core/trial/goal.h"
 
@@ -27,18 +28,31 @@ trial::TrialBatch makeStreamBatch(const Settings& settings, const std::shared_pt
                                   const std::shared_ptr<const track::Track>& track,
                                   const IndividualId& individual, double partsPerMinute);
 
+/// The streams by which tracks of a generation are judged while learning (EvolutionSettings::streamsEach), at
+/// the study's inflow; others than those of makeStreamBatch, and the same for all individuals of a
+/// generation, so that differences are the tracks'. They vary if learning trials do.
+trial::TrialBatch makeLearningStreams(const Settings& settings, const Specimens& specimens,
+                                      const std::shared_ptr<const track::Track>& track, int generation);
+/// What these came to: of as many as came to the track in the time that counts, those that left it as wanted
+/// in that time.
+stats::Count countThroughput(const StreamSettings& settings, const trial::Goal& goal,
+                             const part::SymmetryGroup& symmetry, double tolerance,
+                             const trial::TrialBatch& batch, std::span<const trial::Outcome> outcomes);
+
 /// What passed in the time of one stream that counts, after its warm-up.
 struct StreamCounts {
     int offered = 0;  // came to the track, whether or not there was room
     int entered = 0;
     int success = 0;  // left the track at its end ...
     int wrong = 0;
-    int fellOff = 0;      // ... or over its edge
+    int returned = 0;     // fell off where parts come again ...
+    int fellOff = 0;      // ... or elsewhere: lost
     int jams = 0;         // see findJams; those that began before count if they reach into it
     int uncleared = 0;    // of them that lasted to the end
     double jammed = 0.0;  // in all [s]
 
     [[nodiscard]] int arrived() const { return success + wrong; }
+    [[nodiscard]] int left() const { return arrived() + returned + fellOff; }
     friend bool operator==(const StreamCounts&, const StreamCounts&) = default;
 };
 
@@ -67,6 +81,9 @@ struct StreamResult {
     /// one of its own, so the interval is that of the streams' ratio (Cochran 1977, section 2.11), and never
     /// narrower than Clopper and Pearson's. None: none arrives.
     [[nodiscard]] std::optional<stats::MeanEstimate> successShare() const;
+    /// Efficiency of the track: parts that arrive as wanted, of all that leave it, those among them that come
+    /// again (Boothroyd 2005, chapter 3); so often a part is right when it has come up once. Likewise.
+    [[nodiscard]] std::optional<stats::MeanEstimate> efficiency() const;
     /// Share of the time that counts.
     [[nodiscard]] double jammedShare() const;
     /// How many of the streams are full: less gets onto the track than comes to it, by more than one part in

@@ -15,9 +15,11 @@ using Json = nlohmann::json;
 struct Damaged {};
 
 /// How a study has the counts of one stream, in this order.
-constexpr std::array<int StreamCounts::*, 7> kCounts = {
-    &StreamCounts::offered, &StreamCounts::entered, &StreamCounts::success,  &StreamCounts::wrong,
-    &StreamCounts::fellOff, &StreamCounts::jams,    &StreamCounts::uncleared};
+constexpr std::array<int StreamCounts::*, 8> kCounts = {
+    &StreamCounts::offered, &StreamCounts::entered, &StreamCounts::success,   &StreamCounts::wrong,
+    &StreamCounts::fellOff, &StreamCounts::jams,    &StreamCounts::uncleared, &StreamCounts::returned};
+/// What programs wrote that knew no returns.
+constexpr std::size_t kCountsWithoutReturns = kCounts.size() - 1;
 
 double readNumber(const Json& json) {
     const double number = json.get<double>();
@@ -41,10 +43,12 @@ Json toJson(const StreamCounts& counts) {
 StreamCounts readCounts(const Json& json) {
     StreamCounts counts;
     const Json& list = json.at("counts");
-    if (list.size() != kCounts.size()) throw Damaged();
-    for (std::size_t i = 0; i < kCounts.size(); ++i)
+    if (list.size() != kCounts.size() && list.size() != kCountsWithoutReturns) throw Damaged();
+    for (std::size_t i = 0; i < list.size(); ++i)
         counts.*kCounts[i] = readCount(list.at(i));
-    if (std::int64_t{counts.success} + counts.wrong > std::numeric_limits<int>::max()) throw Damaged();
+    if (std::int64_t{counts.success} + counts.wrong + counts.returned + counts.fellOff >
+        std::numeric_limits<int>::max())
+        throw Damaged();
     counts.jammed = readNumber(json.at("jammed"));
     return counts;
 }

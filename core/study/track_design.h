@@ -1,5 +1,9 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "core/base/result.h"
 #include "core/search/methods.h"
 #include "core/study/settings.h"
@@ -12,6 +16,17 @@ namespace trapwright::study {
 /// What there is to choose from with these settings: the dimensions of their traps, one after the other
 /// (core/traps). Empty if the settings give no track (findProblems tells why).
 search::DesignSpace designSpace(const TrackSettings& settings);
+
+/// Functional cross-sections as a text for settings, x from the lead-in's end: "x: y z, y z; x: ...", in mm,
+/// with all digits.
+std::string describeSections(std::span<const track::CrossSection> sections);
+/// The sections of such a text (TrackSettings::given); empty of an empty one. An error that tells where it is
+/// wrong.
+base::Result<std::vector<track::CrossSection>> readSections(const std::string& text);
+/// Those of a track that is there: what settings need so that other traps follow it. The box of its segments,
+/// its lead-in and its feeder become the settings', too; where the settings' traps fall, all of it is raised
+/// by as much as a typical one does. An error if its sections do not have equally many points.
+base::Result<TrackSettings> placeBehind(const track::Track& track, TrackSettings settings);
 
 /// How long a track of these settings can be. [m]
 double calcLongestTrack(const TrackSettings& settings);

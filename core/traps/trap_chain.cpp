@@ -143,9 +143,13 @@ search::DesignSpace designSpace(const TrapChain& chain, const TrapParameters& pa
 
 std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
                                        const search::Design& design) {
+    return build(chain, parameters, design, 0.5 * parameters.segmentHeight);
+}
+
+std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
+                                       const search::Design& design, double entry) {
     std::vector<track::CrossSection> sections;
     std::size_t first = 0;
-    double entry = 0.5 * parameters.segmentHeight;  // where the lead-in lies
     for (const TrapKind* kind : chain) {
         const std::size_t count = kind->dimensions(parameters).size();
         const double begin = sections.empty() ? 0.0 : sections.back().x;

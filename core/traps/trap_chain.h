@@ -28,6 +28,9 @@ search::DesignSpace designSpace(const TrapChain& chain, const TrapParameters& pa
 /// The functional cross-sections of a design of that space; x is measured from the lead-in's end.
 std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
                                        const search::Design& design);
+/// The same behind something else than the lead-in, which ends at x = 0 with its lowest point at z = `entry`.
+std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
+                                       const search::Design& design, double entry);
 
 /// Where the cross-sections of a typical one are: x from the lead-in's end. [m]
 std::vector<double> layOut(const TrapChain& chain, const TrapParameters& parameters);

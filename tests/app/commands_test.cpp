@@ -388,6 +388,16 @@ class CommandsTest : public QObject {
         const Ran table =
             ask(QStringList{"stream", "study.trap", "--regular", "--anyhow"} + few.mid(0, few.size() - 1));
         QVERIFY2(table.code == 0 && table.output.contains("share as wanted"), table.all());
+        // What falls comes again or is lost.
+        const auto fallen = [&](const char* returns) {
+            const Ran one = ask(QStringList{"stream", "study.trap", "--returns", returns} + few);
+            const QJsonObject counts = one.json()["results"][1]["counts"].toObject();
+            return std::pair(counts["returned"].toInt(), counts["fell_off"].toInt());
+        };
+        QCOMPARE(fallen("anywhere").first, fallen("nowhere").second);
+        QCOMPARE(fallen("anywhere").second, 0);
+        const Ran where = ask({"stream", "study.trap", "--returns", "below"});
+        QVERIFY2(where.code == 2 && where.errors.contains("inner"), where.all());
         const Ran many = ask({"stream", "study.trap", "--inflow", "9000"});
         QCOMPARE(many.code, 2);
         QVERIFY2(many.all().contains("no more than 3600 can"), many.all());

@@ -263,6 +263,42 @@ class LearningTest : public QObject {
         QVERIFY2(both.code == 2, both.all());
     }
 
+    /// Traps that throw out what lies wrong, behind a track that is there: of a study or of a file.
+    void learnsBehindATrack() {
+        QVERIFY(learn(quickStudy("first.trap", 2)).code == 0);
+        const QStringList few{"--set",         "evolution.trialsPerEvaluation=8",
+                              "--set",         "evolution.racingTrials=4",
+                              "--population",  "6",
+                              "--generations", "2",
+                              "--engine",      "native"};
+        const Ran ran = learn(QStringList{"evolve", "behind.trap", "--behind", "first.trap", "--json"} + few);
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonObject best = ran.json()["generations"].toArray()[1].toObject()["best"].toObject();
+        QVERIFY(best.contains("purity"));
+        const Ran settings = learn({"settings", "behind.trap"});
+        QCOMPARE(settings.json()["track"].toObject()["traps"].toString(), QString("2 x cut-out"));
+        QCOMPARE(settings.json()["track"].toObject()["returns"].toString(), QString("anywhere"));
+        QCOMPARE(settings.json()["track"].toObject()["given"].toString().count(':'), 5);
+        const Ran solid = learn({"export", "behind.trap", "behind.stl", "behind.json"});
+        QVERIFY2(solid.code == 0 && solid.output.contains("closed and manifold"), solid.all());
+        // The file has what is given as its own.
+        const Ran file = learn(QStringList{"evolve", "file.trap", "--behind", "behind.json", "--preset",
+                                           "cuboid", "--set", "track.traps=cut-out"} +
+                               few);
+        QVERIFY2(file.code == 0, file.all());
+        QCOMPARE(learn({"settings", "file.trap"}).json()["track"].toObject()["given"].toString().count(':'),
+                 17);
+        const Ran both = learn({"new", "no.trap", "--behind", "first.trap", "--part", "cone"});
+        QVERIFY2(both.code == 2 && both.errors.contains("part and settings are those of the study"),
+                 both.all());
+        const Ran nowhere = learn({"new", "no.trap", "--behind", "nowhere.trap"});
+        QVERIFY2(nowhere.code == 3 && nowhere.errors.contains("nowhere.trap"), nowhere.all());
+        const Ran planned =
+            learn({"new", "no.trap", "--behind", "first.trap", "--set", "evolution.firstGeneration=planned"});
+        QVERIFY2(planned.code == 2 && planned.errors.contains("track.given"), planned.all());
+        QVERIFY(!QFile::exists(folder_->filePath("no.trap")));
+    }
+
     /// Other searches and other traps than the paper's: learned, resumed, exported like it.
     void otherSearchesAndTraps_data() {
         QTest::addColumn<QString>("search");

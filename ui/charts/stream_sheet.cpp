@@ -12,6 +12,7 @@ constexpr double kPercent = 100.0;
 const CurveStyle kWanted{SeriesColour::first, Qt::SolidLine, Marker::circle};
 const CurveStyle kArrived{SeriesColour::second, Qt::DashLine, Marker::square};
 const CurveStyle kOffered{SeriesColour::neutral, Qt::DotLine, Marker::none};
+const CurveStyle kReturned{SeriesColour::third, Qt::DashDotLine, Marker::triangle};
 const CurveStyle kJammed{SeriesColour::third, Qt::SolidLine, Marker::triangle};
 
 QString tr(const char* text) {
@@ -41,6 +42,8 @@ ChartSheet streamSheet(const study::Streams& streams) {
     wanted.bandColumns = {tr("As wanted low [1/min]"), tr("As wanted high [1/min]")};
     Curve arrived{tr("arrive"), tr("Arrive [1/min]"), {"arrived"}, kArrived, {}};
     Curve offered{tr("come"), tr("Come [1/min]"), {"offered"}, kOffered, {}};
+    Curve returned{tr("come again"), tr("Come again [1/min]"), {"returned"}, kReturned, {}};
+    bool anyReturns = false;
     PlotSheet shares = makePlot("shares", tr("As wanted [%]"));
     shares.yIncluded = {kPercent};
     shares.leastHeight = 4.0;
@@ -57,6 +60,8 @@ ChartSheet streamSheet(const study::Streams& streams) {
         wanted.band.push_back(positive(rate.interval));
         arrived.points.emplace_back(x, result.arrivals().mean);
         offered.points.emplace_back(x, x);
+        returned.points.emplace_back(x, result.rate(&study::StreamCounts::returned).mean);
+        anyReturns = anyReturns || result.sum().returned > 0;
         if (const auto estimate = result.successShare()) {
             share.points.emplace_back(x, kPercent * estimate->mean);
             share.band.push_back({kPercent * estimate->interval.low, kPercent * estimate->interval.high});
@@ -65,6 +70,7 @@ ChartSheet streamSheet(const study::Streams& streams) {
         anyJam = anyJam || result.sum().jams > 0;
     }
     rates.curves = {std::move(wanted), std::move(arrived), std::move(offered)};
+    if (anyReturns) rates.curves.push_back(std::move(returned));
     shares.curves = {std::move(share)};
     jams.curves = {std::move(jammed)};
 
@@ -79,6 +85,10 @@ ChartSheet streamSheet(const study::Streams& streams) {
         {"jams", tr("jams"),
          tr("Time in which nobody arrives, and all on the track or two of them stand still."), std::nullopt,
          anyJam}};
+    if (anyReturns)
+        sheet.legend.insert(
+            sheet.legend.end() - 1,
+            {"returned", tr("come again"), tr("Parts that fall off where they come again."), kReturned});
     sheet.plots = {std::move(rates), std::move(shares), std::move(jams)};
     return sheet;
 }

@@ -225,7 +225,7 @@ void ValidatePage::applyCalibration() {
     if (session_->design().locked()) {
         // The fork opens in place of this study, with its settings.
         calibrate_->carry(session_->feeder().calibratedSettings(changes));
-        emit forkWanted(false);
+        emit forkWanted(session::Fork::settingsAlone);
         return;
     }
     session_->design().changeSettings(session_->feeder().calibratedSettings(changes), tr("Calibration"));

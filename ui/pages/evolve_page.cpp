@@ -248,7 +248,7 @@ void EvolvePage::changeSettings() {
     if (!session_) return;
     const bool locked = session_->design().locked();
     emit pageWanted("track");
-    if (locked) emit forkWanted(false);
+    if (locked) emit forkWanted(session::Fork::settingsAlone);
 }
 
 void EvolvePage::follow() {

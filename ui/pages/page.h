@@ -10,7 +10,8 @@ class SceneView;
 }
 namespace trapwright::session {
 class StudySession;
-}
+enum class Fork;
+}  // namespace trapwright::session
 namespace trapwright::workflow {
 struct LoadedPart;
 }
@@ -84,7 +85,7 @@ class Page : public QWidget {
     void studyWanted(const trapwright::workflow::LoadedPart& part);
     /// A new study with the settings and the part of the open one, and no generations, shall be opened in its
     /// place.
-    void forkWanted(bool withTracks);
+    void forkWanted(trapwright::session::Fork kind);
 
  private:
     PageFace face_;

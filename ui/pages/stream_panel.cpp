@@ -64,6 +64,14 @@ void StreamPanel::showHead() {
                     .arg(percent(share->mean),
                          boundsText(100.0 * share->interval.low, 100.0 * share->interval.high));
     text += ". ";
+    const auto perMinute = [&](int study::StreamCounts::*count) {
+        return QString::number(best.rate(count).mean, 'f', 1);
+    };
+    if (const auto efficiency = best.efficiency(); efficiency && best.sum().returned > 0)
+        text += tr("%1 a minute fall back and come again, so that %2 % of all that come up are right. ")
+                    .arg(perMinute(&study::StreamCounts::returned), percent(efficiency->mean));
+    if (best.sum().fellOff > 0)
+        text += tr("%1 a minute fall off and are lost. ").arg(perMinute(&study::StreamCounts::fellOff));
     const auto first = [&](auto&& condition) { return std::ranges::find_if(streams.results, condition); };
     if (const auto full = first([](const study::StreamResult& r) { return r.countFull() > 0; });
         full != streams.results.end())

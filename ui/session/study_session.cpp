@@ -2,6 +2,8 @@
 
 #include <future>
 
+#include "core/study/presets.h"
+#include "core/study/track_design.h"
 #include "core/workflow/learning.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_feeder.h"
@@ -118,10 +120,20 @@ base::Status StudySession::saveAs(const std::filesystem::path& path) {
 }
 
 base::Result<std::unique_ptr<StudySession>> StudySession::fork(const std::filesystem::path& path,
-                                                               bool withTracks) const {
+                                                               Fork kind) const {
     study::Settings settings = state_->settings;
     study::KnownTracks known = state_->known;
-    if (withTracks) {
+    if (kind == Fork::trapBehind) {
+        const auto chosen = runs_->chosen();
+        if (!chosen) return base::Error{"There is no track yet that traps could follow. Learn one first."};
+        const auto track = study::decodeTrack(settings.track, chosen->record.design);
+        if (!track) return track.error();
+        auto rejecting = study::rejectingMode(settings, *track);
+        if (!rejecting) return rejecting.error();
+        settings = *std::move(rejecting);
+        known = {};
+    }
+    if (kind == Fork::knownTracks) {
         if (!state_->reader) return state_->cannotRead();
         auto collected = workflow::collectTracks(*state_->reader);
         if (!collected) return collected.error();

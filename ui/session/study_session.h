@@ -20,6 +20,13 @@ class StudyRuns;
 struct OpenedStudy;
 struct StudyState;
 
+/// What of a study's tracks a new one has that is made of it.
+enum class Fork {
+    settingsAlone,
+    knownTracks,  // its first generation begins with them
+    trapBehind    // traps that throw out what lies wrong are learned behind the chosen one
+};
+
 /// One open study. Lives in the GUI thread and never makes it wait: a thread of its own learns, selects and
 /// validates and writes the file; another simulates trials and replays, also while the first one learns; a
 /// third writes down what is noted of the feeder meanwhile; what the GUI reads comes through a second,
@@ -70,10 +77,10 @@ class StudySession : public QObject {
     /// Copies the study to a new file and goes on with that one. An error if something goes on, or if the
     /// path exists.
     base::Status saveAs(const std::filesystem::path& path);
-    /// A new study with the same part and settings and no generations. `withTracks`: the first of them begins
-    /// with tracks of this one; an error if it has none.
+    /// A new study with the same part and settings, or what of them the kind changes, and no generations. An
+    /// error if it is made of tracks and there are none.
     [[nodiscard]] base::Result<std::unique_ptr<StudySession>> fork(const std::filesystem::path& path,
-                                                                   bool withTracks = false) const;
+                                                                   Fork kind = Fork::settingsAlone) const;
 
     /// Disconnects this one from all signals of the session and of its parts.
     void leave(const QObject* listener) const;

@@ -179,9 +179,8 @@ void MainWindow::connectPage(pages::Page& page) {
             showPage(std::exchange(pageAfterImport_, kFirstPage));
         });
     });
-    connect(&page, &pages::Page::forkWanted, this, [this](bool withTracks) {
-        whenClosable(
-            [this, withTracks] { report(tr("No new study can be made"), desk_.forkToDraft(withTracks)); });
+    connect(&page, &pages::Page::forkWanted, this, [this](session::Fork kind) {
+        whenClosable([this, kind] { report(tr("No new study can be made"), desk_.forkToDraft(kind)); });
     });
     if (QWidget* bar = page.sceneBar()) frame_->addBar(page.face().name, bar);
 }

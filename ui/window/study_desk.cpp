@@ -96,10 +96,10 @@ void StudyDesk::openExample(const workflow::ExampleStudy& example,
     });
 }
 
-base::Status StudyDesk::forkToDraft(bool withTracks) {
+base::Status StudyDesk::forkToDraft(session::Fork kind) {
     const auto path = newDraftPath(session_->design().part()->name);
     if (!path) return path.error();
-    auto forked = session_->fork(*path, withTracks);
+    auto forked = session_->fork(*path, kind);
     if (!forked) return forked.error();
     adopt(std::move(*forked));
     return base::success();

@@ -49,7 +49,7 @@ class StudyDesk : public QObject {
     void openExample(const workflow::ExampleStudy& example,
                      const std::function<void(const base::Status&)>& opened);
     /// `withTracks`: StudySession::fork.
-    base::Status forkToDraft(bool withTracks);
+    base::Status forkToDraft(session::Fork kind);
     /// Deletes a draft's file if `keepDraft` is false.
     void close(bool keepDraft);
     /// A draft that nobody wants: its file goes as soon as another study takes its place, or it is closed.

@@ -52,7 +52,7 @@ struct Judge {
 
 /// In all of these trials' scores, without being named in F.
 bool isScored(const objectives::Objective& objective) {
-    return !objective.needsWanted && objective.key != "F_P";
+    return !objective.needsWanted && objective.key != "F_P" && objective.key != objectives::kThroughput;
 }
 
 Outcome finishedAfter(double way, double seconds, const base::Quaternion& rotation) {
@@ -291,7 +291,15 @@ class ObjectivesTest : public QObject {
             outcomes.push_back(outcome);
         }
         const Judge judge;
-        const double bits = scoreOf(judge.judge(outcomes), "sorting");
+        Evaluation evaluation = judge.evaluation(outcomes);
+        evaluation.returns = trial::Returns::anywhere;
+        const auto score = [&] {
+            return scoreOf(objectives::measureAll(evaluation, paperObjectives()), "sorting");
+        };
+        const double bits = score();
+        // What is lost counts as wrong.
+        evaluation.returns = trial::Returns::nowhere;
+        QVERIFY(thrown == 0 ? score() == bits : score() > bits - 1e-9);
         if (thrown == 4) {
             QCOMPARE(bits, 8.0);
             return;
@@ -313,11 +321,67 @@ class ObjectivesTest : public QObject {
         fallen.parts[0].ending = trial::Ending::fellOff;
         outcomes.push_back(fallen);
         const Judge judge;
-        QVERIFY(scoreOf(judge.judge(outcomes), "sorting") > 8.0);
         objectives::Evaluation told = judge.evaluation(outcomes);
+        told.returns = trial::Returns::anywhere;
+        QVERIFY(scoreOf(objectives::measureAll(told, paperObjectives()), "sorting") > 8.0);
         told.wanted = trial::makeGoal(base::Quaternion::Identity());
         QVERIFY(scoreOf(objectives::measureAll(told, objectives::readObjectives("sorting").value()),
                         "sorting") < 1.3);
+    }
+
+    // Of 100 parts that do not come again so many are wrong.
+    void purityCountsNines_data() {
+        QTest::addColumn<int>("right");
+        QTest::addColumn<int>("wrong");
+        QTest::addColumn<int>("stuck");
+        QTest::addColumn<int>("fallen");
+        QTest::addColumn<bool>("returns");
+        QTest::addColumn<double>("share");  // of wrong ones
+        QTest::newRow("none is wrong") << 98 << 0 << 0 << 0 << true << 0.01;
+        QTest::newRow("more of them, more certainty") << 998 << 0 << 0 << 0 << true << 0.001;
+        QTest::newRow("some are wrong") << 88 << 10 << 0 << 0 << true << 0.11;
+        QTest::newRow("stuck ones are wrong") << 88 << 5 << 5 << 0 << true << 0.11;
+        QTest::newRow("what comes again is not") << 98 << 0 << 0 << 50 << true << 0.01;
+        QTest::newRow("what is lost is") << 88 << 0 << 0 << 10 << false << 0.11;
+        QTest::newRow("all come again") << 0 << 0 << 0 << 50 << true << 0.5;
+    }
+    void purityCountsNines() {
+        QFETCH(int, right);
+        QFETCH(int, wrong);
+        QFETCH(int, stuck);
+        QFETCH(int, fallen);
+        QFETCH(bool, returns);
+        QFETCH(double, share);
+        std::vector<Outcome> outcomes;
+        const auto add = [&](int count, trial::Ending ending, double turned) {
+            for (int i = 0; i < count; ++i) {
+                outcomes.push_back(finishedAfter(104e-3, 2.0, turn(turned, base::Vec3::UnitX())));
+                outcomes.back().parts[0].ending = ending;
+            }
+        };
+        add(right, trial::Ending::finished, 0.0);
+        add(wrong, trial::Ending::finished, 90.0);
+        add(stuck, trial::Ending::stuck, 0.0);
+        add(fallen, trial::Ending::fellOff, 0.0);
+        const Judge judge;
+        Evaluation evaluation = judge.evaluation(outcomes);
+        evaluation.returns = returns ? trial::Returns::innerSide : trial::Returns::nowhere;
+        for (Outcome& outcome : outcomes)
+            outcome.parts[0].farthest.position.y() = -25e-3;
+        const double nines = scoreOf(objectives::measureAll(evaluation, paperObjectives()), "purity");
+        QVERIFY2(std::abs(nines + std::log10(share)) < 1e-9, qPrintable(QString::number(nines)));
+    }
+
+    void throughputIsOfStreamsAlone() {
+        const Judge judge;
+        const std::vector outcomes(4, finishedAfter(104e-3, 2.0, base::Quaternion::Identity()));
+        const auto sum = objectives::readObjectives("success, throughput").value();
+        Evaluation evaluation = judge.evaluation(outcomes);
+        QCOMPARE(objectives::measureAll(evaluation, sum).total, 1.0);
+        QVERIFY(objectives::findScore(judge.judge(outcomes), "throughput") == nullptr);
+        evaluation.streams = stats::Count{30, 40};
+        QCOMPARE(objectives::measureAll(evaluation, sum).total, 1.75);
+        QCOMPARE(scoreOf(judge.judge(outcomes), "success"), 1.0);
     }
 
     // 80 trials on a grid of friction and stroke: those of low friction fail, and one of high.
@@ -538,7 +602,8 @@ class ObjectivesTest : public QObject {
         QCOMPARE(some.total, 1.0);
         const Fitness all = objectives::measureOthers(judge.evaluation(outcomes), some);
         QCOMPARE(all.total, 1.0);
-        QCOMPARE(all.scores.size(), objectives::allObjectives().size() - 2);  // all but F_W and F_P
+        QCOMPARE(all.scores.size(),
+                 objectives::allObjectives().size() - 3);  // all but F_W, F_P and throughput
         QVERIFY(all == objectives::measureAll(judge.evaluation(outcomes), *list));
         const Fitness errors{0.0, {{"F_D", 1.0, 3.0}, {"success", 1.0, 4.0}, {"F_O", 1.0, 9.0}}};
         QCOMPARE(objectives::calcTotalError(errors, *list), 5.0);
@@ -547,11 +612,12 @@ class ObjectivesTest : public QObject {
     void unknownObjectivesAreNamed_data() {
         QTest::addColumn<QString>("text");
         QTest::addColumn<QString>("told");
-        QTest::newRow("unknown")
-            << "F_C, F_Q"
-            << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-               "F_W, disorder, sorting, success, correct, worst_half, corners, conveying_speed, F_P. Write "
-               "several with commas between them.";
+        QTest::newRow("unknown") << "F_C, F_Q"
+                                 << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
+                                    "F_W, disorder, sorting, success, correct, purity, throughput, "
+                                    "worst_half, corners, conveying_speed, "
+                                    "F_P. Write "
+                                    "several with commas between them.";
         QTest::newRow("empty") << ""
                                << "There is no objective named \"\".";
         QTest::newRow("end") << "F_C,"

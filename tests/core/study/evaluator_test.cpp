@@ -117,6 +117,59 @@ class EvaluatorTest : public QObject {
         QVERIFY(plans.size() >= 5 * 3);  // three stages at least
     }
 
+    /// Streams go over the best by single parts; what they come to counts, for any number of threads.
+    void streamsAreSentOverTheBest() {
+        std::vector<std::vector<GenerationRecord>> runs;
+        for (const unsigned threads : {1U, 4U}) {
+            study::StudyInputs inputs = racingInputs(threads);
+            inputs.settings.evolution.objectives = "F_C, F_D, F_O, throughput";
+            inputs.settings.evolution.streamShare = 0.2;  // 5 of 24
+            inputs.settings.evolution.streamsEach = 2;
+            inputs.settings.stream.duration = 10.0;
+            inputs.settings.stream.warmUp = 0.5;
+            std::int64_t announced = 0;
+            study::LearningControl control;
+            study::LearningEvents events;
+            events.planned = [&](const study::GenerationPlan& plan) {
+                announced = plan.doneBefore + plan.trials;
+            };
+            std::vector<GenerationRecord>& saved = runs.emplace_back();
+            events.save = [&](const GenerationRecord& record) {
+                saved.push_back(record);
+                return control.run.done() == announced ? base::success()
+                                                       : base::Status(base::Error{"the plan is wrong"});
+            };
+            VERIFY_OK(study::evolve(inputs, std::nullopt, events, control));
+        }
+        const auto scoreOf = [](const study::IndividualRecord& individual, std::string_view key) {
+            const auto* score = objectives::findScore(individual.fitness, key);
+            return score == nullptr ? 0.0 : score->value;
+        };
+        for (std::size_t g = 0; g < runs[0].size(); ++g) {
+            const GenerationRecord& record = runs[0][g];
+            QVERIFY(record.individuals == runs[1][g].individuals);
+            int sent = 0;
+            double leastSent = 1e9;
+            double bestOther = -1e9;
+            for (const study::IndividualRecord& individual : record.individuals) {
+                const double single =
+                    scoreOf(individual, "F_C") + scoreOf(individual, "F_D") + scoreOf(individual, "F_O");
+                const double throughput = scoreOf(individual, "throughput");
+                QVERIFY(throughput >= 0.0 && throughput <= 1.0);
+                QVERIFY(std::abs(individual.fitness.total - single - throughput) < 1e-12);
+                if (throughput > 0.0) {
+                    ++sent;
+                    leastSent = std::min(leastSent, single);
+                    QCOMPARE(individual.trials, 16);
+                } else {
+                    bestOther = std::max(bestOther, single);
+                }
+            }
+            QVERIFY2(sent <= 5 && (g == 0 || sent > 0), QByteArray::number(sent));
+            if (sent == 5) QVERIFY(leastSent >= bestOther);
+        }
+    }
+
     /// An individual's success is that of the selection: of all its trials, whether it raced or not. The law
     /// lays the parts of each trial as its number says.
     void successIsCountedOfAllTrials_data() {

@@ -27,6 +27,8 @@ Settings unusualSettings() {
               "129, 48, 23"};
     s.track.shape = {track::FeederType::bowl, 0.1 + 0.2, track::Conveying::anticlockwise};
     s.track.traps = "step, free-form";
+    s.track.given = "10.5: -30 1, 30 2";
+    s.track.returns = trial::Returns::outerSide;
     s.track.crossSections = 7;
     s.track.pointsPerSection = 11;
     s.track.minSegmentLength = 1.0 / 3.0;
@@ -57,6 +59,8 @@ Settings unusualSettings() {
                    4,
                    1.0 / 3.0,
                    true,
+                   0.2 / 3.0,
+                   5,
                    0.7,
                    0.7e-3 / 3.0,
                    12,

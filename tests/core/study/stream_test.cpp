@@ -228,10 +228,57 @@ class StreamTest : public QObject {
         QVERIFY(table.contains("      20 ") && table.contains("     120 "));
     }
 
+    // What falls where parts come again is not lost, and counts in the efficiency alike.
+    void fallenPartsComeAgain() {
+        study::StudyInputs inputs = crowdInputs();
+        const auto measure = [&] {
+            return study::measureStreams(inputs, makeTrack(inputs), {2, 3}, std::nullopt, {120.0}, {})
+                .value()
+                .results.front();
+        };
+        const study::StreamResult lost = measure();
+        inputs.settings.track.returns = trial::Returns::anywhere;
+        const study::StreamResult returned = measure();
+        QVERIFY(lost.sum().fellOff > 100 && lost.sum().returned == 0);
+        QCOMPARE(returned.sum().returned, lost.sum().fellOff);
+        QCOMPARE(returned.sum().fellOff, 0);
+        QVERIFY(returned.successShare()->mean == lost.successShare()->mean);
+        QVERIFY(returned.efficiency()->mean == lost.efficiency()->mean);
+        // Of all that leave the track those are right that come half a second after the one before.
+        QVERIFY(isNear(*lost.efficiency(), std::exp(-0.5 * 2.0)));
+    }
+
+    // The same arrivals for all tracks of a generation, others in the next; the step of learning.
+    void streamsOfLearning() {
+        study::StudyInputs inputs = crowdInputs();
+        inputs.settings.evolution.streamsEach = 3;
+        inputs.settings.stream.partsPerMinute = 80.0;
+        const study::Specimens specimens = study::makeSpecimens(inputs.settings, inputs.part);
+        const auto track = makeTrack(inputs);
+        const auto batch = study::makeLearningStreams(inputs.settings, specimens, track, 4);
+        QCOMPARE(batch.trials.size(), std::size_t{3});
+        QCOMPARE(batch.step, study::chooseLearningStep(inputs.settings));
+        const auto next = study::makeLearningStreams(inputs.settings, specimens, track, 5);
+        QVERIFY(batch.trials[0].parts[0].time != next.trials[0].parts[0].time);
+        QVERIFY(batch.trials[0].place && batch.trials[0].contact);
+        inputs.settings.evolution.conditions = study::TrialConditions::nominal;
+        QVERIFY(!study::makeLearningStreams(inputs.settings, specimens, track, 4).trials[0].place);
+        // None of them is one of the streams that judge.
+        QVERIFY(batch.trials[0].stream.purpose != makeBatch(inputs, 80.0).trials[0].stream.purpose);
+        std::vector<trial::Outcome> outcomes;
+        for (const trial::TrialSpec& spec : batch.trials)
+            outcomes.push_back(crowdLaw(batch, spec));
+        const stats::Count count = study::countThroughput(inputs.settings.stream, {}, inputs.part->symmetry,
+                                                          25.0 * base::kDegree, batch, outcomes);
+        // 80 a minute come for three minutes.
+        QVERIFY(count.trials > 180 && count.trials < 300);
+        QVERIFY(std::abs(count.share() - std::exp(-0.5 * 80.0 / 60.0)) < 0.1);
+    }
+
     // All right in every stream: the streams alone would say that it is certain.
     void aFlawlessShareHasABound() {
         study::StreamResult result{60.0, 60.0, {}, 0.0, 0.0, 0.0};
-        result.streams.assign(5, {20, 20, 20, 0, 0, 0, 0, 0.0});
+        result.streams.assign(5, {20, 20, 20, 0, 0, 0, 0, 0, 0.0});
         const auto share = result.successShare();
         QVERIFY(share && share->mean == 1.0 && share->interval.high == 1.0);
         QVERIFY(std::abs(share->interval.low - (1.0 - 0.0362)) < 1e-3);  // Clopper and Pearson, 100 of 100
@@ -240,7 +287,7 @@ class StreamTest : public QObject {
         QVERIFY(result.successShare()->interval.low < 0.5);  // one bad stream of five
         result.streams.assign(3, {});
         QVERIFY(!result.successShare());
-        result.streams.assign(3, {100, 90, 90, 0, 0, 0, 0, 0.0});
+        result.streams.assign(3, {100, 90, 90, 0, 0, 0, 0, 0, 0.0});
         QCOMPARE(result.countFull(), 3);
     }
 
@@ -263,13 +310,27 @@ class StreamTest : public QObject {
         study::Streams streams;
         streams.settings.duration = 1.0 / 3.0 + 20.0;
         streams.settings.contact.kineticFriction = 0.3;
-        streams.results = {
-            {30.0, 20.0, {{9, 8, 7, 1, 0, 1, 1, 2.0 / 3.0}, {1, 1, 1, 0, 0, 0, 0, 0.0}}, 4.0, 2.0, 1.0}};
+        streams.results = {{30.0,
+                            20.0,
+                            {{9, 8, 7, 1, 3, 0, 1, 1, 2.0 / 3.0}, {1, 1, 1, 0, 0, 0, 0, 0, 0.0}},
+                            4.0,
+                            2.0,
+                            1.0}};
         const std::string text = study::streamsToJson(streams);
         const auto back = study::streamsFromJson(text);
         VERIFY_OK(back);
         QVERIFY(back->settings == streams.settings && back->results == streams.results);
         QVERIFY(back->goal == streams.goal);
+        // As programs wrote it that knew no returns.
+        std::string older = text;
+        for (const auto& [from, to] : {std::pair("1,1,3]", "1,1]"), {"0,0,0]", "0,0]"}}) {
+            QVERIFY(older.find(from) != std::string::npos);
+            older.replace(older.find(from), std::string(from).size(), to);
+        }
+        const auto old = study::streamsFromJson(older);
+        VERIFY_OK(old);
+        QCOMPARE(old->results[0].sum().returned, 0);
+        QCOMPARE(old->results[0].sum().success, 8);
         for (const char* damaged : {"", "{}", "[1]", R"({"goal": 1})"})
             QVERIFY(!study::streamsFromJson(damaged).ok());
         for (const auto& [from, to] : {std::pair("[9,8,", "[-9,8,"), {"[9,8,", "[8,"}, {":4.0", ":-4.0"}}) {

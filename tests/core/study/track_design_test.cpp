@@ -3,6 +3,7 @@
 #include <QtTest>
 #include <set>
 
+#include "core/traps/trap_chain.h"
 #include "fake_engine.h"
 
 using namespace trapwright;
@@ -98,6 +99,64 @@ class TrackDesignTest : public QObject {
         QCOMPARE(track->height, 20e-3);
         QCOMPARE(track->sections.size(), std::size_t{2 + 3 + 3});
         QVERIFY(qAbs(geometry::calcBoundingBox(track->solid).low.z() + 5e-3) < 1e-12);
+    }
+
+    void trapsFollowAGivenOne() {
+        const study::TrackSettings settings = smallSettings();
+        const auto first =
+            study::decodeTrack(settings, designOf(std::vector<double>(24, 0.3), std::vector<double>(3, 0.2)));
+        VERIFY_OK(first);
+        study::TrackSettings wanted = settings;
+        wanted.traps = "cut-out";
+        const auto behind = study::placeBehind(*first, wanted);
+        VERIFY_OK(behind);
+        // Raised by the fall of a typical cut-out, the lead-in as well.
+        const double raised = std::ceil(1e3 * study::calcTypicalFall(wanted)) * 1e-3;
+        QVERIFY(raised > 5e-3);
+        const search::DesignSpace space = study::designSpace(*behind);
+        QCOMPARE(space.dimensions.size(), std::size_t{7});
+        QCOMPARE(behind->startFromLeadInEnd, settings.startFromLeadInEnd);
+        const auto both = study::decodeTrack(*behind, search::Design(7, 0.5));
+        VERIFY_OK(both);
+        QCOMPARE(both->lastTrapSection, first->lastTrapSection + 6);
+        for (std::size_t s = 0; s <= static_cast<std::size_t>(first->lastTrapSection); ++s) {
+            QVERIFY(qAbs(both->sections[s].x - first->sections[s].x) < 1e-9);
+            for (std::size_t i = 0; i < 4; ++i)
+                QVERIFY((both->sections[s].points[i] - first->sections[s].points[i] - base::Vec2(0.0, raised))
+                            .norm() < 1e-12);
+        }
+        // Its own begin where the given one ends, on its lowest point.
+        const track::CrossSection& next =
+            both->sections[static_cast<std::size_t>(first->lastTrapSection) + 1];
+        QVERIFY(next.x > both->sections[static_cast<std::size_t>(first->lastTrapSection)].x + 9e-3);
+        const double fall = 8.0 * base::kDegree;  // the middle of -6 to 22
+        const double lowest = traps::findLowest(next);
+        QVERIFY(qAbs(lowest - (0.3 * 30e-3 - (next.x - first->sections[4].x) * std::tan(fall)) - raised) <
+                1e-8);
+        QVERIFY(study::calcLongestTrack(*behind) > both->end() - both->begin());
+        const auto layout = study::buildLayout(*behind);
+        VERIFY_OK(layout);
+        QCOMPARE(layout->sections.size(), both->sections.size());
+    }
+
+    void sectionsComeBackAsText() {
+        const std::vector<track::CrossSection> sections = {{0.1 / 3.0, {{-0.03, 0.1 / 7.0}, {0.03, 0.0}}},
+                                                           {0.05, {{-0.02, 0.01}, {1e-9, 0.02}}}};
+        const std::string text = study::describeSections(sections);
+        const auto back = study::readSections(text);
+        VERIFY_OK(back);
+        QCOMPARE(back->size(), std::size_t{2});
+        for (std::size_t i = 0; i < 2; ++i) {
+            QVERIFY((*back)[i].x == sections[i].x);
+            QVERIFY((*back)[i].points == sections[i].points);
+        }
+        QVERIFY(study::readSections(" ")->empty());
+        const auto problem = [](const char* wrong) { return fake::messageOf(study::readSections(wrong)); };
+        QVERIFY(problem("10 -1 2, 1 2").contains("Cross-section 1 has no colon"));
+        QVERIFY(problem("x: -1 2, 1 2").contains("Cross-section 1 has no number"));
+        QVERIFY(problem("5: -1 2, 1 2; 5: -1 2, 1 2").contains("Cross-section 2 is not behind"));
+        QVERIFY(problem("5: -1 2, 1").contains("has \"1\" where a point should be"));
+        QVERIFY(problem("5: -1 2, 1 2; 6: -1 2").contains("Cross-section 2 has not as many points"));
     }
 
     void layoutTrackIsFlat() {

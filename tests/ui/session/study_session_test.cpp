@@ -1,5 +1,6 @@
 #include <QtTest>
 
+#include "core/study/track_design.h"
 #include "tests/ui/session/session_fixture.h"
 #include "ui/session/study_curves.h"
 #include "ui/session/study_design.h"
@@ -208,10 +209,11 @@ class StudySessionTest : public QObject {
     void forkBeginsWithTheTracksIfItShall() {
         const auto session = fixture_->create("a.trap", smallSettings(2));
         QVERIFY(session);
-        QVERIFY(fake::messageOf(session->fork(fixture_->path("none.trap"), true)).contains("no tracks yet"));
+        QVERIFY(fake::messageOf(session->fork(fixture_->path("none.trap"), Fork::knownTracks))
+                    .contains("no tracks yet"));
         QVERIFY(learnToTheEnd(*session));
         {
-            const auto forked = session->fork(fixture_->path("b.trap"), true);
+            const auto forked = session->fork(fixture_->path("b.trap"), Fork::knownTracks);
             VERIFY_OK(forked);
             StudySession& other = **forked;
             QVERIFY(other.design().problems().empty());
@@ -235,6 +237,30 @@ class StudySessionTest : public QObject {
         QVERIFY(std::ranges::any_of(last.individuals, [&](const study::IndividualRecord& one) {
             return one.design == first.individuals[0].design;
         }));
+    }
+
+    void forkLearnsATrapBehind() {
+        const auto session = fixture_->create("a.trap", smallSettings(2));
+        QVERIFY(session);
+        QVERIFY(fake::messageOf(session->fork(fixture_->path("none.trap"), Fork::trapBehind))
+                    .contains("no track yet"));
+        QVERIFY(learnToTheEnd(*session));
+        const auto chosen = session->runs().chosen();
+        QVERIFY(chosen);
+        const auto forked = session->fork(fixture_->path("b.trap"), Fork::trapBehind);
+        VERIFY_OK(forked);
+        StudySession& other = **forked;
+        QVERIFY(other.design().problems().empty());
+        const study::Settings& settings = other.design().settings();
+        QVERIFY(settings.track.returns == trial::Returns::anywhere);
+        const auto given = study::readSections(settings.track.given);
+        VERIFY_OK(given);
+        const auto track = study::decodeTrack(session->design().settings().track, chosen->record.design);
+        QCOMPARE(given->size(), static_cast<std::size_t>(track->lastTrapSection - track->firstTrapSection));
+        const auto& last = track->sections[static_cast<std::size_t>(track->lastTrapSection)].points;
+        QCOMPARE(given->back().points.size(), last.size());
+        for (std::size_t i = 0; i < last.size(); ++i)
+            QVERIFY(std::abs(given->back().points[i].x() - last[i].x()) < 1e-12);
     }
 
     void opensInTheBackground() {
