@@ -138,7 +138,7 @@ Settings sortingMode(Settings settings, const part::Part& part) {
 }
 
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track) {
-    settings.track.traps = "2 x cut-out";
+    settings.track.traps = "2 x narrowed";
     auto behind = placeBehind(track, settings.track);
     if (!behind) return behind.error();
     settings.track = *std::move(behind);

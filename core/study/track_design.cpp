@@ -25,9 +25,10 @@ struct Given {
 
     /// x of its end. [m]
     [[nodiscard]] double length() const { return sections.empty() ? 0.0 : sections.back().x; }
-    /// z of the lowest point of what is before the traps. [m]
-    [[nodiscard]] double entry(const TrackSettings& settings) const {
-        return sections.empty() ? 0.5 * settings.segmentHeight : traps::findLowest(sections.back());
+    /// The last section of what is before the traps.
+    [[nodiscard]] track::CrossSection last(const TrackSettings& settings) const {
+        return sections.empty() ? traps::levelSection(settings, 0.5 * settings.segmentHeight)
+                                : sections.back();
     }
     /// With these behind it.
     [[nodiscard]] std::vector<track::CrossSection> followedBy(std::vector<track::CrossSection> behind) const {
@@ -47,9 +48,10 @@ Given givenOf(const TrackSettings& settings) {
 
 /// All numbers in the middle of their ranges.
 std::vector<track::CrossSection> buildTypical(const traps::TrapChain& traps,
-                                              const traps::TrapParameters& parameters, double entry) {
+                                              const traps::TrapParameters& parameters,
+                                              const track::CrossSection& before) {
     const search::Design typical(traps::designSpace(traps, parameters).dimensions.size(), 0.5);
-    return traps::build(traps, parameters, typical, entry);
+    return traps::build(traps, parameters, typical, before);
 }
 
 base::Error noSection(std::size_t number, const std::string& what) {
@@ -158,7 +160,8 @@ double calcTypicalFall(const TrackSettings& settings) {
     if (!traps) return 0.0;
     traps::TrapParameters high = settings;
     high.segmentHeight = kHighEnough;
-    const std::vector<track::CrossSection> sections = buildTypical(*traps, high, 0.5 * kHighEnough);
+    const std::vector<track::CrossSection> sections =
+        buildTypical(*traps, high, traps::levelSection(high, 0.5 * kHighEnough));
     return std::max(0.0, 0.5 * kHighEnough - traps::findLowest(sections.back()));
 }
 
@@ -190,7 +193,7 @@ base::Result<track::Track> decodeTrack(const TrackSettings& settings, const sear
         return checked.error();
     const Given given = givenOf(settings);
     return track::buildTrack(settings,
-                             given.followedBy(traps::build(*traps, settings, design, given.entry(settings))));
+                             given.followedBy(traps::build(*traps, settings, design, given.last(settings))));
 }
 
 base::Result<track::Track> buildLayout(const TrackSettings& settings) {
@@ -199,15 +202,11 @@ base::Result<track::Track> buildLayout(const TrackSettings& settings) {
     const Given given = givenOf(settings);
     if (calcTypicalFall(settings) > 0.0)
         return track::buildTrack(settings,
-                                 given.followedBy(buildTypical(*traps, settings, given.entry(settings))));
+                                 given.followedBy(buildTypical(*traps, settings, given.last(settings))));
     std::vector<track::CrossSection> flat;
     for (const double x : traps::layOut(*traps, settings)) {
-        track::CrossSection section{x, {}};
-        for (int point = 0; point < settings.pointsPerSection; ++point)
-            section.points.emplace_back(
-                settings.segmentWidth * (point / (settings.pointsPerSection - 1.0) - 0.5),
-                0.5 * settings.segmentHeight);
-        flat.push_back(std::move(section));
+        flat.push_back(traps::levelSection(settings, 0.5 * settings.segmentHeight));
+        flat.back().x = x;
     }
     return track::buildTrack(settings, given.followedBy(std::move(flat)));
 }

@@ -40,7 +40,8 @@ std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
     return dimensions;
 }
 
-std::vector<track::CrossSection> buildFreeForm(const TrapParameters& parameters, double /*entry*/,
+std::vector<track::CrossSection> buildFreeForm(const TrapParameters& parameters,
+                                               const track::CrossSection& /*before*/,
                                                std::span<const double> numbers) {
     const std::size_t points = countPointValues(parameters);
     return decodeTrap(parameters, numbers.first(points), numbers.subspan(points));

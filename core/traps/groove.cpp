@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/traps/trap_chain.h"
+
 namespace trapwright::traps {
 
 namespace {
@@ -37,7 +39,8 @@ double restingLength(const TrapParameters& parameters) {
 /// Sections one after the other, each a groove whose bottom is where the one before leaves it.
 class Course {
  public:
-    Course(const TrapParameters& parameters, double entry) : parameters_(&parameters), bottom_(entry) {}
+    Course(const TrapParameters& parameters, const track::CrossSection& entry)
+        : parameters_(&parameters), bottom_(findLowest(entry)) {}
 
     /// Goes on for a length (of the track, along x) that falls by an angle, to a groove of this form.
     void add(double length, double fall, const Form& form) {
@@ -113,7 +116,8 @@ std::vector<search::Dimension> dimensionsOfGroove(const TrapParameters& paramete
             angleOf("walls", 0.0, kSteepestWall), angleOf("inclination", -kMostInclined, kMostInclined)};
 }
 
-std::vector<track::CrossSection> buildGroove(const TrapParameters& parameters, double entry,
+std::vector<track::CrossSection> buildGroove(const TrapParameters& parameters,
+                                             const track::CrossSection& entry,
                                              std::span<const double> numbers) {
     Course course(parameters, entry);
     course.add(within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[0]),
@@ -146,7 +150,7 @@ std::vector<search::Dimension> dimensionsOfDrop(const TrapParameters& parameters
             angleOf("behind, fall", -kSteepestRise, kSteepestFall)};
 }
 
-std::vector<track::CrossSection> buildDrop(const TrapParameters& parameters, double entry,
+std::vector<track::CrossSection> buildDrop(const TrapParameters& parameters, const track::CrossSection& entry,
                                            std::span<const double> numbers) {
     const auto length = [&](double share) {
         return within(parameters.minSegmentLength, parameters.maxSegmentLength, share);
@@ -204,8 +208,9 @@ std::vector<search::Dimension> dimensionsOfCutOut(const TrapParameters& paramete
 }
 
 /// `step`: how much lower the track is behind the cut, or if negative from the cut's beginning on. [m]
-std::vector<track::CrossSection> buildLedge(const TrapParameters& parameters, double entry,
-                                            std::span<const double> numbers, double step) {
+std::vector<track::CrossSection> buildLedge(const TrapParameters& parameters,
+                                            const track::CrossSection& entry, std::span<const double> numbers,
+                                            double step) {
     const double deepest = deepestCut(parameters);
     const Form narrow =
         makeLedge(within(0.0, kSteepestLedgeWall, numbers[2]), within(-kMostFloor, kMostFloor, numbers[3]),
@@ -229,7 +234,8 @@ std::vector<track::CrossSection> buildLedge(const TrapParameters& parameters, do
     return course.take();
 }
 
-std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters, double entry,
+std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters,
+                                             const track::CrossSection& entry,
                                              std::span<const double> numbers) {
     return buildLedge(parameters, entry, numbers, 0.0);
 }
@@ -242,7 +248,7 @@ std::vector<search::Dimension> dimensionsOfGap(const TrapParameters& parameters)
     return dimensions;
 }
 
-std::vector<track::CrossSection> buildGap(const TrapParameters& parameters, double entry,
+std::vector<track::CrossSection> buildGap(const TrapParameters& parameters, const track::CrossSection& entry,
                                           std::span<const double> numbers) {
     const double highest = highestDrop(parameters);
     return buildLedge(parameters, entry, numbers, within(-highest, highest, numbers[7]));

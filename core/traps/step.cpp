@@ -21,7 +21,8 @@ std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
             {"inclination", "deg", -steepest, steepest}};
 }
 
-std::vector<track::CrossSection> buildStep(const TrapParameters& parameters, double /*entry*/,
+std::vector<track::CrossSection> buildStep(const TrapParameters& parameters,
+                                           const track::CrossSection& /*before*/,
                                            std::span<const double> numbers) {
     const double middle = within(0.0, parameters.segmentHeight, numbers[0]);
     const double length = within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[1]);

@@ -11,6 +11,7 @@
 #include "core/base/spelling.h"
 #include "core/traps/free_form.h"
 #include "core/traps/groove.h"
+#include "core/traps/narrowed.h"
 #include "core/traps/step.h"
 
 namespace trapwright::traps {
@@ -50,7 +51,8 @@ Repeated readRepeated(std::string_view word) {
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 6> kinds = {freeForm(), step(), groove(), drop(), cutOut(), gap()};
+    static const std::array<TrapKind, 7> kinds = {freeForm(), step(), groove(),  drop(),
+                                                  cutOut(),   gap(),  narrowed()};
     return kinds;
 }
 
@@ -143,22 +145,22 @@ search::DesignSpace designSpace(const TrapChain& chain, const TrapParameters& pa
 
 std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
                                        const search::Design& design) {
-    return build(chain, parameters, design, 0.5 * parameters.segmentHeight);
+    return build(chain, parameters, design, levelSection(parameters, 0.5 * parameters.segmentHeight));
 }
 
 std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
-                                       const search::Design& design, double entry) {
+                                       const search::Design& design, const track::CrossSection& before) {
     std::vector<track::CrossSection> sections;
     std::size_t first = 0;
     for (const TrapKind* kind : chain) {
         const std::size_t count = kind->dimensions(parameters).size();
         const double begin = sections.empty() ? 0.0 : sections.back().x;
+        const track::CrossSection& last = sections.empty() ? before : sections.back();
         for (track::CrossSection& section :
-             kind->build(parameters, entry, std::span(design).subspan(first, count))) {
+             kind->build(parameters, last, std::span(design).subspan(first, count))) {
             section.x += begin;
             sections.push_back(std::move(section));
         }
-        entry = findLowest(sections.back());
         first += count;
     }
     return sections;
@@ -172,6 +174,14 @@ std::vector<double> layOut(const TrapChain& chain, const TrapParameters& paramet
             places.push_back(begin + x);
     }
     return places;
+}
+
+track::CrossSection levelSection(const TrapParameters& parameters, double z) {
+    track::CrossSection section;
+    for (int j = 0; j < parameters.pointsPerSection; ++j)
+        section.points.emplace_back(parameters.segmentWidth * (j / (parameters.pointsPerSection - 1.0) - 0.5),
+                                    z);
+    return section;
 }
 
 double findLowest(const track::CrossSection& section) {

@@ -28,12 +28,15 @@ search::DesignSpace designSpace(const TrapChain& chain, const TrapParameters& pa
 /// The functional cross-sections of a design of that space; x is measured from the lead-in's end.
 std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
                                        const search::Design& design);
-/// The same behind something else than the lead-in, which ends at x = 0 with its lowest point at z = `entry`.
+/// The same behind something else than the lead-in, which ends at x = 0 with this section.
 std::vector<track::CrossSection> build(const TrapChain& chain, const TrapParameters& parameters,
-                                       const search::Design& design, double entry);
+                                       const search::Design& design, const track::CrossSection& before);
 
 /// Where the cross-sections of a typical one are: x from the lead-in's end. [m]
 std::vector<double> layOut(const TrapChain& chain, const TrapParameters& parameters);
+
+/// A level one at x = 0, from edge to edge, as the lead-in's are.
+track::CrossSection levelSection(const TrapParameters& parameters, double z);
 
 /// z of the lowest point. [m]
 double findLowest(const track::CrossSection& section);

@@ -39,9 +39,10 @@ struct TrapKind {
     std::vector<search::Dimension> (*dimensions)(const TrapParameters& parameters);
     /// The functional cross-sections of these numbers (as many as dimensions, in [0, 1]); x is measured from
     /// where the trap begins and rises, y within half a segment's width to either side, z in [0,
-    /// segmentHeight], each section has `pointsPerSection` points. `entry`: z of the lowest point of the
-    /// section before, the lead-in's or the trap's before this one. [m]
-    std::vector<track::CrossSection> (*build)(const TrapParameters& parameters, double entry,
+    /// segmentHeight], each section has `pointsPerSection` points. `before`: the last section of what comes
+    /// before, of the lead-in or a trap.
+    std::vector<track::CrossSection> (*build)(const TrapParameters& parameters,
+                                              const track::CrossSection& before,
                                               std::span<const double> numbers);
     /// Where the cross-sections of a typical one are: x from where the trap begins. [m]
     std::vector<double> (*layOut)(const TrapParameters& parameters);

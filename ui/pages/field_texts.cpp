@@ -38,7 +38,7 @@ const RawText kTexts[] = {
     {"track.feeder", TEXT("Feeder"), TEXT("A straight track that shakes along a line, or one around a bowl that turns back and forth."), {TEXT("Linear"), TEXT("Bowl")}},
     {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
     {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs and gaps that throw out what lies wrong, or several one after the other.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps and narrowed tracks that throw out what lies wrong, or several one after the other.")},
     {"track.given", TEXT("Given trap"), TEXT("Cross-sections that the traps follow: those of a track that was learned before and stays as it is. Change in a new study, Add a rejecting trap, sets them.")},
     {"track.returns", TEXT("What falls off"), TEXT("Where parts that fall off the track come again because they fall back into the bowl or a tray: nowhere, at one side, anywhere. What falls elsewhere is lost."), {TEXT("Is lost"), TEXT("Returns inside"), TEXT("Returns outside"), TEXT("Returns")}},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
@@ -188,9 +188,9 @@ std::vector<Choice> trapChoices() {
     };
     for (const traps::TrapKind& kind : traps::trapKinds())
         add(std::string(kind.key));
-    for (const char* chain :
-         {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
-          "groove, 10 x drop", "groove, groove, 8 x gap", "groove, groove, 8 x cut-out"})
+    for (const char* chain : {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop",
+                              "groove, 6 x drop", "groove, 10 x drop", "groove, groove, 8 x gap",
+                              "groove, groove, 8 x cut-out", "2 x narrowed", "free-form, narrowed"})
         add(chain);
     return choices;
 }
@@ -207,6 +207,9 @@ std::vector<Choice> objectiveChoices() {
         {"F_C, F_D, F_O, F_P", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, printability"))},
         {"F_C, F_D, disorder", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Disorder"))},
         {"sorting", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Sorting"))},
+        {"F_C, purity, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "None wrong"))},
+        {"F_C, F_D, F_O, throughput",
+         tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, streams"))},
         {"F_C, F_D, success, conveying_speed",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success, speed"))}};
 }

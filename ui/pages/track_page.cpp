@@ -157,9 +157,10 @@ QWidget* TrackPage::makeHead() {
         "numbers that a track is made of (traps, sections, points) must stay"));
     auto* behind = new QCheckBox(tr("Add a rejecting trap"), locked_);
     behind->setObjectName("track.forkBehind");
-    behind->setToolTip(tr(
-        "The chosen track stays as it is, and cut-outs are learned behind it that throw out what still lies "
-        "wrong, so that it comes again: few parts a minute less, and hardly any wrong one"));
+    behind->setToolTip(
+        tr("The chosen track stays as it is, and narrowed tracks are learned behind it that throw out what "
+           "still lies "
+           "wrong, so that it comes again: few parts a minute less, and hardly any wrong one"));
     // One or the other, or neither.
     connect(withTracks, &QCheckBox::toggled, behind, [behind](bool on) {
         if (on) behind->setChecked(false);

@@ -7,6 +7,7 @@
 #include "core/geometry/mesh_check.h"
 #include "core/track/track_builder.h"
 #include "core/traps/groove.h"
+#include "core/traps/narrowed.h"
 #include "core/traps/step.h"
 #include "core/traps/trap_chain.h"
 
@@ -38,7 +39,8 @@ class TrapKindsTest : public QObject {
         QTest::addColumn<QString>("chain");
         for (const traps::TrapKind& kind : traps::trapKinds())
             QTest::newRow(kind.key.data()) << QString::fromUtf8(kind.key.data());
-        QTest::newRow("several") << "step, free-form,step, groove, drop,drop, cut-out, cut-out, gap";
+        QTest::newRow("several")
+            << "step, free-form,step, groove, drop,drop, cut-out, narrowed, cut-out, gap, narrowed";
     }
     void everyKindGivesATrack() {
         QFETCH(QString, chain);
@@ -87,7 +89,7 @@ class TrapKindsTest : public QObject {
         QCOMPARE(dimensions[0].high, 15.0);
         // 5 mm up, half of the lengths, 10 degrees down to the outer edge.
         const std::vector<double> numbers = {20.0 / 30.0, 0.5, 40.0 / 60.0};
-        const auto sections = step.build(parameters, 0.0, numbers);
+        const auto sections = step.build(parameters, traps::levelSection(parameters, 0.0), numbers);
         QCOMPARE(sections.size(), std::size_t{2});
         QVERIFY(std::abs(sections[0].x - 1e-3) < 1e-12);
         QVERIFY(std::abs(sections[1].x - 26.5e-3) < 1e-12);
@@ -100,7 +102,8 @@ class TrapKindsTest : public QObject {
         QCOMPARE(sections[0].points.front().x(), -30e-3);
         QCOMPARE(sections[0].points.back().x(), 30e-3);
         // Cut off at the box.
-        const auto steep = step.build(parameters, 0.0, std::vector<double>{1.0, 0.0, 1.0});
+        const auto steep =
+            step.build(parameters, traps::levelSection(parameters, 0.0), std::vector<double>{1.0, 0.0, 1.0});
         QCOMPARE(steep[0].points.front().y(), 30e-3);
         QVERIFY(step.smooth == nullptr);
     }
@@ -118,7 +121,8 @@ class TrapKindsTest : public QObject {
         QCOMPARE(dimensions.size(), numbers.size());
         QCOMPARE(dimensions[4].high, 18.0);
         const double entry = 120e-3;
-        const auto sections = drop.build(parameters, entry, numbers);
+        const track::CrossSection before = traps::levelSection(parameters, entry);
+        const auto sections = drop.build(parameters, before, numbers);
         QCOMPARE(sections.size(), std::size_t{5});
         const double rest = 0.5 * (15e-3 + 36e-3);
         const double xs[] = {22.5e-3, 23e-3, 38e-3, 38e-3 + 0.5 * rest, 38e-3 + rest};
@@ -142,7 +146,8 @@ class TrapKindsTest : public QObject {
         const double resting = std::tan(traps::kRestingWall);
         QVERIFY(std::abs(sections[4].points.back().y() - (bottoms[4] + 30e-3 * resting)) < 1e-12);
         // Cut off at the box.
-        for (const track::CrossSection& section : drop.build(parameters, 1e-3, numbers)) {
+        for (const track::CrossSection& section :
+             drop.build(parameters, traps::levelSection(parameters, 1e-3), numbers)) {
             for (const base::Vec2& point : section.points)
                 QVERIFY(point.y() >= 0.0);
         }
@@ -161,7 +166,8 @@ class TrapKindsTest : public QObject {
         // cut away from the outer edge over 18.25 mm.
         std::vector<double> numbers = {0.0, 0.5, 0.5, 0.75, 0.75, 0.5, 0.5};
         const double entry = 120e-3;
-        const auto sections = cutOut.build(parameters, entry, numbers);
+        const track::CrossSection before = traps::levelSection(parameters, entry);
+        const auto sections = cutOut.build(parameters, before, numbers);
         QCOMPARE(sections.size(), std::size_t{6});
         const double rest = 0.5 * (15e-3 + 36e-3);
         const double xs[] = {15e-3, 15.5e-3, 33.75e-3, 34.25e-3, 34.25e-3 + 0.5 * rest, 34.25e-3 + rest};
@@ -184,14 +190,14 @@ class TrapKindsTest : public QObject {
         }
         // From the other side, and beyond the wall's foot: a strip of the wall is left.
         numbers[4] = 0.0;
-        const auto inner = cutOut.build(parameters, entry, numbers);
+        const auto inner = cutOut.build(parameters, before, numbers);
         QVERIFY(std::abs(inner[1].points.front().x() - 10e-3) < 1e-12);
         QVERIFY(std::abs(inner[2].points.back().x() - 30e-3) < 1e-12);
         QVERIFY(std::abs(inner[1].points[4].x() - 20e-3) < 1e-12);
         QVERIFY(std::abs(inner[1].points[4].y() - (entry - fall * xs[1] + wall * 20e-3)) < 1e-12);
         // Not cut at all.
         numbers[4] = 0.5;
-        for (const track::CrossSection& section : cutOut.build(parameters, entry, numbers))
+        for (const track::CrossSection& section : cutOut.build(parameters, before, numbers))
             QVERIFY(section.points.front().x() == -30e-3 &&
                     std::abs(section.points.back().x() - 30e-3) < 1e-15);
     }
@@ -207,14 +213,15 @@ class TrapKindsTest : public QObject {
         QCOMPARE(dimensions[7].high, 18.0);
         const std::vector<double> numbers = {0.0, 0.5, 0.5, 0.75, 0.75, 0.5, 0.5};
         const double entry = 120e-3;
-        const auto level = traps::cutOut().build(parameters, entry, numbers);
+        const track::CrossSection before = traps::levelSection(parameters, entry);
+        const auto level = traps::cutOut().build(parameters, before, numbers);
         const double edge = 0.5e-3 * std::tan(8.0 * base::kDegree);  // what an edge falls without a step
         // The step, and the first section that it lowers.
         const std::pair<double, std::size_t> steps[] = {{0.0, 6}, {9e-3, 3}, {-9e-3, 1}};
         for (const auto& [step, first] : steps) {
             std::vector<double> stepped = numbers;
             stepped.push_back(0.5 + step / 36e-3);
-            const auto sections = gap.build(parameters, entry, stepped);
+            const auto sections = gap.build(parameters, before, stepped);
             QCOMPARE(sections.size(), level.size());
             for (std::size_t i = 0; i < sections.size(); ++i) {
                 const double lower = i < first ? 0.0 : std::abs(step) - edge;
@@ -242,6 +249,43 @@ class TrapKindsTest : public QObject {
         QVERIFY(fall > 9e-3);
         QVERIFY(std::abs(bottom(5) - bottom(10) - fall) < 1e-12);
         QVERIFY(std::abs(bottom(10) - bottom(15) - fall) < 1e-12);
+    }
+
+    void aNarrowedTrackGoesOnCutAway() {
+        const traps::TrapKind narrowed = traps::narrowed();
+        const TrapParameters parameters;
+        track::CrossSection before{0.0, {}};
+        for (int j = 0; j < 8; ++j)
+            before.points.emplace_back(60e-3 * (j / 7.0 - 0.5), 10e-3 + 1e-3 * (j % 3));
+        // Not inclined, cut by 10 mm from the inner edge, not at all from the outer, for 18.25 mm.
+        const std::vector<double> numbers = {0.5, 0.625, 0.3, 0.5, 0.5};
+        const auto sections = narrowed.build(parameters, before, numbers);
+        QCOMPARE(sections.size(), std::size_t{4});
+        const double begin = 0.5 * (15e-3 + 36e-3);
+        const double length = 0.5 * (0.5e-3 + 36e-3);
+        const std::array<double, 4> xs = {begin, begin + 0.5e-3, begin + 0.5e-3 + length,
+                                          begin + 1e-3 + length};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const bool isCut = i == 1 || i == 2;
+            QVERIFY(std::abs(sections[i].x - xs[i]) < 1e-12);
+            QVERIFY(std::abs(sections[i].points.front().x() - (isCut ? -20e-3 : -30e-3)) < 1e-12);
+            QVERIFY(std::abs(sections[i].points.back().x() - 30e-3) < 1e-12);
+            for (const base::Vec2& point : sections[i].points)
+                QVERIFY(std::abs(point.y() - traps::heightAt(before, point.x())) < 1e-12);
+            if (!isCut) QVERIFY(sections[i].points == before.points);
+        }
+        // Inclined by 10 degrees, down to the outer edge.
+        const auto inclined =
+            narrowed.build(parameters, before, std::vector<double>{0.5, 0.0, 0.0, 0.5, 0.75});
+        for (std::size_t j = 0; j < 8; ++j) {
+            const base::Vec2& point = before.points[j];
+            const double z = point.y() - std::tan(10.0 * base::kDegree) * point.x();
+            QVERIFY(std::abs(inclined[2].points[j].y() - z) < 1e-12);
+        }
+        // Something is left where both cuts would meet.
+        const auto least = narrowed.build(parameters, before, std::vector<double>{0.5, 1.0, 1.0, 0.5, 0.5});
+        QVERIFY(std::abs(least[1].points.front().x() + 1.5e-3) < 1e-12);
+        QVERIFY(std::abs(least[1].points.back().x() - 1.5e-3) < 1e-12);
     }
 
     void chainsAreReadFromText() {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/traps/trap_kind.h"
+
+namespace trapwright::traps {
+
+/// The narrowed track, the oldest of the devices that reject (Boothroyd 2005, chapter 3): what comes before
+/// goes on with the same cross-section, cut away from either edge for a length. What does not find support
+/// for its weight on what is left falls off; what lies as the track before it leaves it goes on undisturbed.
+/// So it fits behind a trap that is learned, whose right parts come along one way. Five numbers: length
+/// before the cut, how far it is cut from the inner and from the outer edge (the lower half of their ranges:
+/// not at all), how long, and how much all of it is inclined across the track.
+TrapKind narrowed();
+
+/// The height of a section at y, on the first of its stretches that has such a y; that of the nearest end
+/// beside it. [m]
+double heightAt(const track::CrossSection& section, double y);
+
+}  // namespace trapwright::traps
