@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -86,9 +87,12 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const std::vector<study::EndMode> modes =
         study::findEndModes(*part, outcomes->front(), settings.validation.tolerance, kMostModes);
 
+    const track::FeederShape& shape = batch.track->shape;
+    const double throwNumber = trial::calcThrowNumber(trial::seenFromTrack(batch.drive, shape),
+                                                      batch.gravity * std::cos(shape.slope));
     console.print(fmt::format("{}: part {}, half-stroke {:g} mm, throw number {:.3f}, engine {}\n",
-                              options.track.file, part->name, options.track.halfStroke,
-                              trial::calcThrowNumber(batch.drive), (*engine)->name()) +
+                              options.track.file, part->name, options.track.halfStroke, throwNumber,
+                              (*engine)->name()) +
                   describeShare("Finished", counts.tally.finished(), counts.tally.trials()) +
                   describeShare("Fell off", counts.tally.fellOff, counts.tally.trials()) +
                   describeShare("Stuck", counts.tally.stuck, counts.tally.trials()) +
@@ -101,7 +105,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                   {"part", part->name},
                   {"engine", (*engine)->name()},
                   {"half_stroke_mm", options.track.halfStroke},
-                  {"throw_number", trial::calcThrowNumber(batch.drive)},
+                  {"throw_number", throwNumber},
                   {"trials", counts.tally.trials()},
                   {"finished", shareToJson(counts.tally.finished(), counts.tally.trials())},
                   {"fell_off", shareToJson(counts.tally.fellOff, counts.tally.trials())},

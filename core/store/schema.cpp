@@ -413,9 +413,9 @@ CREATE TABLE stream (               -- of an individual, the newest
 );
 )sql";
 
-// Where parts that fall off come again; what sorting forgave fell anywhere.
+// Slope, a given trap, where parts that fall off come again: what sorting forgave fell anywhere.
 constexpr const char* kVersion23 = R"sql(
-UPDATE study SET settings = json_set(settings, '$.track.given', '',
+UPDATE study SET settings = json_set(settings, '$.track.given', '', '$.track.slope_deg', 0,
     '$.track.returns', CASE WHEN json_extract(settings, '$.evolution.objectives') LIKE '%sorting%'
                        THEN 'anywhere' ELSE 'nowhere' END,
     '$.evolution.streamShare', 0.1, '$.evolution.streamsEach', 2);

@@ -39,10 +39,10 @@ objectives::ObjectiveList listWithoutCorners(const EvolutionSettings& settings) 
 
 bool operator==(const TrackSettings& a, const TrackSettings& b) {
     const auto fields = [](const TrackSettings& s) {
-        return std::tie(s.shape.type, s.shape.bowlRadius, s.shape.conveying, s.traps, s.crossSections,
-                        s.pointsPerSection, s.minSegmentLength, s.maxSegmentLength, s.segmentWidth,
-                        s.segmentHeight, s.leadInLength, s.startFromLeadInEnd, s.leadOutSegments,
-                        s.baseThickness, s.encoding, s.given, s.returns);
+        return std::tie(s.shape.type, s.shape.bowlRadius, s.shape.conveying, s.shape.slope, s.traps,
+                        s.crossSections, s.pointsPerSection, s.minSegmentLength, s.maxSegmentLength,
+                        s.segmentWidth, s.segmentHeight, s.leadInLength, s.startFromLeadInEnd,
+                        s.leadOutSegments, s.baseThickness, s.encoding, s.given, s.returns);
     };
     return fields(a) == fields(b);
 }

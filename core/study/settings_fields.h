@@ -60,6 +60,9 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.choice("track.conveying", s.track.shape.conveying,
              Choices<track::Conveying, 2>{{{"clockwise", track::Conveying::clockwise},
                                            {"anticlockwise", track::Conveying::anticlockwise}}});
+    // The last bits that radians lose of whole degrees are more than a float carries.
+    constexpr double kSteepest = static_cast<float>(track::kSteepestSlope / base::kDegree);
+    v.number({"track.slope_deg", degree, -kSteepest, kSteepest}, s.track.shape.slope);
     v.text("track.traps", s.track.traps);
     v.text("track.given", s.track.given);
     v.choice("track.returns", s.track.returns,

@@ -25,7 +25,7 @@ struct Topology {
     int topCount = 0;
 };
 
-/// One cross-section of the solid.
+/// One cross-section of the solid: (y, height in the room).
 struct Row {
     std::vector<base::Vec2> top;  // the upper side from inside to outside
     std::vector<double> base;     // y of each post
@@ -67,7 +67,8 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
     return topology;
 }
 
-Row makeRow(const CrossSection& section, const PrintOutline& outline) {
+/// `rise`: of the track's plane z = 0 there, in the room.
+Row makeRow(const CrossSection& section, const PrintOutline& outline, double rise) {
     const double innerBorder = section.points.front().x();
     const double outerBorder = section.points.back().x();
     const double innerSide = outline.wallTop ? outline.innerSide : innerBorder;
@@ -79,16 +80,17 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline) {
         row.base.push_back(*outline.innerFlange);
     }
     if (outline.wallTop) {
-        row.top.emplace_back(innerSide, *outline.wallTop);
-        row.top.emplace_back(innerBorder, *outline.wallTop);
+        row.top.emplace_back(innerSide, *outline.wallTop + rise);
+        row.top.emplace_back(innerBorder, *outline.wallTop + rise);
         row.base.push_back(innerSide);
     }
-    row.top.insert(row.top.end(), section.points.begin(), section.points.end());
+    for (const base::Vec2& point : section.points)
+        row.top.emplace_back(point.x(), point.y() + rise);
     const std::vector<double> below = placeBase(section);
     row.base.insert(row.base.end(), below.begin(), below.end());
     if (outline.wallTop) {
-        row.top.emplace_back(outerBorder, *outline.wallTop);
-        row.top.emplace_back(outerSide, *outline.wallTop);
+        row.top.emplace_back(outerBorder, *outline.wallTop + rise);
+        row.top.emplace_back(outerSide, *outline.wallTop + rise);
         row.base.push_back(outerSide);
     }
     if (outline.outerFlange) {
@@ -104,7 +106,7 @@ class Builder {
     Builder(const FeederShape& shape, std::span<const CrossSection> sections, const PrintOutline& outline)
         : topology_(makeTopology(outline, static_cast<int>(sections.front().points.size()))) {
         for (const CrossSection& section : subdivideSections(shape, sections))
-            addRow(shape, section.x, makeRow(section, outline), outline.base);
+            addRow(shape, section.x, makeRow(section, outline, shape.rise(section.x)), outline.base);
     }
 
     geometry::TriangleMesh build(bool mirrored) {
@@ -132,6 +134,10 @@ class Builder {
 
  private:
     void addRow(const FeederShape& shape, double x, const Row& row, double base) {
+        const auto addVertex = [&](double y, double height) {
+            base::Vec3& vertex = mesh_.vertices.emplace_back(shape.toRoom({x, y, 0.0}));
+            vertex.z() = height;
+        };
         std::vector<int>& top = top_.emplace_back();
         for (std::size_t j = 0; j < row.top.size(); ++j) {
             // A flange as high as the surface's border has one point in common with it.
@@ -140,12 +146,12 @@ class Builder {
                 continue;
             }
             top.push_back(static_cast<int>(mesh_.vertices.size()));
-            mesh_.vertices.push_back(shape.toRoom({x, row.top[j].x(), row.top[j].y()}));
+            addVertex(row.top[j].x(), row.top[j].y());
         }
         std::vector<int>& bottom = bottom_.emplace_back();
         for (const double y : row.base) {
             bottom.push_back(static_cast<int>(mesh_.vertices.size()));
-            mesh_.vertices.push_back(shape.toRoom({x, y, base}));
+            addVertex(y, base);
         }
     }
 

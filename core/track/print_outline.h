@@ -8,14 +8,14 @@
 
 namespace trapwright::track {
 
-/// What stands beside the surface in every cross-section of a printed track. y and z in track coordinates.
-/// [m]
+/// What stands beside the surface in every cross-section of a printed track. y in track coordinates; what
+/// lies flat is told by its height in the room, what climbs with a bowl's track by that in the track's. [m]
 struct PrintOutline {
-    double base = 0.0;                    // z of the underside
-    std::optional<double> wallTop;        // z; none: no walls
+    double base = 0.0;                    // z of the underside, in the room
+    std::optional<double> wallTop;        // z on the track; none: no walls
     double innerSide = 0.0;               // y of the walls' outer faces
     double outerSide = 0.0;               // likewise
-    double flangeTop = 0.0;               // z; not above the surface
+    double flangeTop = 0.0;               // z in the room; not above the surface
     std::optional<double> innerFlange{};  // y of its edge; none: no flange at this side
     std::optional<double> outerFlange{};  // likewise
 };

@@ -78,7 +78,7 @@ std::optional<PrintProblem> findSplitProblem(const Track& track, const SplitOpti
     return std::nullopt;
 }
 
-/// A cut across the conveying direction: where it is, and what is outward and ahead there.
+/// An upright cut across the conveying direction: where it is, and what is outward and, level, ahead there.
 struct CutPlane {
     Vec3 origin;
     Vec3 ahead;
@@ -87,7 +87,9 @@ struct CutPlane {
     CutPlane(const Track& track, int section) {
         const double x = track.sections[static_cast<std::size_t>(section)].x;
         origin = track.shape.toRoom({x, 0.0, 0.0});
-        ahead = track.shape.tangentFrame(x).col(0);
+        FeederShape level = track.shape;
+        level.slope = 0.0;
+        ahead = level.tangentFrame(x).col(0);
         outward = (track.shape.toRoom({x, base::kMillimetre, 0.0}) - origin).normalized();
     }
 
@@ -153,8 +155,8 @@ class DowelPlaces {
             if (std::abs((v - plane.origin).dot(plane.ahead)) > kBeyond) continue;
             left = std::min(left, (v - plane.origin).dot(plane.outward));
             right = std::max(right, (v - plane.origin).dot(plane.outward));
-            low = std::min(low, v.z());
-            high = std::max(high, v.z());
+            low = std::min(low, v.z() - plane.origin.z());
+            high = std::max(high, v.z() - plane.origin.z());
         }
         // With only thin pins there is room near its sides.
         const double inset = split_.dowelWall;

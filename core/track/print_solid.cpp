@@ -19,6 +19,7 @@ constexpr int kBoltSides = 48;
 constexpr int kInsertSides = 360;              // 175 mm: within 7 micrometres of the circle
 constexpr double kBeyond = base::kMillimetre;  // how far tools reach past what they cut
 
+/// Of the surface's points above the track's plane.
 double highestOf(const Track& track) {
     double highest = 0.0;
     for (const CrossSection& section : track.sections) {
@@ -28,15 +29,24 @@ double highestOf(const Track& track) {
     return highest;
 }
 
+/// Of the places of the track's plane, in the room.
+double lowestRiseOf(const Track& track) {
+    return std::min(track.shape.rise(track.begin()), track.shape.rise(track.end()));
+}
+double highestRiseOf(const Track& track) {
+    return std::max(track.shape.rise(track.begin()), track.shape.rise(track.end()));
+}
+
 PrintOutline makeOutline(const Track& track, const PrintOptions& options) {
     PrintOutline outline;
-    outline.base = -options.baseThickness.value_or(track.baseThickness);
+    const double thickness = options.baseThickness.value_or(track.baseThickness);
+    outline.base = findBase(track.shape, track.sections, thickness);
     outline.outerSide = outerSideOf(track, options);
     outline.innerSide = -outline.outerSide;
     if (options.wallHeight > 0.0) outline.wallTop = highestOf(track) + options.wallHeight;
     if (!options.flange) return outline;
     // Of equal thicknesses the sum must be 0, whatever rounding says.
-    outline.flangeTop = std::min(0.0, outline.base + options.flangeThickness);
+    outline.flangeTop = lowestRiseOf(track) + std::min(0.0, options.flangeThickness - thickness);
     if (track.shape.type == FeederType::linear) {
         outline.outerFlange = outline.outerSide + flangeWidthOf(options);
         outline.innerFlange = -*outline.outerFlange;
@@ -76,7 +86,8 @@ base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& 
 
     const double low = outline.base - kBeyond;
     if (track.shape.type == FeederType::bowl) {
-        const double high = std::max(outline.wallTop.value_or(0.0), highestOf(track)) + kBeyond;
+        const double high =
+            highestRiseOf(track) + std::max(outline.wallTop.value_or(0.0), highestOf(track)) + kBeyond;
         auto cut = geometry::intersectSolids(
             solid,
             geometry::makeCylinder({0.0, 0.0}, insertRadiusOf(track, options), low, high, kInsertSides));

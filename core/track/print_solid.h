@@ -11,7 +11,7 @@ namespace trapwright::track {
 
 /// What is printed around a track's surface. Lengths in metres.
 struct PrintOptions {
-    std::optional<double> baseThickness;  // below z = 0; none: as the track was designed
+    std::optional<double> baseThickness;  // below the lowest place of z = 0; none: as designed
     double wallHeight = 0.0;      // of both side walls, above the surface's highest point; 0: no walls
     double wallThickness = 2e-3;  // at least, beyond the track's width
     /// To screw the track to a linear feeder: a plate at the foot of both sides. In a bowl: one at the outer

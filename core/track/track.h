@@ -26,7 +26,7 @@ struct Track {
     double finish = 0.0;                 // x of the finish line [m]
     double width = 0.0;                  // of a segment [m]
     double height = 0.0;                 // of a segment [m]
-    double baseThickness = 0.0;          // of the solid below z = 0 [m]
+    double baseThickness = 0.0;          // of the solid below the lowest place of z = 0 [m]
 
     [[nodiscard]] double begin() const { return sections.front().x; }
     [[nodiscard]] double end() const { return sections.back().x; }

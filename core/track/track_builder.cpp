@@ -80,6 +80,12 @@ base::Status checkParameters(const TrackParameters& parameters) {
 }
 
 base::Status checkShape(const FeederShape& shape, double length, double width) {
+    // A limit that is told in degrees may be rounded.
+    if (!(std::abs(shape.slope) <= kSteepestSlope * (1.0 + 1e-12))) {
+        return base::Error{fmt::format("The slope is {:g} deg; it must be from {:g} to {:g} deg.",
+                                       shape.slope / base::kDegree, -kSteepestSlope / base::kDegree,
+                                       kSteepestSlope / base::kDegree)};
+    }
     if (shape.type == FeederType::linear) return base::success();
     if (!(shape.bowlRadius > 0.5 * width && std::isfinite(shape.bowlRadius))) {
         return base::Error{fmt::format(

@@ -19,7 +19,7 @@ struct TrackParameters {
     // The start point's distance before the trap; 60 mm of lead-in stay behind it. [m]
     double startFromLeadInEnd = 20e-3;
     int leadOutSegments = 2;      // duplicates of the last functional section
-    double baseThickness = 3e-3;  // of the solid below z = 0 [m]
+    double baseThickness = 3e-3;  // of the solid below the lowest place of z = 0 [m]
 };
 
 /// An error that names the first parameter that is out of its range.
@@ -30,8 +30,8 @@ base::Status checkParameters(const TrackParameters& parameters);
 /// range, or tells that the track does not fit on the bowl.
 base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap);
 
-/// An error if a track of this length and width cannot lie on the feeder: the radius does not exceed half the
-/// width, or the length reaches the circumference.
+/// An error if a track of this length and width cannot lie on the feeder: it slopes too steeply, the radius
+/// does not exceed half the width, or the length reaches the circumference.
 base::Status checkShape(const FeederShape& shape, double length, double width);
 
 }  // namespace trapwright::track

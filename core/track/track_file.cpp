@@ -27,11 +27,20 @@ double toMillimetres(double length) {
     return std::round(length / kMillimetre * 1e12) / 1e12;
 }
 
+// Likewise degrees.
+double toDegrees(double angle) {
+    return std::round(angle / base::kDegree * 1e12) / 1e12;
+}
+
 Json feederToJson(const FeederShape& shape) {
-    if (shape.type == FeederType::linear) return {{"type", "linear"}};
-    return {{"type", "bowl"},
-            {"radius", toMillimetres(shape.bowlRadius)},
-            {"conveying", shape.conveying == Conveying::clockwise ? "clockwise" : "anticlockwise"}};
+    Json feeder = {{"type", "linear"}};
+    if (shape.type == FeederType::bowl) {
+        feeder = {{"type", "bowl"},
+                  {"radius", toMillimetres(shape.bowlRadius)},
+                  {"conveying", shape.conveying == Conveying::clockwise ? "clockwise" : "anticlockwise"}};
+    }
+    if (shape.slope != 0.0) feeder["slope_deg"] = toDegrees(shape.slope);
+    return feeder;
 }
 
 // Reads values out of JSON and keeps the first thing that is wrong, so that the reading code has no branches.
@@ -106,6 +115,8 @@ FeederShape readFeeder(Reader& reader) {
     FeederShape shape;
     const Json* feeder = reader.find(reader.object(), "feeder");
     if (feeder == nullptr) return shape;
+    if (feeder->is_object() && feeder->contains("slope_deg"))
+        shape.slope = reader.number(*feeder, "slope_deg") * base::kDegree;
     const std::string type = reader.text(*feeder, "type");
     if (type == "linear") return shape;
     if (type != "bowl")

@@ -48,6 +48,10 @@ std::vector<double> placeBase(const CrossSection& row) {
     return places;
 }
 
+double findBase(const FeederShape& shape, std::span<const CrossSection> sections, double baseThickness) {
+    return std::min(shape.rise(sections.front().x), shape.rise(sections.back().x)) - baseThickness;
+}
+
 TrackSolid buildTrackSolid(const FeederShape& shape, std::span<const CrossSection> sections,
                            double baseThickness) {
     assert(sections.size() >= 2 && sections.front().points.size() >= 2);
@@ -63,9 +67,12 @@ TrackSolid buildTrackSolid(const FeederShape& shape, std::span<const CrossSectio
         for (const base::Vec2& point : row.points)
             vertices.push_back(shape.toRoom({row.x, point.x(), point.y()}));
     }
+    const double base = findBase(shape, sections, baseThickness);
     for (const CrossSection& row : rows) {
-        for (const double y : placeBase(row))
-            vertices.push_back(shape.toRoom({row.x, y, -baseThickness}));
+        for (const double y : placeBase(row)) {
+            base::Vec3& vertex = vertices.emplace_back(shape.toRoom({row.x, y, 0.0}));
+            vertex.z() = base;
+        }
     }
 
     const auto top = [&](int i, int j) { return i * pointCount + j; };

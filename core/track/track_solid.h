@@ -19,6 +19,9 @@ std::vector<CrossSection> subdivideSections(const FeederShape& shape, std::span<
 /// ends and sides are upright and cross nothing; where it overhangs, evenly from border to border. [m]
 std::vector<double> placeBase(const CrossSection& row);
 
+/// z of a solid's flat base in the room: so thick below the lowest place of the track's plane z = 0. [m]
+double findBase(const FeederShape& shape, std::span<const CrossSection> sections, double baseThickness);
+
 /// A track's solid and how many of its first triangles are its surface.
 struct TrackSolid {
     geometry::TriangleMesh mesh;  // in the room [m]
@@ -26,7 +29,7 @@ struct TrackSolid {
 };
 
 /// Closes the surface over the cross-sections (paper, section 3.1, Figure 2) to a solid with vertical sides,
-/// upright ends and a flat base at z = -baseThickness. With a, b the points j, j + 1 of a section and c, d
+/// upright ends and a flat base (findBase). With a, b the points j, j + 1 of a section and c, d
 /// those of the next, each quad is split into (a, c, b) and (b, c, d), normals up. A bowl's segments are
 /// first cut into equal pieces of at most kLargestBowlStep by sections interpolated linearly
 /// in track coordinates; each section is then mapped to the room. The mesh is always a closed, oriented

@@ -74,6 +74,9 @@ struct TrialBatch {
         return asked > 0.0 ? asked : std::min(own, calcLongestStep(drive, kStepsPerPeriod));
     }
 
+    /// In the room of the track's solid, which a sloped linear feeder tilts (decisions.md#slope). [m/s^2]
+    [[nodiscard]] base::Vec3 gravityVector() const { return gravity * track->shape.down(); }
+
     // What one of its trials has.
     [[nodiscard]] const ContactParameters& contactOf(const TrialSpec& trial) const {
         return trial.contact ? *trial.contact : contact;

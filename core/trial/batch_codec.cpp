@@ -39,8 +39,8 @@ constexpr Conveying lastOf(Conveying /*unused*/) {
 
 template <class Archive, base::OrConst<FeederShape> T>
 void serialize(Archive& archive, T& shape) {
-    auto& [type, bowlRadius, conveying] = shape;
-    archive(type, bowlRadius, conveying);
+    auto& [type, bowlRadius, conveying, slope] = shape;
+    archive(type, bowlRadius, conveying, slope);
 }
 
 template <class Archive, base::OrConst<CrossSection> T>
@@ -122,7 +122,7 @@ void serialize(Archive& archive, T& outcome) {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

@@ -51,9 +51,16 @@ void cross(const Vec2& a, const Vec2& b, Use use) {
     }
 }
 
-/// The last functional section, which the lead-out repeats.
+/// How much shorter heights are along the tangent frame's upward axis than upright.
+double leanOf(const track::FeederShape& shape) {
+    return shape.type == track::FeederType::bowl ? std::cos(shape.slope) : 1.0;
+}
+
+/// The last functional section, which the lead-out repeats, in the tangent frame.
 Profile surfaceOf(const track::Track& track) {
-    const std::vector<Vec2>& points = track.sections[static_cast<std::size_t>(track.lastTrapSection)].points;
+    std::vector<Vec2> points = track.sections[static_cast<std::size_t>(track.lastTrapSection)].points;
+    for (Vec2& point : points)
+        point.y() *= leanOf(track.shape);
     const auto [low, high] = std::minmax_element(points.begin(), points.end(),
                                                  [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
     Profile profile = emptyProfile(low->x(), high->x(), -kNothing);
@@ -133,7 +140,8 @@ base::Pose findFinishPose(const track::Track& track, const part::Part& part,
         }
     }
     return {(base::Quaternion(frame) * orientation).normalized(),
-            track.shape.toRoom({track.finish, best * kStep, findHeight(surface, underside, best)})};
+            track.shape.toRoom(
+                {track.finish, best * kStep, findHeight(surface, underside, best) / leanOf(track.shape)})};
 }
 
 }  // namespace trapwright::trial

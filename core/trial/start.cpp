@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
+
+#include "core/track/track_solid.h"
 
 namespace trapwright::trial {
 
@@ -10,6 +13,16 @@ namespace {
 
 // Above the lead-in, so that no contact acts at time 0. [m]
 constexpr double kClearance = 1e-5;
+
+/// How far the facets of a helix stand out of it at most, on the lead-in: a quad of the mesh is two
+/// triangles, and the edge between them lies off the helix by so much in its middle. [m]
+double facetsAbove(const track::Track& track) {
+    const std::vector<base::Vec2>& points = track.sections.front().points;
+    double widest = 0.0;
+    for (std::size_t j = 0; j + 1 < points.size(); ++j)
+        widest = std::max(widest, points[j + 1].x() - points[j].x());
+    return 0.25 * std::abs(std::tan(track.shape.slope)) * widest * track::kLargestBowlStep;
+}
 
 base::Quaternion drawRotation(const StartPolicy& policy, base::Random& random) {
     if (!policy.nearPose) return random.rotation();
@@ -46,14 +59,19 @@ TrialSpec drawTrial(const track::Track& track, const part::Part& part, const Sta
     trial.phase = random.uniform(0.0, 2.0 * base::kPi);
     const double y = random.uniform(-policy.lateral, policy.lateral);
     const base::Quaternion inTrack = drawRotation(policy, random);
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const base::Vec3& vertex : part.hull.vertices)
-        lowest = std::min(lowest, (inTrack * vertex).z());
-
-    const double z = findLeadInHeight(track) + kClearance - lowest;
     PartStart& start = trial.parts.emplace_back();
-    start.pose.position = track.shape.toRoom({track.start, y, z});
     start.pose.rotation = (base::Quaternion(track.shape.tangentFrame(track.start)) * inTrack).normalized();
+    const bool climbs = track.shape.type == track::FeederType::bowl && track.shape.slope != 0.0;
+    const base::Pose onPlane{start.pose.rotation, track.shape.toRoom({track.start, y, 0.0})};
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const base::Vec3& vertex : part.hull.vertices) {
+        // Upright from a track that climbs around a bowl, which is nowhere the tangent frame's plane.
+        lowest = std::min(lowest, climbs ? track.shape.toTrack(onPlane.apply(vertex), track.start).z()
+                                         : (inTrack * vertex).z());
+    }
+    const double clearance = kClearance + (climbs ? facetsAbove(track) : 0.0);
+    const double z = findLeadInHeight(track) + clearance - lowest;
+    start.pose.position = track.shape.toRoom({track.start, y, z});
     return trial;
 }
 

@@ -5,6 +5,12 @@
 
 namespace trapwright::trial {
 
+Vibration seenFromTrack(const Vibration& drive, const track::FeederShape& shape) {
+    Vibration seen = drive;
+    if (shape.type == track::FeederType::bowl) seen.angle -= shape.slope;
+    return seen;
+}
+
 double calcLongestStep(const Vibration& drive, double stepsPerPeriod) {
     constexpr double kPerSecond = 1e5;
     constexpr double kRounding = 1e-6;  // a share that is a whole number stays one

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/math.h"
+#include "core/track/feeder_shape.h"
 
 namespace trapwright::trial {
 
@@ -14,6 +15,11 @@ struct Vibration {
     [[nodiscard]] double angularFrequency() const { return 2.0 * base::kPi * frequency; }  // [rad/s]
     [[nodiscard]] double period() const { return 1.0 / frequency; }                        // [s]
 };
+
+/// The drive as a part on the track feels it. The vibration of a linear feeder is told from its track and
+/// tilted with it; a bowl's is told from the level, so that a track that climbs takes its slope from the
+/// angle (Boothroyd 2005, chapter 3; decisions.md#slope).
+Vibration seenFromTrack(const Vibration& drive, const track::FeederShape& shape);
 
 /// The longest step of simulated time of which a period of the drive has at least so many. In whole 10 us, as
 /// times of outcomes are stored in microseconds, and at least that. [s]

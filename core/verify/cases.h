@@ -11,10 +11,13 @@ std::vector<Row> runTumbling(const trial::EngineKind& kind, const base::RunContr
 std::vector<Row> runBounce(const trial::EngineKind& kind, const base::RunControl& control);
 
 std::vector<Row> runSlope(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runTiltedFeeder(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runSliding(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runToppling(const trial::EngineKind& kind, const base::RunControl& control);
 
 std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runSlopedFeeder(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runClimbingBowl(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runHopping(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runLiftOff(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runPlasticHop(const trial::EngineKind& kind, const base::RunControl& control);

@@ -14,9 +14,12 @@ constexpr double kHalfWidth = 0.2;  // nor so far aside [m]
 constexpr double kHeight = 15e-3;
 constexpr double kClearance = 1e-6;
 
-std::shared_ptr<const track::Track> makeLongFlat() {
-    return makeSurface({-kLength, 0.0, kLength}, {-kHalfWidth, 0.0, kHalfWidth},
-                       [](double, double) { return kHeight; });
+std::shared_ptr<const track::Track> makeLongFlat(double slope) {
+    track::FeederShape shape;
+    shape.slope = slope;
+    return makeSurface(
+        {-kLength, 0.0, kLength}, {-kHalfWidth, 0.0, kHalfWidth}, [](double, double) { return kHeight; },
+        shape);
 }
 
 /// The part at rest above the track, turned by `heading` out of its most probable pose.
@@ -36,7 +39,7 @@ base::Result<double> measureSpeed(const trial::Engine& engine, const trial::Tria
     const auto first = static_cast<std::size_t>(std::ceil(settling / period));
     // The last sample is taken at the end of the trial, which need not be the end of a period.
     if (samples.size() < first + 3)
-        return base::Error{"The part fell off the level track of the conveying test."};
+        return base::Error{"The part fell off the flat track of the conveying test."};
     const std::size_t last = samples.size() - 2;
     return (samples[last].parts[0].room.position.x() - samples[first].parts[0].room.position.x()) /
            (static_cast<double>(last - first) * period);
@@ -60,8 +63,8 @@ base::Result<ConveyingSpeed> measureConveyingSpeed(const trial::Engine& engine, 
     ConveyingSpeed speed;
     for (int i = 0; i < scene.headings; ++i) {
         const double heading = 2.0 * base::kPi * i / scene.headings;
-        trial::TrialBatch batch =
-            makeStillScene(makeLongFlat(), scene.part, layDown(*scene.part, heading), scene.duration);
+        trial::TrialBatch batch = makeStillScene(makeLongFlat(scene.slope), scene.part,
+                                                 layDown(*scene.part, heading), scene.duration);
         batch.drive = scene.drive;
         batch.contact = scene.contact;
         const auto one = measureSpeed(engine, batch, scene.settling, control);

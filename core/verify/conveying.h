@@ -8,7 +8,7 @@
 
 namespace trapwright::verify {
 
-/// How a part moves on a level track.
+/// How a part moves on a flat track.
 struct ConveyingSpeed {
     double mean = 0.0;   // over all headings [m/s]
     double least = 0.0;  // of the headings [m/s]
@@ -18,14 +18,15 @@ struct ConveyingSpeed {
 /// What is vibrated and simulated, and for how long.
 struct ConveyingScene {
     std::shared_ptr<const part::Part> part;  // laid in its most probable stable pose
-    trial::Vibration drive;
+    trial::Vibration drive;                  // told from the track (trial::seenFromTrack)
     trial::ContactParameters contact;
+    double slope = 0.0;     // of the track [rad]
     int headings = 4;       // spread evenly over a turn
     double settling = 0.5;  // before speed is measured [s]
     double duration = 2.0;  // in all [s]
 };
 
-/// Conveying speed on a level, linear track, mean over whole periods of the drive. The choice of a
+/// Conveying speed on a flat, linear track, mean over whole periods of the drive. The choice of a
 /// half-stroke starts with it. Errors: a part without stable poses, engine, cancelled. Advances `control` by
 /// one per heading.
 base::Result<ConveyingSpeed> measureConveyingSpeed(const trial::Engine& engine, const ConveyingScene& scene,

@@ -17,13 +17,39 @@ using base::Vec3;
 
 namespace {
 
-/// The paper's cuboid lying on the level track (8 x 12 mm face down) under a drive.
-trial::TrialBatch makeLying(const trial::Vibration& drive, double duration) {
+/// The paper's cuboid lying on the flat track (8 x 12 mm face down) under a drive.
+trial::TrialBatch makeLying(const trial::Vibration& drive, double duration,
+                            const track::FeederShape& shape = {}) {
+    constexpr double kFrom = 0.08;  // along the track [m]
     const Quaternion lying = Quaternion::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ());
-    trial::TrialBatch scene = makeStillScene(makeFlat(), makePaperCuboid(),
-                                             {lying, Vec3(0.08, 0.0, 17.0 * kMillimetre + 1e-9)}, duration);
+    const base::Mat3 frame = shape.tangentFrame(kFrom);
+    const Vec3 surface = shape.toRoom({kFrom, 0.0, 15.0 * kMillimetre});
+    trial::TrialBatch scene = makeStillScene(
+        makeFlat(shape), makePaperCuboid(),
+        {Quaternion(frame) * lying, surface + (2.0 * kMillimetre + 1e-9) * frame.col(2)}, duration);
     scene.drive = drive;
     return scene;
+}
+
+/// A feeder whose track climbs; a bowl, if any, so large that its track is straight.
+track::FeederShape climbing(track::FeederType type, double slope) {
+    track::FeederShape shape;
+    shape.type = type;
+    shape.bowlRadius = 50.0;
+    shape.slope = slope;
+    return shape;
+}
+
+/// Mean speed along the surface between two whole numbers of periods, of samples one period apart, on a track
+/// that climbs. [m/s]
+double calcClimbingSpeed(const trial::Trajectory& trajectory, const track::FeederShape& shape, double period,
+                         int fromPeriod, int toPeriod) {
+    const auto& samples = trajectory.samples;
+    if (static_cast<int>(samples.size()) <= toPeriod) return std::nan("");
+    // On a linear feeder x is along the surface, on a bowl along the level.
+    const double share = shape.type == track::FeederType::bowl ? std::cos(shape.slope) : 1.0;
+    return (samples[toPeriod].parts[0].track.position.x() - samples[fromPeriod].parts[0].track.position.x()) /
+           ((toPeriod - fromPeriod) * period * share);
 }
 
 /// Mean speed along x between two whole numbers of periods, of samples one period apart. [m/s]
@@ -139,8 +165,50 @@ std::vector<KnownMotion> makeHopping() {
     return motions;
 }
 
+std::vector<KnownMotion> makeClimbing(track::FeederType type) {
+    constexpr int kSettled = 25;
+    constexpr int kEnd = 50;
+    // As steep as drives of bowls are, so that what the slope takes from the angle leaves a speed to tell.
+    const bool bowl = type == track::FeederType::bowl;
+    const double angle = bowl ? 20.0 * base::kDegree : trial::Vibration().angle;
+    const std::vector<double> halfStrokes =
+        bowl ? std::vector{0.18e-3, 0.24e-3} : std::vector{0.35e-3, 0.45e-3};
+    std::vector<KnownMotion> motions;
+    for (const double slope : {3.0 * base::kDegree, -3.0 * base::kDegree}) {
+        for (const double halfStroke : halfStrokes) {
+            for (const double friction : {0.3, 0.5}) {
+                const track::FeederShape shape = climbing(type, slope);
+                trial::Vibration drive;
+                drive.halfStroke = halfStroke;
+                drive.angle = angle;
+                const double period = drive.period();
+                trial::TrialBatch scene = makeLying(drive, (kEnd + 0.5) * period, shape);
+                scene.contact = {friction, friction, 0.3};
+                const double expected =
+                    calcStickSlipSpeed(trial::seenFromTrack(drive, shape), friction, scene.gravity, slope);
+                motions.push_back(
+                    {fmt::format("{} at {:+g} deg, half-stroke {:g} mm, friction {:g}",
+                                 bowl ? "bowl" : "linear", slope / base::kDegree, halfStroke * 1e3, friction),
+                     std::move(scene), period, expected,
+                     [shape, period](const trial::Trajectory& trajectory) {
+                         return calcClimbingSpeed(trajectory, shape, period, kSettled, kEnd);
+                     }});
+            }
+        }
+    }
+    return motions;
+}
+
 std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control) {
     return judgeSpeeds(makeStickSlip(), kind, 0.02, 3, control);
+}
+
+std::vector<Row> runSlopedFeeder(const trial::EngineKind& kind, const base::RunControl& control) {
+    return judgeSpeeds(makeClimbing(track::FeederType::linear), kind, 0.02, 3, control);
+}
+
+std::vector<Row> runClimbingBowl(const trial::EngineKind& kind, const base::RunControl& control) {
+    return judgeSpeeds(makeClimbing(track::FeederType::bowl), kind, 0.03, 3, control);
 }
 
 std::vector<Row> runHopping(const trial::EngineKind& kind, const base::RunControl& control) {

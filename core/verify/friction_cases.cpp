@@ -78,6 +78,45 @@ std::vector<Row> runSlope(const trial::EngineKind& kind, const base::RunControl&
              fmt::format("off by {:+.3f} %", worst * 100), std::abs(worst) < 0.01}};
 }
 
+std::vector<Row> runTiltedFeeder(const trial::EngineKind& kind, const base::RunControl& control) {
+    constexpr double kSlippery = 0.2;
+    constexpr double kHeld = 10.0 * kDegree;
+    constexpr double kSlides = 14.0 * kDegree;
+    const auto engine = kind.make({});
+    double creep = 0.0;
+    double worst = 0.0;
+    for (const double sense : {1.0, -1.0}) {
+        for (const double heading : {0.0, 0.5}) {
+            const auto tilted = [&](double angle) {
+                track::FeederShape shape;
+                shape.slope = sense * angle;
+                const Quaternion turned(Eigen::AngleAxisd(heading, Vec3::UnitZ()));
+                trial::TrialBatch scene =
+                    makeStillScene(makeFlat(shape), makeFlatBlock(),
+                                   {turned, Vec3(0.2, 0.0, 17.0 * kMillimetre + 1e-6)}, 1.5);
+                scene.contact = {kSlippery, kSlippery, 0.0};
+                return scene;
+            };
+            const trial::Trajectory rest = replayScene(*engine, tilted(kHeld), 0.1, control);
+            creep = std::max(creep, (sampleAt(rest, 1.4).parts[0].room.position -
+                                     sampleAt(rest, 0.4).parts[0].room.position)
+                                        .norm());
+            const trial::Trajectory slide = replayScene(*engine, tilted(kSlides), 0.01, control);
+            const trial::TrajectorySample& from = sampleAt(slide, 0.05);
+            const trial::TrajectorySample& to = sampleAt(slide, 0.45);
+            const double gained = -sense * (to.parts[0].velocity - from.parts[0].velocity).x();
+            const double expected =
+                base::kStandardGravity * (std::sin(kSlides) - kSlippery * std::cos(kSlides));
+            const double error = gained / (to.time - from.time) / expected - 1.0;
+            if (std::abs(error) > std::abs(worst)) worst = error;
+        }
+    }
+    return {{"rest on a feeder tilted by 10 deg, friction 0.2 (11.3 deg)", "creep < 0.1 mm/s",
+             fmt::format("{:.2g} mm/s", creep * 1e3), creep < 1e-4},
+            {"slide on a feeder tilted by 14 deg, friction 0.2", "g (sin - mu cos) within 1 %",
+             fmt::format("off by {:+.3f} %", worst * 100), std::abs(worst) < 0.01}};
+}
+
 std::vector<Row> runSliding(const trial::EngineKind& kind, const base::RunControl& control) {
     const auto engine = kind.make({});
     double least = 1e300;

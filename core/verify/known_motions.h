@@ -21,8 +21,11 @@ struct KnownMotion {
 
 /// Speeds of the lying cuboid along a level track, below lift-off. [m/s]
 std::vector<KnownMotion> makeStickSlip();
-/// The same above lift-off, at half-strokes at which the motion becomes periodic: a chaotic one has no speed
-/// to agree on. [m/s]
+/// The same on a linear feeder tilted by 3 degrees either way, or on a bowl of 50 m radius whose track climbs
+/// or falls so, driven at 20 degrees: there the angle to the track is less by the slope. [m/s]
+std::vector<KnownMotion> makeClimbing(track::FeederType type);
+/// On a level track above lift-off, at half-strokes at which the motion becomes periodic: a chaotic one has
+/// no speed to agree on. [m/s]
 std::vector<KnownMotion> makeHopping();
 /// Rebound over impact speed of the cuboid, dropped flat and on a corner in turn. [1]
 std::vector<KnownMotion> makeBounces();

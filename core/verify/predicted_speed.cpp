@@ -10,13 +10,15 @@ namespace {
 /// A point on or above the plane; steps from event to event.
 class HoppingPoint {
  public:
-    HoppingPoint(const trial::Vibration& drive, double friction, double restitution, double gravity)
+    HoppingPoint(const trial::Vibration& drive, double friction, double restitution, double gravity,
+                 double slope)
         : w_(drive.angularFrequency()),
           along_(drive.halfStroke * std::cos(drive.angle)),
           up_(drive.halfStroke * std::sin(drive.angle)),
           friction_(friction),
           restitution_(restitution),
-          gravity_(gravity),
+          gravity_(gravity * std::cos(slope)),
+          back_(gravity * std::sin(slope)),
           scan_(drive.period() / 4000.0) {}
 
     [[nodiscard]] double x() const { return x_; }
@@ -58,7 +60,8 @@ class HoppingPoint {
         const auto flies = [&](double t) { return height(t) > 0.0; };
         const bool lands = !flies(next);
         if (lands) next = bisect(flies, t0, next);
-        x_ += vx_ * (next - t0);
+        x_ += vx_ * (next - t0) - 0.5 * back_ * (next - t0) * (next - t0);
+        vx_ -= back_ * (next - t0);
         z_ = planeZ(next) + std::max(height(next), 0.0);
         vz_ = v0 - gravity_ * (next - t0);
         t_ = next;
@@ -82,8 +85,9 @@ class HoppingPoint {
         const double slip = vx_ - planeVx(t_);
         const double limit = friction_ * pressure(middle);
         const double before = vx_;
+        vx_ -= back_ * dt;
         const double free = vx_ - planeVx(next);
-        if (std::abs(free) <= limit * dt && std::abs(planeAx(middle)) <= limit) {
+        if (std::abs(free) <= limit * dt && std::abs(planeAx(middle) + back_) <= limit) {
             vx_ = planeVx(next);
         } else {
             const double direction = slip != 0.0 ? std::copysign(1.0, slip) : std::copysign(1.0, free);
@@ -102,24 +106,28 @@ class HoppingPoint {
         flying_ = leaves;
     }
 
-    double w_, along_, up_, friction_, restitution_, gravity_, scan_;
+    double w_, along_, up_, friction_, restitution_;
+    double gravity_;  // across the plane
+    double back_;     // along it, backwards
+    double scan_;
     double t_ = 0.0, x_ = 0.0, z_ = 0.0;
     double vx_ = 0.0, vz_ = 0.0;
     bool flying_ = false;
 };
 
-/// The plane's motion (displacement amplitude times sine) and the point's friction limit.
+/// The plane's motion (displacement amplitude times sine), the point's friction limit and its weight along
+/// the plane.
 class Plane {
  public:
-    Plane(const trial::Vibration& drive, double friction, double gravity)
+    Plane(const trial::Vibration& drive, double friction, double gravity, double slope)
         : w_(drive.angularFrequency()),
           x_(drive.halfStroke * std::cos(drive.angle)),
           z_(drive.halfStroke * std::sin(drive.angle)),
           friction_(friction),
-          gravity_(gravity) {}
+          gravity_(gravity * std::cos(slope)),
+          back_(gravity * std::sin(slope)) {}
 
     [[nodiscard]] double speed(double t) const { return x_ * w_ * std::cos(w_ * t); }
-    [[nodiscard]] double acceleration(double t) const { return -x_ * w_ * w_ * std::sin(w_ * t); }
     /// Largest acceleration that friction can give.
     [[nodiscard]] double limit(double t) const {
         return friction_ * (gravity_ - z_ * w_ * w_ * std::sin(w_ * t));
@@ -132,9 +140,16 @@ class Plane {
         return friction_ * (0.5 * gravity_ * t * t + z_ * (std::sin(w_ * t) - w_ * t));
     }
     [[nodiscard]] double displacement(double t) const { return x_ * std::sin(w_ * t); }
+    /// What friction must give for the point to go with the plane.
+    [[nodiscard]] double needed(double t) const { return acceleration(t) + back_; }
+    [[nodiscard]] double back() const { return back_; }
 
  private:
-    double w_, x_, z_, friction_, gravity_;
+    [[nodiscard]] double acceleration(double t) const { return -x_ * w_ * w_ * std::sin(w_ * t); }
+
+    double w_, x_, z_, friction_;
+    double gravity_;  // across the plane
+    double back_;     // along it, backwards
 };
 
 template <class F>
@@ -149,16 +164,16 @@ double bisect(const F& positiveBefore, double low, double high) {
 }  // namespace
 
 double calcHoppingSpeed(const trial::Vibration& drive, double friction, double restitution, double gravity,
-                        int periods) {
-    HoppingPoint point(drive, friction, restitution, gravity);
+                        int periods, double slope) {
+    HoppingPoint point(drive, friction, restitution, gravity, slope);
     point.advanceTo(periods * drive.period());
     const double mark = point.x();
     point.advanceTo(2 * periods * drive.period());
     return (point.x() - mark) / (periods * drive.period());
 }
 
-double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double gravity) {
-    const Plane plane(drive, friction, gravity);
+double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double gravity, double slope) {
+    const Plane plane(drive, friction, gravity, slope);
     const double period = drive.period();
     const double scan = period / 2000.0;
     // With little friction it takes long until one period is like the last.
@@ -177,35 +192,34 @@ double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double
         while (t < end - 1e-12) {
             double next = std::min(t + scan, end);
             if (direction == 0) {
-                const auto holds = [&](double s) {
-                    return std::abs(plane.acceleration(s)) <= plane.limit(s);
-                };
+                const auto holds = [&](double s) { return std::abs(plane.needed(s)) <= plane.limit(s); };
                 const bool slips = !holds(next);
                 if (slips) next = bisect(holds, t, next);
                 x += plane.displacement(next) - plane.displacement(t);
                 v = plane.speed(next);
                 t = next;
-                if (slips) direction = plane.acceleration(t) > 0.0 ? -1 : 1;
+                if (slips) direction = plane.needed(t) > 0.0 ? -1 : 1;
                 continue;
             }
             const double t0 = t;
             const double v0 = v;
             const auto speedAt = [&](double s) {
-                return v0 - direction * (plane.limitIntegral(s) - plane.limitIntegral(t0));
+                return v0 - plane.back() * (s - t0) -
+                       direction * (plane.limitIntegral(s) - plane.limitIntegral(t0));
             };
             const auto slides = [&](double s) { return direction * (speedAt(s) - plane.speed(s)) > 0.0; };
             // Just after slip sets in the relative speed grows from zero; look one scan ahead only.
             const bool ends = !slides(next);
             if (ends) next = bisect(slides, t, next);
-            x += v0 * (next - t0) -
+            x += v0 * (next - t0) - 0.5 * plane.back() * (next - t0) * (next - t0) -
                  direction * (plane.limitDoubleIntegral(next) - plane.limitDoubleIntegral(t0) -
                               plane.limitIntegral(t0) * (next - t0));
             v = speedAt(next);
             t = next;
             if (ends) {
                 v = plane.speed(t);
-                const bool sticks = std::abs(plane.acceleration(t)) <= plane.limit(t);
-                direction = sticks ? 0 : (plane.acceleration(t) > 0.0 ? -1 : 1);
+                const bool sticks = std::abs(plane.needed(t)) <= plane.limit(t);
+                direction = sticks ? 0 : (plane.needed(t) > 0.0 ? -1 : 1);
             }
         }
         mean = (x - markX) / period;
@@ -215,20 +229,24 @@ double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double
 }
 
 ConveyingPrediction predictConveying(const trial::Vibration& drive, const trial::ContactParameters& contact,
-                                     double gravity) {
+                                     double gravity, double slope) {
     // Hops need not repeat every period; over this many their mean has settled to a per cent.
     constexpr int kPeriods = 100;
     constexpr double kStandstill = 1e-6;  // [m/s]
 
     ConveyingPrediction prediction;
-    prediction.throwNumber = trial::calcThrowNumber(drive, gravity);
+    prediction.throwNumber = std::abs(trial::calcThrowNumber(drive, gravity * std::cos(slope)));
+    const double friction = contact.kineticFriction;
+    if (slope != 0.0 && friction <= std::abs(std::tan(slope))) {
+        prediction.conveyance = Conveyance::slidesAway;
+        return prediction;
+    }
     const bool hops = prediction.throwNumber > 1.0;
-    prediction.speed =
-        hops ? calcHoppingSpeed(drive, contact.kineticFriction, contact.restitution, gravity, kPeriods)
-             : calcStickSlipSpeed(drive, contact.kineticFriction, gravity);
-    prediction.conveyance = hops                             ? Conveyance::hops
-                            : prediction.speed > kStandstill ? Conveyance::slides
-                                                             : Conveyance::sticks;
+    prediction.speed = hops ? calcHoppingSpeed(drive, friction, contact.restitution, gravity, kPeriods, slope)
+                            : calcStickSlipSpeed(drive, friction, gravity, slope);
+    prediction.conveyance = hops                                       ? Conveyance::hops
+                            : std::abs(prediction.speed) > kStandstill ? Conveyance::slides
+                                                                       : Conveyance::sticks;
     return prediction;
 }
 

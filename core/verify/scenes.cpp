@@ -81,8 +81,10 @@ std::shared_ptr<const part::Part> makePaperCuboid() {
 }
 
 std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, const std::vector<double>& ys,
-                                                const std::function<double(double x, double y)>& height) {
+                                                const std::function<double(double x, double y)>& height,
+                                                const track::FeederShape& shape) {
     auto result = std::make_shared<track::Track>();
+    result->shape = shape;
     for (const double x : xs) {
         track::CrossSection section;
         section.x = x;
@@ -103,9 +105,10 @@ std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, c
     return result;
 }
 
-std::shared_ptr<const track::Track> makeFlat() {
-    return makeSurface(spread(0.0, 0.4, 11), spread(-0.03, 0.03, 8),
-                       [](double, double) { return 15.0 * kMillimetre; });
+std::shared_ptr<const track::Track> makeFlat(const track::FeederShape& shape) {
+    return makeSurface(
+        spread(0.0, 0.4, 11), spread(-0.03, 0.03, 8), [](double, double) { return 15.0 * kMillimetre; },
+        shape);
 }
 
 std::shared_ptr<const track::Track> makeSlope(double slopeX, double slopeY) {
@@ -189,8 +192,8 @@ double calcEnergy(const trial::TrialBatch& scene, const trial::TrajectorySample&
         const std::size_t kind = scene.trials[0].parts[part.part].part;
         const geometry::MassProperties& mass = scene.parts[kind]->massProperties;
         const Vec3 spin = part.room.rotation.conjugate() * part.angularVelocity;
-        energy += 0.5 * mass.mass * part.velocity.squaredNorm() + 0.5 * spin.dot(mass.inertia * spin) +
-                  mass.mass * scene.gravity * part.room.position.z();
+        energy += 0.5 * mass.mass * part.velocity.squaredNorm() + 0.5 * spin.dot(mass.inertia * spin) -
+                  mass.mass * scene.gravityVector().dot(part.room.position);
     }
     return energy;
 }

@@ -22,13 +22,14 @@ std::shared_ptr<const part::Part> makePaperCuboid();
 std::shared_ptr<const part::Part> makePrism(const std::vector<base::Vec2>& profile, double width,
                                             double density);
 
-/// A linear track whose surface is z = height(x, y), sampled at the given x and y. Start at the first x + 60
-/// mm, finish at the last x.
+/// A track whose surface is z = height(x, y), sampled at the given x and y; linear unless said otherwise.
+/// Start at the first x + 60 mm, finish at the last x.
 std::shared_ptr<const track::Track> makeSurface(const std::vector<double>& xs, const std::vector<double>& ys,
-                                                const std::function<double(double x, double y)>& height);
-/// Level at z = 15 mm, 400 mm long, 60 mm wide.
-std::shared_ptr<const track::Track> makeFlat();
-/// Rises by slopeX along x and slopeY along y [rad].
+                                                const std::function<double(double x, double y)>& height,
+                                                const track::FeederShape& shape = {});
+/// Flat at z = 15 mm, 400 mm long, 60 mm wide.
+std::shared_ptr<const track::Track> makeFlat(const track::FeederShape& shape = {});
+/// A level feeder whose surface rises by slopeX along x and slopeY along y [rad].
 std::shared_ptr<const track::Track> makeSlope(double slopeX, double slopeY);
 /// Hills and valleys of some millimetres, the same every time.
 std::shared_ptr<const track::Track> makeRough();
@@ -53,7 +54,7 @@ trial::Trajectory replayScene(const trial::Engine& engine, const trial::TrialBat
 /// Largest rise of the energy above what it has been, without anything that drives. [J]
 double findEnergyGain(const trial::TrialBatch& scene, const trial::Trajectory& trajectory);
 
-/// Kinetic and potential energy of a sample, over the height 0. [J]
+/// Kinetic and potential energy of a sample, the latter 0 at the room's origin. [J]
 double calcEnergy(const trial::TrialBatch& scene, const trial::TrajectorySample& sample);
 
 }  // namespace trapwright::verify

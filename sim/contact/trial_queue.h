@@ -32,8 +32,8 @@ inline std::vector<LikeTrials> groupLikeTrials(std::span<const trial::TrialBatch
     const auto findGroup = [&](const trial::TrialBatch& batch, const part::Part& part) -> LikeTrials& {
         for (LikeTrials& group : groups) {
             const trial::TrialBatch& like = *group.batch;
-            if (group.part == &part && like.gravity == batch.gravity && like.step == batch.step &&
-                like.drive.frequency == batch.drive.frequency)
+            if (group.part == &part && like.gravityVector() == batch.gravityVector() &&
+                like.step == batch.step && like.drive.frequency == batch.drive.frequency)
                 return group;
         }
         return groups.emplace_back(LikeTrials{&batch, &part, {}});
@@ -60,8 +60,8 @@ inline std::vector<LikeTrials> groupLikeStreams(std::span<const trial::TrialBatc
         if (member.trials.empty()) continue;
         auto group = std::ranges::find_if(groups, [&](const LikeTrials& other) {
             const trial::TrialBatch& like = *other.batch;
-            return like.parts == batch.parts && like.gravity == batch.gravity && like.step == batch.step &&
-                   like.drive.frequency == batch.drive.frequency;
+            return like.parts == batch.parts && like.gravityVector() == batch.gravityVector() &&
+                   like.step == batch.step && like.drive.frequency == batch.drive.frequency;
         });
         if (group == groups.end()) group = groups.insert(group, LikeTrials{&batch, nullptr, {}});
         group->members.push_back(std::move(member));

@@ -57,7 +57,8 @@ inline void moveFreely(TrialLanes& group, int lane) {
 
     const Triple afterSpin = mulAdd(dt, turn, spin);
     Triple after = getThree(group, kVelocityX, lane);
-    after.z = after.z - Real(model.gravity) * dt;
+    after.x = after.x - Real(model.gravityX) * dt;
+    after.z = after.z - Real(model.gravityZ) * dt;
     setThree(group, kAfterSpinX, lane, afterSpin);
     setThree(group, kAdvanceSpinX, lane, afterSpin);
     setThree(group, kAfterX, lane, after);

@@ -200,7 +200,7 @@ void runStreams(const StreamParts& kinds, double step, TrialQueue& queue, std::s
 StreamParts prepareParts(const trial::TrialBatch& batch, double step, bool anyBowl) {
     StreamParts kinds;
     for (const auto& part : batch.parts)
-        kinds.push_back(std::make_unique<const StreamPart>(*part, batch.gravity, step, anyBowl));
+        kinds.push_back(std::make_unique<const StreamPart>(*part, batch.gravityVector(), step, anyBowl));
     return kinds;
 }
 
@@ -275,8 +275,8 @@ base::Result<std::vector<std::vector<trial::Outcome>>> NativeEngine::run(
     };
     for (const contact::LikeTrials& like : contact::groupLikeTrials(batches)) {
         const PackedBody body(contact::prepareBody(like.part->pieces));
-        const LaneModel model(*like.part, body, like.batch->gravity, like.batch->stepOf(step_, kDefaultStep),
-                              hasBowl(like));
+        const LaneModel model(*like.part, body, like.batch->gravityVector(),
+                              like.batch->stepOf(step_, kDefaultStep), hasBowl(like));
         TrialQueue queue(like.members, sceneOf);
         const std::size_t perThread = (queue.total() + threads_ - 1) / threads_;
         const int lanes = static_cast<int>(std::clamp<std::size_t>(perThread, 1, kLanes));
@@ -315,7 +315,7 @@ base::Result<trial::Trajectory> NativeEngine::replay(const trial::TrialBatch& ba
     const part::Part& part = batch.partOf(spec);
     const PackedBody body(contact::prepareBody(part.pieces));
     const double step = batch.stepOf(step_, kDefaultStep);
-    const LaneModel model(part, body, batch.gravity, step, isBowl(batch));
+    const LaneModel model(part, body, batch.gravityVector(), step, isBowl(batch));
     const contact::DriveMotion drive(batch.driveOf(spec), batch.track->shape, spec.phase);
     RunningTrials trials(model, 1);
     trials.add(std::make_shared<const Scene>(batch), 0, index);

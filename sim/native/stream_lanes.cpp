@@ -11,7 +11,7 @@ constexpr int kFewLanes = kWidestVector;
 
 }  // namespace
 
-StreamPart::StreamPart(const part::Part& part, double gravity, double step, bool anyBowl)
+StreamPart::StreamPart(const part::Part& part, const base::Vec3& gravity, double step, bool anyBowl)
     : body(contact::prepareBody(part.pieces)),
       packed(body),
       model(part, packed, gravity, step, anyBowl),

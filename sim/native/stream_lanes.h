@@ -12,7 +12,7 @@ namespace trapwright::native {
 
 /// One kind of part, prepared for streams.
 struct StreamPart {
-    StreamPart(const part::Part& part, double gravity, double step, bool anyBowl);
+    StreamPart(const part::Part& part, const base::Vec3& gravity, double step, bool anyBowl);
     StreamPart(const StreamPart&) = delete;
     StreamPart& operator=(const StreamPart&) = delete;
 

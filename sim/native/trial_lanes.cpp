@@ -61,12 +61,13 @@ std::uint32_t toTurns(double turns) {
 
 }  // namespace
 
-LaneModel::LaneModel(const part::Part& part, const PackedBody& packedBody, double gravityValue,
+LaneModel::LaneModel(const part::Part& part, const PackedBody& packedBody, const Vec3& gravityInRoom,
                      double stepTime, bool bowl)
     : body(&packedBody),
       step(stepTime),
       dt(static_cast<float>(stepTime)),
-      gravity(static_cast<float>(gravityValue)),
+      gravityX(static_cast<float>(0.0 - gravityInRoom.x())),
+      gravityZ(static_cast<float>(0.0 - gravityInRoom.z())),
       anyBowl(bowl) {
     const Mat3 perMass = part.massProperties.inertia / part.massProperties.mass;
     const Mat3 inverse = perMass.inverse();
@@ -153,7 +154,7 @@ void TrialLanes::add(const PackedTrack& packedTrack, const trial::TrialBatch& ba
     setThree(kTurnX, turn);
     setThree(kTurnBeforeX, turn);
     setThree(kSpinX, w - 0.5 * dt * turn);
-    setThree(kVelocityX, start.velocity + Vec3(0.0, 0.0, 0.5 * dt * batch.gravity));
+    setThree(kVelocityX, start.velocity - 0.5 * dt * batch.gravityVector());
 
     const trial::ContactParameters& contact = batch.contactOf(spec);
     set(kStaticFriction, contact.staticFriction);

@@ -29,13 +29,13 @@ struct Scene {
 
 /// What is the same for all trials of a group. Inertias per mass, in part axes.
 struct LaneModel {
-    LaneModel(const part::Part& part, const PackedBody& packedBody, double gravityValue, double stepTime,
-              bool bowl);
+    LaneModel(const part::Part& part, const PackedBody& packedBody, const base::Vec3& gravityInRoom,
+              double stepTime, bool bowl);
 
     const PackedBody* body;
     double step;                 // of time [s]
     float dt;                    // the same
-    float gravity;               // [m/s^2]
+    float gravityX, gravityZ;    // against the room's axes; there is none across a track [m/s^2]
     bool anyBowl;                // else all tracks only translate
     float inertia[3][3];         // [m^2]
     float inverseInertia[3][3];  // [1/m^2]

@@ -25,7 +25,7 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
     const contact::DriveMotion drive(vibration, batch.track->shape, spec.phase);
     const contact::TrackPlacement placement = drive.placement(0.0);
     CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, vibration, spec.phase, mass.mass,
-                             mass.inertia, batch.gravity, batch.contactOf(spec)},
+                             mass.inertia, batch.gravityVector(), batch.contactOf(spec)},
                             placement.toRoom(start.pose), {start.velocity, start.angularVelocity});
     trial::TerminationMonitor progress(*batch.track, batch.termination, 1);
     trial::Trajectory trajectory;

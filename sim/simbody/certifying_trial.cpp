@@ -173,7 +173,7 @@ struct CertifyingTrial::Model {
     Model(const CertifyingScene& scene, const base::Pose& pose, const contact::BodyMotion& motion)
         : matter(system),
           forces(system),
-          gravity(forces, matter, SimTK::Vec3(0, 0, -scene.gravity)),
+          gravity(forces, matter, toSimbody(scene.gravity)),
           track(makeTrack(matter, scene)),
           part(makePart(matter, scene)),
           contactForce(

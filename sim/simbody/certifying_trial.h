@@ -21,7 +21,7 @@ struct CertifyingScene {
     double phase;        // of the drive at time 0 [rad]
     double mass;         // [kg]
     base::Mat3 inertia;  // about the centre of mass, part axes [kg m^2]
-    double gravity;      // [m/s^2]
+    base::Vec3 gravity;  // in the room [m/s^2]
     trial::ContactParameters law;
 };
 

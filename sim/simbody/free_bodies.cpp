@@ -30,14 +30,14 @@ SimTK::Inertia toSimbody(const Mat3& i) {
 }  // namespace
 
 struct FreeBodies::Model {
-    Model(double mass, const Mat3& inertia, double gravityValue, int count)
+    Model(double mass, const Mat3& inertia, const Vec3& gravityValue, int count)
         : matter(system),
           forces(system),
-          gravity(forces, matter, SimTK::Vec3(0, 0, -gravityValue)),
+          gravity(forces, matter, toSimbody(gravityValue)),
           inverseMass(1.0 / mass),
           inverseInertia(inertia.inverse()),
           inertiaTensor(inertia),
-          gravityVector(0, 0, -gravityValue),
+          gravityVector(gravityValue),
           slots(count) {
         const SimTK::Body::Rigid body(SimTK::MassProperties(mass, SimTK::Vec3(0), toSimbody(inertia)));
         for (int i = 0; i < count; ++i)
@@ -67,7 +67,7 @@ struct FreeBodies::Model {
     std::vector<Slot> slots;
 };
 
-FreeBodies::FreeBodies(double mass, const Mat3& inertia, double gravity, int count)
+FreeBodies::FreeBodies(double mass, const Mat3& inertia, const Vec3& gravity, int count)
     : model_(std::make_unique<Model>(mass, inertia, gravity, count)) {}
 FreeBodies::~FreeBodies() = default;
 FreeBodies::FreeBodies(FreeBodies&&) noexcept = default;

@@ -13,8 +13,8 @@ namespace trapwright::simbody {
 /// bit.
 class FreeBodies {
  public:
-    /// inertia: about the centre of mass, in body axes [kg m^2]; gravity along -z [m/s^2].
-    FreeBodies(double mass, const base::Mat3& inertia, double gravity, int count);
+    /// inertia: about the centre of mass, in body axes [kg m^2]; gravity in the room [m/s^2].
+    FreeBodies(double mass, const base::Mat3& inertia, const base::Vec3& gravity, int count);
     ~FreeBodies();
     FreeBodies(FreeBodies&&) noexcept;
     FreeBodies& operator=(FreeBodies&&) noexcept;

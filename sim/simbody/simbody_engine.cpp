@@ -63,7 +63,7 @@ class Worker {
 
     [[nodiscard]] FreeBodies makeBodies(int count) const {
         const geometry::MassProperties& mass = like_->part->massProperties;
-        return {mass.mass, mass.inertia, like_->batch->gravity, count};
+        return {mass.mass, mass.inertia, like_->batch->gravityVector(), count};
     }
 
     void fill(int slot) {
@@ -188,7 +188,7 @@ base::Result<trial::Trajectory> SimbodyEngine::replay(const trial::TrialBatch& b
     try {
         const part::Part& part = batch.partOf(batch.trials[index]);
         const geometry::MassProperties& mass = part.massProperties;
-        FreeBodies bodies(mass.mass, mass.inertia, batch.gravity, 1);
+        FreeBodies bodies(mass.mass, mass.inertia, batch.gravityVector(), 1);
         const double step = batch.stepOf(step_, kDefaultStep);
         TrialLane lane(std::make_shared<const Scene>(batch, part), index, bodies, 0, step);
         trial::CostLaps laps(nullptr);

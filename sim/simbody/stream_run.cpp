@@ -25,7 +25,7 @@ StreamRun::StreamRun(std::shared_ptr<const StreamScene> scene, std::size_t trial
 
 FreeBodies StreamRun::makeBodies(std::size_t kind, int count) const {
     const geometry::MassProperties& mass = scene_->batch->parts[kind]->massProperties;
-    return {mass.mass, mass.inertia, scene_->batch->gravity, count};
+    return {mass.mass, mass.inertia, scene_->batch->gravityVector(), count};
 }
 
 void StreamRun::enter(const contact::Traffic::Entry& entry) {

@@ -150,7 +150,8 @@ BulletTrial::BulletTrial(const BulletScene& scene, std::size_t index)
       frame_(scene.batch, index, scene.dt),
       dispatcher_(&configuration_),
       world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
-    world_.setGravity({0.0F, 0.0F, static_cast<btScalar>(-kLength * scene.batch.gravity)});
+    const base::Vec3 gravity = kLength * scene.batch.gravityVector();
+    world_.setGravity({static_cast<btScalar>(gravity.x()), 0.0F, static_cast<btScalar>(gravity.z())});
     btContactSolverInfo& info = world_.getSolverInfo();
     info.m_numIterations = kIterations;
     info.m_erp2 = kRecovery;

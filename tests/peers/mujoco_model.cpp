@@ -56,9 +56,10 @@ base::Result<std::string> writeMujocoModel(const trial::TrialBatch& batch, const
 
     const geometry::MassProperties& mass = part.massProperties;
     const base::Mat3& i = mass.inertia;
+    const base::Vec3 gravity = batch.gravityVector();
     return fmt::format(R"(<mujoco>
 <compiler inertiafromgeom="false" boundmass="0" balanceinertia="false"/>
-<option timestep="{}" gravity="0 0 {}" cone="elliptic" solver="Newton" jacobian="dense" integrator="Euler" impratio="10" mpr_tolerance="1e-9">
+<option timestep="{}" gravity="{} 0 {}" cone="elliptic" solver="Newton" jacobian="dense" integrator="Euler" impratio="10" mpr_tolerance="1e-9">
 <flag multiccd="enable"/></option>
 <size njmax="1000" nconmax="200"/>
 <asset>
@@ -70,8 +71,8 @@ base::Result<std::string> writeMujocoModel(const trial::TrialBatch& batch, const
 </worldbody>
 </mujoco>
 )",
-                       step, -batch.gravity, assets, trackGeoms, mass.mass, i(0, 0), i(1, 1), i(2, 2),
-                       i(0, 1), i(0, 2), i(1, 2), partGeoms);
+                       step, gravity.x(), gravity.z(), assets, trackGeoms, mass.mass, i(0, 0), i(1, 1),
+                       i(2, 2), i(0, 1), i(0, 2), i(1, 2), partGeoms);
 }
 
 }  // namespace trapwright::peers

@@ -198,7 +198,8 @@ OdeTrial::OdeTrial(const OdeScene& scene, std::size_t index)
     world_ = dWorldCreate();
     dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
                                          threading_);
-    dWorldSetGravity(world_, 0.0, 0.0, -kLength * scene.batch.gravity);
+    const base::Vec3 gravity = kLength * scene.batch.gravityVector();
+    dWorldSetGravity(world_, gravity.x(), 0.0, gravity.z());
     dWorldSetERP(world_, kErp);
     dWorldSetCFM(world_, kCfm);
     dWorldSetContactSurfaceLayer(world_, kLength * kSurfaceLayer);

@@ -326,8 +326,8 @@ void PointsTrial::step(trial::CostLaps& laps) {
     }
     laps.end(&trial::Costs::law);
 
-    velocity_ += scene_.dt *
-                 (now_.turn(force) / scene_.part.massProperties.mass - scene_.batch.gravity * Vec3::UnitZ());
+    velocity_ +=
+        scene_.dt * (now_.turn(force) / scene_.part.massProperties.mass + scene_.batch.gravityVector());
     momentum_ += scene_.dt * now_.turn(torque);
     pose_.position += scene_.dt * velocity_;
     const Vec3 turned = scene_.dt * turning();

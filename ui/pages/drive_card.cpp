@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 #include "core/study/settings.h"
 #include "ui/look/text.h"
@@ -76,7 +77,7 @@ DriveCard::DriveCard(QWidget* parent)
     speed_->setObjectName("drive.speed");
     speed_->setAccessibleName(tr("Predicted conveying speed"));
     speed_->setToolTip(
-        tr("Of a part that lies flat on a level track; from a closed solution, not from the simulator."));
+        tr("Of a part that lies flat on a flat track; from a closed solution, not from the simulator."));
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 4, 0, 0);
     layout->setSpacing(2);
@@ -86,11 +87,13 @@ DriveCard::DriveCard(QWidget* parent)
 }
 
 void DriveCard::show(const study::Settings& settings) {
-    const trial::Vibration drive = settings.simulation.drive;
+    const trial::Vibration drive = trial::seenFromTrack(settings.simulation.drive, settings.track.shape);
     const trial::ContactParameters contact = settings.simulation.contact;
     const double gravity = settings.simulation.gravity;
-    task_.start([this, drive, contact, gravity]() -> session::NewestTask::Deliver {
-        const verify::ConveyingPrediction prediction = verify::predictConveying(drive, contact, gravity);
+    const double slope = settings.track.shape.slope;
+    task_.start([this, drive, contact, gravity, slope]() -> session::NewestTask::Deliver {
+        const verify::ConveyingPrediction prediction =
+            verify::predictConveying(drive, contact, gravity, slope);
         return [this, prediction] { tell(prediction); };
     });
 }
@@ -107,10 +110,19 @@ void DriveCard::tell(const verify::ConveyingPrediction& prediction) {
         case verify::Conveyance::hops:
             throw_->setText(tr("Throw number %1: parts hop").arg(number));
             break;
+        case verify::Conveyance::slidesAway:
+            throw_->setText(tr("Throw number %1: parts slide down the track").arg(number));
+            break;
     }
     gauge_->show(prediction.throwNumber);
-    speed_->setText(
-        tr("A flat part moves at about %1 mm/s").arg(look::numberText(prediction.speed * 1e3, 2)));
+    const QString speed = look::numberText(std::abs(prediction.speed) * 1e3, 2);
+    if (prediction.conveyance == verify::Conveyance::slidesAway) {
+        speed_->setText(tr("Its friction does not hold a part on this slope"));
+    } else if (prediction.speed < 0.0) {
+        speed_->setText(tr("A flat part moves back at about %1 mm/s").arg(speed));
+    } else {
+        speed_->setText(tr("A flat part moves at about %1 mm/s").arg(speed));
+    }
 }
 
 }  // namespace trapwright::pages

@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "core/base/math.h"
 #include "ui/look/text.h"
@@ -35,10 +36,12 @@ Facts factsOf(const study::Settings& settings, const part::Part& part) {
     const study::EvolutionSettings& evolution = settings.evolution;
     const trial::Vibration& drive = settings.simulation.drive;
     const trial::ContactParameters& contact = settings.simulation.contact;
-    const QString feeder =
-        track.shape.type == track::FeederType::bowl
-            ? EvolveSummary::tr("bowl of %1 mm radius").arg(millimetres(track.shape.bowlRadius))
-            : EvolveSummary::tr("linear");
+    QString feeder = track.shape.type == track::FeederType::bowl
+                         ? EvolveSummary::tr("bowl of %1 mm radius").arg(millimetres(track.shape.bowlRadius))
+                         : EvolveSummary::tr("linear");
+    const QString slope = look::numberText(std::abs(track.shape.slope) / base::kDegree);
+    if (track.shape.slope > 0.0) feeder = EvolveSummary::tr("%1, climbs by %2°").arg(feeder, slope);
+    if (track.shape.slope < 0.0) feeder = EvolveSummary::tr("%1, falls by %2°").arg(feeder, slope);
     return {
         {EvolveSummary::tr("Wanted"), wantedText(settings.target, part)},
         {EvolveSummary::tr("Feeder"), feeder},

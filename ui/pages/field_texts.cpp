@@ -38,6 +38,7 @@ const RawText kTexts[] = {
     {"track.feeder", TEXT("Feeder"), TEXT("A straight track that shakes along a line, or one around a bowl that turns back and forth."), {TEXT("Linear"), TEXT("Bowl")}},
     {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
     {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
+    {"track.slope_deg", TEXT("Slope"), TEXT("How steeply the track climbs; below 0 it falls. A linear feeder is tilted as a whole, and the vibration with it; a bowl's track climbs around an upright bowl.")},
     {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps and narrowed tracks that throw out what lies wrong, or several one after the other.")},
     {"track.given", TEXT("Given trap"), TEXT("Cross-sections that the traps follow: those of a track that was learned before and stays as it is. Change in a new study, Add a rejecting trap, sets them.")},
     {"track.returns", TEXT("What falls off"), TEXT("Where parts that fall off the track come again because they fall back into the bowl or a tray: nowhere, at one side, anywhere. What falls elsewhere is lost."), {TEXT("Is lost"), TEXT("Returns inside"), TEXT("Returns outside"), TEXT("Returns")}},
@@ -81,7 +82,7 @@ const RawText kTexts[] = {
 
     {"simulation.drive.frequency_Hz", TEXT("Frequency"), TEXT("Of the vibration: mechanical, so twice the mains for most magnets without permanent field.")},
     {"simulation.drive.halfStroke_mm", TEXT("Half-stroke"), TEXT("From the middle of the vibration to its end, along its line; half of what a wedge on the feeder shows.")},
-    {"simulation.drive.angle_deg", TEXT("Vibration angle"), TEXT("Between the line of vibration and the track.")},
+    {"simulation.drive.angle_deg", TEXT("Vibration angle"), TEXT("Between the line of vibration and the track of a linear feeder, or the level of a bowl.")},
     {"simulation.contact.staticFriction", TEXT("Static friction"), TEXT("Friction that holds a part at rest, over its normal force.")},
     {"simulation.contact.kineticFriction", TEXT("Kinetic friction"), TEXT("Friction of a part that slides, over its normal force.")},
     {"simulation.contact.restitution", TEXT("Restitution"), TEXT("Speed after an impact over the speed before it.")},
@@ -239,7 +240,7 @@ std::vector<FieldGroup> trackGroups() {
     return {
         {"feeder",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Feeder")),
-         {"track.feeder", "track.bowlRadius_mm", "track.conveying"}},
+         {"track.feeder", "track.bowlRadius_mm", "track.conveying", "track.slope_deg"}},
         {"drive",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Drive")),
          {"simulation.drive.frequency_Hz", "simulation.drive.halfStroke_mm", "simulation.drive.angle_deg"}},

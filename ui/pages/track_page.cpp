@@ -12,6 +12,7 @@
 #include <QScrollArea>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <cmath>
 #include <tuple>
 
 #include "core/study/planning.h"
@@ -472,7 +473,8 @@ void TrackPage::showTitle() {
     title_->setText(bowl ? tr("Bowl track") : tr("Linear track"));
     size_->clear();
     if (!track_) return;
-    const double height = track_->height + track_->baseThickness;
+    const double climb = std::abs(track_->shape.rise(track_->end()) - track_->shape.rise(track_->begin()));
+    const double height = track_->height + track_->baseThickness + climb;
     size_->setText(sizeText({track_->end() - track_->begin(), track_->width, height}));
 }
 

@@ -18,6 +18,11 @@ constexpr double kTurnPerPixel = 0.35 * base::kDegree;
 constexpr double kNearest = 2e-3;   // [m]
 constexpr double kFarthest = 50.0;  // [m]
 
+/// What an upright camera has, in the camera's room.
+Vec3 tilted(const Camera& camera, const Vec3& upright) {
+    return Eigen::AngleAxisd(camera.tilt, Vec3::UnitY()) * upright;
+}
+
 double aspect(const QSizeF& screen) {
     return screen.width() / std::max(screen.height(), 1.0);
 }
@@ -43,17 +48,17 @@ Vec3 Camera::eye() const {
 }
 
 Vec3 Camera::forward() const {
-    return -Vec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                 std::sin(elevation));
+    return tilted(*this, -Vec3(std::cos(elevation) * std::cos(azimuth),
+                               std::cos(elevation) * std::sin(azimuth), std::sin(elevation)));
 }
 
 Vec3 Camera::right() const {
-    return {-std::sin(azimuth), std::cos(azimuth), 0.0};
+    return tilted(*this, {-std::sin(azimuth), std::cos(azimuth), 0.0});
 }
 
 Vec3 Camera::up() const {
-    return {-std::sin(elevation) * std::cos(azimuth), -std::sin(elevation) * std::sin(azimuth),
-            std::cos(elevation)};
+    return tilted(*this, {-std::sin(elevation) * std::cos(azimuth), -std::sin(elevation) * std::sin(azimuth),
+                          std::cos(elevation)});
 }
 
 double Camera::metresPerPixel(const QSizeF& screen) const {

@@ -11,7 +11,8 @@ namespace trapwright::scene {
 
 enum class StandardView { home, top, bottom, front, back, left, right };
 
-/// A camera that keeps the room's z upright, turning about a focus. Lengths in metres, angles in radians,
+/// A camera that keeps what is upright so, turning about a focus: the room's z, or on a sloped linear feeder,
+/// whose room is tilted with it, what plumbs there. Lengths in metres, angles in radians,
 /// places on the screen in logical pixels from the top left.
 struct Camera {
     base::Vec3 focus = base::Vec3::Zero();
@@ -20,6 +21,7 @@ struct Camera {
     double distance = 0.5;
     double viewAngle = 24.0 * base::kDegree;  // of the screen's height
     bool parallel = false;                    // as large as in perspective at the focus
+    double tilt = 0.0;                        // upright is (sin(tilt), 0, cos(tilt))
 
     [[nodiscard]] base::Vec3 eye() const;
     [[nodiscard]] base::Vec3 forward() const;

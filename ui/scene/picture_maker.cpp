@@ -133,6 +133,7 @@ ExitView makeExitView(const track::Track& track, const part::Part& part, const b
     for (const Vec3& point : view.arrow)
         box.include(point);
 
+    if (track.shape.type == track::FeederType::linear) view.camera.tilt = track.shape.slope;
     view.camera.azimuth = std::atan2(towards.y(), towards.x());
     const std::vector<Vec3> corners = cornersOf(part, pose);
     const auto triangles = trianglesNear(track, pose.position, std::max(kReach * radius, track.width));

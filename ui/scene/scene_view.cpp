@@ -47,6 +47,7 @@ void SceneView::State::setSubject(Subject subject) {
         camera = homeCamera(contents);
         moved = false;
     }
+    camera.tilt = tiltOf(contents);
     fitUnlessMoved();
 }
 

@@ -10,8 +10,14 @@ bool isEmpty(const SceneContents& contents) {
     return !contents.track && !contents.solid && !contents.stablePoses && contents.parts.empty();
 }
 
+double tiltOf(const SceneContents& contents) {
+    const bool tilted = contents.track && contents.track->shape.type == track::FeederType::linear;
+    return tilted ? contents.track->shape.slope : 0.0;
+}
+
 Camera homeCamera(const SceneContents& contents) {
     Camera camera = turnedTo(Camera(), StandardView::home);
+    camera.tilt = tiltOf(contents);
     // A row is read from the front.
     if (contents.stablePoses) {
         camera.azimuth = -80.0 * base::kDegree;

@@ -10,6 +10,9 @@ namespace trapwright::scene {
 /// Nothing to look at.
 bool isEmpty(const SceneContents& contents);
 
+/// Camera::tilt of these contents: the slope of a linear feeder that the track is on. [rad]
+double tiltOf(const SceneContents& contents);
+
 /// The camera from which the subject is seen best at first; to be fitted.
 Camera homeCamera(const SceneContents& contents);
 
@@ -23,7 +26,8 @@ std::vector<PartInScene> partsOf(const SceneContents& contents);
 /// Whether there is something that is coloured by its height, and that is wanted.
 bool isShadedByHeight(const SceneContents& contents);
 
-/// The lowest and the highest point of what height shading colours: of a track's surface, of a whole solid.
+/// The lowest and the highest point of what height shading colours: of a track's surface, above its plane
+/// z = 0 where that climbs; of a whole solid.
 /// [m]
 struct HeightRange {
     double low = 0.0;

@@ -124,6 +124,7 @@ struct SubjectLayer::State {
         bodyMapper->SetInputData(
             makeFlatMesh(cutOut(solid, track.surfaceTriangles, solid.triangles.size()), bodyColour));
         if (!made || shown.track != contents.track) lightMap->SetInputData(toImage(calcLightMap(track)));
+        setRise(*surface, track.shape.rise(track.begin()) * kDrawn, track.shape.rise(track.end()) * kDrawn);
         surface->VisibilityOn();
         body->VisibilityOn();
         shadow.make(solid);
@@ -144,6 +145,7 @@ struct SubjectLayer::State {
         data->GetPointData()->SetTCoords(everywhereLight);
         surfaceMapper->SetInputData(data);
         lightMap->SetInputData(toImage({1, 1, {255, 255}}));
+        setRise(*surface, 0.0, 0.0);
         surface->VisibilityOn();
     }
 

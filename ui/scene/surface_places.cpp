@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/track/track_solid.h"
+
 namespace trapwright::scene {
 
 namespace {
@@ -79,9 +81,13 @@ std::vector<SectionSpan> sectionSpans(const track::Track& track, const Camera& c
     const double aside = 0.5 * track.width + 0.12 * track.width;
     const double gap = 0.012 * track.width;  // between one span and the next
     const double tick = 0.035 * track.width;
-    const double z = -track.baseThickness;
+    const double floor = track::findBase(track.shape, track.sections, track.baseThickness);
+    const auto onFloor = [&](double x, double y) {
+        const Vec3 place = track.shape.toRoom({x, y, 0.0});
+        return Vec3(place.x(), place.y(), floor);
+    };
     const double middle = 0.5 * (track.begin() + track.end());
-    const auto depth = [&](double y) { return track.shape.toRoom({middle, y, z}).dot(camera.forward()); };
+    const auto depth = [&](double y) { return onFloor(middle, y).dot(camera.forward()); };
     const double side = depth(-aside) <= depth(aside) ? -1.0 : 1.0;
 
     const double trapBegin = track.sections[static_cast<std::size_t>(track.firstTrapSection)].x;
@@ -91,12 +97,14 @@ std::vector<SectionSpan> sectionSpans(const track::Track& track, const Camera& c
         span.name = name;
         span.length = to - from;
         const double shrink = std::min(gap, 0.2 * span.length);
-        span.line = lineAlong(track, from + shrink, to - shrink, side * aside, z);
-        span.middle = track.shape.toRoom({0.5 * (from + to), side * aside, z});
-        span.inside = track.shape.toRoom({0.5 * (from + to), 0.0, z});
+        span.line = lineAlong(track, from + shrink, to - shrink, side * aside, 0.0);
+        for (Vec3& place : span.line)
+            place.z() = floor;
+        span.middle = onFloor(0.5 * (from + to), side * aside);
+        span.inside = onFloor(0.5 * (from + to), 0.0);
         for (const double x : {from + shrink, to - shrink}) {
-            span.ticks.push_back(track.shape.toRoom({x, side * (aside - tick), z}));
-            span.ticks.push_back(track.shape.toRoom({x, side * (aside + tick), z}));
+            span.ticks.push_back(onFloor(x, side * (aside - tick)));
+            span.ticks.push_back(onFloor(x, side * (aside + tick)));
         }
         return span;
     };

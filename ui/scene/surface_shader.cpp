@@ -60,8 +60,9 @@ constexpr const char* kCommonLight = R"(
 
 constexpr const char* kTrackLight = R"(
   if (heightShaded > 0) {
-    albedo = pow(heightColour((placeInMesh.z - heightLow) / (heightHigh - heightLow)), vec3(2.2));
-    float level = placeInMesh.z / 5.0;
+    float height = placeInMesh.z - mix(riseAtBegin, riseAtEnd, tcoordVCVSOutput.x);
+    albedo = pow(heightColour((height - heightLow) / (heightHigh - heightLow)), vec3(2.2));
+    float level = height / 5.0;
     float width = fwidth(level);
     float contour = width > 1e-4 ? 1.0 - smoothstep(0.5 * width, 1.5 * width, abs(level - round(level))) : 0.0;
     albedo *= 1.0 - 0.4 * contour;
@@ -102,6 +103,7 @@ void setSurfaceShading(vtkActor& actor, SurfaceKind kind) {
         declarations = "in vec3 placeInMesh;\n" + heightColourShader() + kTrackFunctions;
         light += kTrackLight;
         setHeightRange(actor, false, 0.0, 1.0);
+        setRise(actor, 0.0, 0.0);
         setShades(actor, {});
         shader->GetFragmentCustomUniforms()->SetUniform3f("keyInRoom", toFloats(keyLight()).data());
     }
@@ -130,6 +132,12 @@ void setHeightRange(vtkActor& actor, bool shaded, double low, double high) {
     uniforms->SetUniformi("heightShaded", shaded ? 1 : 0);
     uniforms->SetUniformf("heightLow", static_cast<float>(low));
     uniforms->SetUniformf("heightHigh", static_cast<float>(high));
+}
+
+void setRise(vtkActor& actor, double atBegin, double atEnd) {
+    vtkUniforms* uniforms = actor.GetShaderProperty()->GetFragmentCustomUniforms();
+    uniforms->SetUniformf("riseAtBegin", static_cast<float>(atBegin));
+    uniforms->SetUniformf("riseAtEnd", static_cast<float>(atEnd));
 }
 
 void setShades(vtkActor& actor, std::span<const Shade> shades) {

@@ -31,8 +31,10 @@ void setSurfaceShading(vtkActor& actor, SurfaceKind kind);
 /// Turns the room's lights into the camera's axes. Before every picture, for every shaded actor.
 void setLights(vtkActor& actor, const Camera& camera);
 
-/// For tracks: colours by height between these heights [mm]; shadows of these parts, the first kMostShades.
+/// For tracks: colours by height between these heights [mm]; where the places from which heights count are at
+/// the track's two ends [mm]; shadows of these parts, the first kMostShades.
 void setHeightRange(vtkActor& actor, bool shaded, double low, double high);
+void setRise(vtkActor& actor, double atBegin, double atEnd);
 void setShades(vtkActor& actor, std::span<const Shade> shades);
 
 /// Draws an actor a little nearer than it is, so that a surface that it lies on does not hide it.

@@ -106,7 +106,8 @@ void StudyFeeder::requestSpeedTable() {
             if (!engine) return engine.error();
             verify::ConveyingScene scene;
             scene.part = part;
-            scene.drive = settings.simulation.drive;
+            scene.drive = trial::seenFromTrack(settings.simulation.drive, settings.track.shape);
+            scene.slope = settings.track.shape.slope;
             scene.contact = settings.simulation.contact;
             auto table = verify::measureSpeedTable(**engine, scene, control);
             if (!table) return table.error();

@@ -54,6 +54,12 @@ class SettingsCheckTest : public QObject {
             QVERIFY2(study::findProblems(s).empty(), joined(study::findProblems(s)).c_str());
             QVERIFY(study::findProblems(study::paperMode(s)).empty());
             QVERIFY(study::findRecommendations(s).empty());
+            QCOMPARE(s.track.shape.slope, 0.0);
+            Settings steepest = s;
+            for (const double slope : {15.0, -15.0}) {
+                steepest.track.shape.slope = slope * base::kDegree;
+                QVERIFY(study::findProblems(steepest).empty());
+            }
         }
         QCOMPARE(cuboid.track.minSegmentLength, 0.015);
         QCOMPARE(cone.track.minSegmentLength, 0.022);
@@ -199,6 +205,9 @@ class SettingsCheckTest : public QObject {
         row(
             "infinite", [](Settings& s) { s.simulation.gravity = std::numeric_limits<double>::infinity(); },
             "simulation.gravity_m_s2 is infinite; it must be from 0.1 to 100.");
+        row(
+            "slope", [](Settings& s) { s.track.shape.slope = -16 * base::kDegree; },
+            "track.slope_deg is -16; it must be from -15 to 15.");
         row(
             "angle", [](Settings& s) { s.simulation.drive.angle = 95 * base::kDegree; },
             "simulation.drive.angle_deg is 95; it must be from 0.1 to 89.");

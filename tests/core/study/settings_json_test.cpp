@@ -25,7 +25,7 @@ Settings unusualSettings() {
               "brass \\ zinc",
               study::PoseWeights::dropped,
               "129, 48, 23"};
-    s.track.shape = {track::FeederType::bowl, 0.1 + 0.2, track::Conveying::anticlockwise};
+    s.track.shape = {track::FeederType::bowl, 0.1 + 0.2, track::Conveying::anticlockwise, 0.05};
     s.track.traps = "step, free-form";
     s.track.given = "10.5: -30 1, 30 2";
     s.track.returns = trial::Returns::outerSide;

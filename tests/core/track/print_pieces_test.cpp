@@ -59,7 +59,9 @@ class PrintPiecesTest : public QObject {
         const std::pair<const char*, track::FeederShape> shapes[] = {
             {"linear", {}},
             {"clockwise", testing::makeBowl(Conveying::clockwise)},
-            {"anticlockwise", testing::makeBowl(Conveying::anticlockwise)}};
+            {"anticlockwise", testing::makeBowl(Conveying::anticlockwise)},
+            {"clockwise, climbs", testing::makeBowl(Conveying::clockwise, 4.0 * base::kDegree)},
+            {"clockwise, falls", testing::makeBowl(Conveying::clockwise, -4.0 * base::kDegree)}};
         for (const auto& [kind, shape] : shapes) {
             QTest::addRow("cuboid, %s", kind) << readExample("cuboid_track", shape) << PrintOptions{};
             QTest::addRow("cuboid, %s, walls, bolts", kind)
@@ -99,7 +101,8 @@ class PrintPiecesTest : public QObject {
     }
 
     void holesMatchAndDoNotBreakThrough() {
-        for (const auto& shape : {track::FeederShape{}, testing::makeBowl(Conveying::clockwise)}) {
+        for (const auto& shape : {track::FeederShape{}, testing::makeBowl(Conveying::clockwise),
+                                  testing::makeBowl(Conveying::anticlockwise, -4.0 * base::kDegree)}) {
             const Track track = readExample("cuboid_track", shape);
             const PrintOptions options = makeOptions(5 * kMm, true);
             SplitOptions split;
@@ -142,7 +145,8 @@ class PrintPiecesTest : public QObject {
     }
 
     void cutsLieAcrossTheConveyingDirection() {
-        for (const auto& shape : {track::FeederShape{}, testing::makeBowl(Conveying::anticlockwise)}) {
+        for (const auto& shape : {track::FeederShape{}, testing::makeBowl(Conveying::anticlockwise),
+                                  testing::makeBowl(Conveying::clockwise, 4.0 * base::kDegree)}) {
             const Track track = readExample("cuboid_track", shape);
             SplitOptions split;
             split.cuts = {3};

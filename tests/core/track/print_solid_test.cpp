@@ -150,6 +150,27 @@ class PrintSolidTest : public QObject {
         QVERIFY((box.high - base::Vec3(kLength, side, kSurface + 10 * kMm)).norm() < 1e-12);
     }
 
+    // The insert of a bowl whose track climbs stands flat, with a flat flange; its walls climb with the
+    // surface.
+    void sizeOfAClimbingInsert() {
+        for (const double degrees : {4.0, -4.0}) {
+            const double slope = degrees * base::kDegree;
+            const Track track = makeFlat(testing::makeBowl(Conveying::clockwise, slope));
+            const double climb = std::abs(kLength * std::tan(slope));
+            const double lowest = std::min(0.0, kLength * std::tan(slope));
+            const auto solid = track::buildPrintSolid(track, makeOptions(10 * kMm, true, 4 * kMm));
+            QVERIFY(solid.ok());
+            const geometry::Box box = geometry::calcBoundingBox(*solid);
+            QVERIFY(std::abs(box.low.z() - (lowest - kBase)) < 1e-12);
+            QVERIFY(std::abs(box.size().z() - (kBase + climb + kSurface + 10 * kMm)) < 1e-12);
+            const double wallsOutside = 175 * kMm + 0.5 * kWidth + 2 * kMm;
+            for (const base::Vec3& v : solid->vertices) {
+                if (std::hypot(v.x(), v.y()) < wallsOutside + kMm) continue;
+                QVERIFY(v.z() > lowest - kBase - 1e-9 && v.z() < lowest + 1e-9);
+            }
+        }
+    }
+
     void insertOfABowl() {
         for (const Conveying conveying : {Conveying::clockwise, Conveying::anticlockwise}) {
             const FeederShape shape = testing::makeBowl(conveying);
@@ -185,7 +206,9 @@ class PrintSolidTest : public QObject {
         const std::pair<const char*, FeederShape> shapes[] = {
             {"linear", {}},
             {"clockwise", testing::makeBowl(Conveying::clockwise)},
-            {"anticlockwise", testing::makeBowl(Conveying::anticlockwise)}};
+            {"anticlockwise", testing::makeBowl(Conveying::anticlockwise)},
+            {"clockwise, climbs", testing::makeBowl(Conveying::clockwise, 4.0 * base::kDegree)},
+            {"anticlockwise, falls", testing::makeBowl(Conveying::anticlockwise, -15.0 * base::kDegree)}};
         const std::pair<const char*, PrintOptions> options[] = {
             {"plain", {}},
             {"walls", makeOptions(5 * kMm, false, 0.0)},

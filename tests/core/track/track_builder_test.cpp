@@ -130,20 +130,24 @@ class TrackBuilderTest : public QObject {
     void solidIsClosed_data() {
         QTest::addColumn<FeederShape>("shape");
         QTest::addColumn<TrapParameters>("form");
-        const FeederShape shapes[] = {FeederShape{}, testing::makeBowl(Conveying::clockwise),
-                                      testing::makeBowl(Conveying::anticlockwise)};
+        const std::pair<const char*, FeederShape> shapes[] = {
+            {"linear", {}},
+            {"clockwise", testing::makeBowl(Conveying::clockwise)},
+            {"anticlockwise", testing::makeBowl(Conveying::anticlockwise)},
+            {"clockwise, climbs", testing::makeBowl(Conveying::clockwise, 3.0 * base::kDegree)},
+            {"anticlockwise, climbs", testing::makeBowl(Conveying::anticlockwise, 15.0 * base::kDegree)},
+            {"clockwise, falls", testing::makeBowl(Conveying::clockwise, -15.0 * base::kDegree)}};
         TrapParameters twoPoints;
         twoPoints.crossSections = 1;
         twoPoints.pointsPerSection = 2;
-        const char* shapeNames[] = {"linear", "clockwise", "anticlockwise"};
-        for (std::size_t s = 0; s < 3; ++s) {
+        for (const auto& [name, shape] : shapes) {
             for (const auto points : {PointEncoding::strip, PointEncoding::free}) {
                 TrapParameters form;
                 form.encoding = points;
-                QTest::addRow("%s, %s", shapeNames[s], points == PointEncoding::strip ? "strip" : "free")
-                    << shapes[s] << form;
+                QTest::addRow("%s, %s", name, points == PointEncoding::strip ? "strip" : "free")
+                    << shape << form;
             }
-            QTest::addRow("%s, two points", shapeNames[s]) << shapes[s] << twoPoints;
+            QTest::addRow("%s, two points", name) << shape << twoPoints;
         }
     }
     void solidIsClosed() {
@@ -184,6 +188,53 @@ class TrackBuilderTest : public QObject {
             volume += area * ((v[0].z() + v[1].z() + v[2].z()) / 3.0 + parameters.baseThickness);
         }
         QVERIFY(std::abs(calcVolume(track.solid) / volume - 1.0) < 1e-12);
+    }
+
+    // A sloped linear track lies in its own axes; only gravity leans.
+    void aTiltedFeederHasTheSameSolid() {
+        TrackParameters parameters;
+        const auto trap = testing::drawTrap(TrapParameters{}, 5);
+        const auto level = build(parameters, trap);
+        parameters.shape.slope = 10.0 * base::kDegree;
+        const auto tilted = build(parameters, trap);
+        QCOMPARE(tilted.shape.slope, 10.0 * base::kDegree);
+        QCOMPARE(tilted.solid.vertices, level.solid.vertices);
+        QCOMPARE(tilted.solid.triangles, level.solid.triangles);
+    }
+
+    // On a bowl the surface climbs by x tan(slope), and the base is flat, so thick below its lowest place.
+    void aBowlsTrackClimbs_data() {
+        QTest::addColumn<Conveying>("conveying");
+        QTest::addColumn<double>("degrees");
+        for (const double degrees : {3.0, -3.0, 15.0}) {
+            QTest::addRow("clockwise, %g deg", degrees) << Conveying::clockwise << degrees;
+            QTest::addRow("anticlockwise, %g deg", degrees) << Conveying::anticlockwise << degrees;
+        }
+    }
+    void aBowlsTrackClimbs() {
+        QFETCH(Conveying, conveying);
+        QFETCH(double, degrees);
+        TrackParameters parameters;
+        parameters.shape = testing::makeBowl(conveying);
+        const auto trap = testing::drawTrap(TrapParameters{}, 5);
+        const auto level = build(parameters, trap);
+        parameters.shape.slope = degrees * base::kDegree;
+        const auto climbing = build(parameters, trap);
+        QCOMPARE(climbing.solid.triangles, level.solid.triangles);
+        const double pitch = std::tan(degrees * base::kDegree);
+        const double lowest = std::min(0.0, pitch * climbing.end());
+        double near = 0.0;
+        for (std::size_t i = 0; i < level.solid.vertices.size(); ++i) {
+            const base::Vec3& before = level.solid.vertices[i];
+            const base::Vec3& after = climbing.solid.vertices[i];
+            QVERIFY((before - after).head<2>().norm() < 1e-15);
+            near = level.shape.toTrack(before, near).x();
+            if (2 * i < level.solid.vertices.size()) {
+                QVERIFY(std::abs(after.z() - before.z() - pitch * near) < 1e-15);
+            } else {
+                QCOMPARE(after.z(), lowest - parameters.baseThickness);
+            }
+        }
     }
 
     void flatTrackIsABlock() {
@@ -227,6 +278,11 @@ class TrackBuilderTest : public QObject {
         TrackParameters p;
         p.segmentWidth = -1.0;
         QTest::newRow("width") << p << "segment width";
+        p = {};
+        p.shape.slope = 15.1 * base::kDegree;
+        QTest::newRow("slope") << p << "slope is 15.1 deg";
+        p.shape.slope = -0.3;
+        QTest::newRow("slope down") << p << "slope";
         p = {};
         p.leadInLength = 0.0;
         QTest::newRow("lead-in") << p << "lead-in length";

@@ -48,12 +48,16 @@ class TrackFileTest : public QObject {
         QTest::newRow("linear") << 0;
         QTest::newRow("clockwise") << 1;
         QTest::newRow("anticlockwise") << 2;
+        QTest::newRow("linear, climbs") << 3;
+        QTest::newRow("anticlockwise, falls") << 4;
     }
     void roundTrip() {
         QFETCH(int, shape);
         track::TrackParameters parameters;
         if (shape == 1) parameters.shape = testing::makeBowl(track::Conveying::clockwise);
         if (shape == 2) parameters.shape = testing::makeBowl(track::Conveying::anticlockwise);
+        if (shape == 3) parameters.shape.slope = 3.3 * base::kDegree;
+        if (shape == 4) parameters.shape = testing::makeBowl(track::Conveying::anticlockwise, -0.05);
         auto built = track::buildTrack(parameters, testing::drawTrap({}, 4));
         QVERIFY(built.ok());
         const track::TrackFile file{"drawn at random", *built, std::nullopt};
@@ -68,6 +72,8 @@ class TrackFileTest : public QObject {
         QCOMPARE(again->track.lastTrapSection, built->lastTrapSection);
         QCOMPARE(again->track.solid.triangles, built->solid.triangles);
         QVERIFY(std::abs(again->track.finish - built->finish) < 1e-14);
+        QVERIFY(std::abs(again->track.shape.slope - parameters.shape.slope) < 1e-14);
+        QCOMPARE(track::trackToJson(file).find("slope") != std::string::npos, shape >= 3);
         for (std::size_t i = 0; i < built->solid.vertices.size(); ++i) {
             QVERIFY((again->track.solid.vertices[i] - built->solid.vertices[i]).norm() < 1e-14);
         }
@@ -103,6 +109,8 @@ class TrackFileTest : public QObject {
             << QByteArray("leadOutSegments");
         QTest::newRow("no feeder type")
             << QByteArray("\"linear\"") << QByteArray("\"spiral\"") << QByteArray("spiral");
+        QTest::newRow("too steep") << QByteArray("\"linear\"") << QByteArray("\"linear\", \"slope_deg\": 16")
+                                   << QByteArray("slope is 16 deg");
         QTest::newRow("an array") << QByteArray("{") << QByteArray("[{") << QByteArray("not JSON");
     }
     void refuses() {

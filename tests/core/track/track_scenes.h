@@ -18,8 +18,9 @@ inline std::vector<track::CrossSection> drawTrap(const traps::TrapParameters& fo
     return traps::decodeTrap(form, points, lengths);
 }
 
-inline track::FeederShape makeBowl(track::Conveying conveying) {
-    return {track::FeederType::bowl, 0.175, conveying};
+/// slope [rad]
+inline track::FeederShape makeBowl(track::Conveying conveying, double slope = 0.0) {
+    return {track::FeederType::bowl, 0.175, conveying, slope};
 }
 
 /// The same sections on another feeder.

@@ -101,7 +101,7 @@ part::Part makePart() {
 track::Track makeTrack() {
     Numbers next;
     track::Track track;
-    track.shape = {track::FeederType::bowl, next(), track::Conveying::anticlockwise};
+    track.shape = {track::FeederType::bowl, next(), track::Conveying::anticlockwise, next()};
     for (int i = 0; i < 4; ++i)
         track.sections.push_back({next(), {{next(), next()}, {next(), next()}}});
     track.firstTrapSection = 2;
@@ -218,7 +218,7 @@ bool same(const part::Part& a, const part::Part& b) {
 
 bool same(const track::Track& a, const track::Track& b) {
     return a.shape.type == b.shape.type && same(a.shape.bowlRadius, b.shape.bowlRadius) &&
-           a.shape.conveying == b.shape.conveying &&
+           a.shape.conveying == b.shape.conveying && same(a.shape.slope, b.shape.slope) &&
            allSame(a.sections, b.sections,
                    [](const track::CrossSection& x, const track::CrossSection& y) {
                        return same(x.x, y.x) && allSame(x.points, y.points, kSame);
@@ -398,8 +398,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 518, and this program "
-                         "knows version 6; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 519, and this program "
+                         "knows version 7; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

@@ -37,6 +37,23 @@ base::Quaternion inTrack(const track::Track& track, const trial::PartStart& star
     return base::Quaternion(track.shape.tangentFrame(track.start)).conjugate() * start.pose.rotation;
 }
 
+/// The highest of the surface's triangles at (x, y) of the room. [m]
+double heightAt(const track::Track& track, double x, double y) {
+    double highest = -1.0;
+    for (std::size_t t = 0; t < track.surfaceTriangles; ++t) {
+        const geometry::Triangle& triangle = track.solid.triangles[t];
+        const base::Vec3& a = track.solid.vertices[static_cast<std::size_t>(triangle[0])];
+        base::Mat3 sides;
+        sides.col(0) = track.solid.vertices[static_cast<std::size_t>(triangle[1])] - a;
+        sides.col(1) = track.solid.vertices[static_cast<std::size_t>(triangle[2])] - a;
+        sides.col(2) = base::Vec3::UnitZ();
+        const base::Vec3 place = sides.inverse() * (base::Vec3(x, y, 0.0) - a);
+        if (place.x() > -1e-9 && place.y() > -1e-9 && place.x() + place.y() < 1.0 + 1e-9)
+            highest = std::max(highest, -place.z());
+    }
+    return highest;
+}
+
 }  // namespace
 
 class StartTest : public QObject {
@@ -47,11 +64,26 @@ class StartTest : public QObject {
         QTest::newRow("linear") << 0;
         QTest::newRow("clockwise") << 1;
         QTest::newRow("anticlockwise") << 2;
+        QTest::newRow("linear, climbs") << 3;
+        QTest::newRow("clockwise, climbs") << 4;
+        QTest::newRow("anticlockwise, falls") << 5;
     }
     static track::FeederShape shapeOf(int index) {
-        if (index == 0) return {};
-        return {track::FeederType::bowl, 0.175,
-                index == 1 ? track::Conveying::clockwise : track::Conveying::anticlockwise};
+        constexpr double kSlope = 4.0 * base::kDegree;
+        switch (index) {
+            case 1:
+                return {track::FeederType::bowl, 0.175, track::Conveying::clockwise};
+            case 2:
+                return {track::FeederType::bowl, 0.175, track::Conveying::anticlockwise};
+            case 3:
+                return {track::FeederType::linear, 0.175, {}, kSlope};
+            case 4:
+                return {track::FeederType::bowl, 0.175, track::Conveying::clockwise, kSlope};
+            case 5:
+                return {track::FeederType::bowl, 0.175, track::Conveying::anticlockwise, -kSlope};
+            default:
+                return {};
+        }
     }
 
  private slots:
@@ -71,12 +103,36 @@ class StartTest : public QObject {
             QVERIFY(std::abs(place.x() - 60e-3) < 1e-12);
             QVERIFY(std::abs(place.y()) <= 2e-3 + 1e-12);
             double lowest = 1.0;
-            for (const auto& vertex : part.hull.vertices)
-                lowest = std::min(lowest, start.pose.apply(vertex).z());
-            QVERIFY(std::abs(lowest - 15e-3 - 1e-5) < 1e-12);
+            for (const auto& vertex : part.hull.vertices) {
+                const base::Vec3 corner = track.shape.toTrack(start.pose.apply(vertex), track.start);
+                lowest = std::min(lowest, corner.z());
+            }
+            // A climbing bowl's facets stand out of its helix: a quarter of their width (60 mm) times 5 deg.
+            const bool climbs = shape > 3;
+            const double facets = climbs ? 15e-3 * 5.0 * base::kDegree * std::tan(4.0 * base::kDegree) : 0.0;
+            QVERIFY(std::abs(lowest - 15e-3 - 1e-5 - facets) < 1e-12);
             QVERIFY(std::abs(start.pose.rotation.norm() - 1.0) < 1e-14);
             QVERIFY(trial.phase >= 0.0 && trial.phase < 2.0 * base::kPi);
             QCOMPARE(start.velocity, base::Vec3(base::Vec3::Zero()));
+        }
+    }
+
+    // Above the mesh itself, too: no corner is in the solid, and all lie near it.
+    void nothingIsInAClimbingTrack() {
+        for (const int shape : {4, 5}) {
+            const track::Track track = makeTrack(shapeOf(shape));
+            const part::Part part = makeCuboid();
+            trial::StartPolicy policy;
+            policy.nearPose = base::Quaternion::Identity();
+            for (std::uint32_t i = 0; i < 100; ++i) {
+                const auto start = trial::drawTrial(track, part, policy, keyOf(i)).parts[0];
+                double least = 1.0;
+                for (const auto& vertex : part.hull.vertices) {
+                    const base::Vec3 corner = start.pose.apply(vertex);
+                    least = std::min(least, corner.z() - heightAt(track, corner.x(), corner.y()));
+                }
+                QVERIFY2(least > 0.0 && least < 0.25e-3, qPrintable(QString::number(least)));
+            }
         }
     }
 

@@ -20,6 +20,16 @@ class VibrationTest : public QObject {
         const trial::Vibration fast{50.0, 0.8e-3, 12.0 * base::kDegree};
         QVERIFY(std::abs(trial::calcThrowNumber(fast) / trial::calcThrowNumber(slow) - 4.0) < 1e-12);
     }
+    // A linear feeder's vibration tilts with it; a bowl's is told from the level.
+    void aBowlsTrackClimbsTowardsTheVibration() {
+        const trial::Vibration drive{50.0, 0.8e-3, 12.0 * base::kDegree};
+        track::FeederShape shape;
+        shape.slope = 3.0 * base::kDegree;
+        QCOMPARE(trial::seenFromTrack(drive, shape).angle, drive.angle);
+        shape.type = track::FeederType::bowl;
+        QVERIFY(std::abs(trial::seenFromTrack(drive, shape).angle - 9.0 * base::kDegree) < 1e-15);
+        QCOMPARE(trial::seenFromTrack(drive, shape).halfStroke, drive.halfStroke);
+    }
     void stepsAreSharesOfThePeriod() {
         const auto longest = [](double frequency, double steps) {
             return trial::calcLongestStep({frequency, 0.8e-3, 0.2}, steps);

@@ -9,10 +9,11 @@ namespace {
 
 constexpr double kGravity = base::kStandardGravity;
 
-verify::ConveyingPrediction predict(double halfStroke, double friction = 0.5) {
+/// slope [deg]
+verify::ConveyingPrediction predict(double halfStroke, double friction = 0.5, double slope = 0.0) {
     trial::Vibration drive;
     drive.halfStroke = halfStroke;
-    return verify::predictConveying(drive, {friction, friction, 0.0}, kGravity);
+    return verify::predictConveying(drive, {friction, friction, 0.0}, kGravity, slope * base::kDegree);
 }
 
 }  // namespace
@@ -33,6 +34,26 @@ class PredictedSpeedTest : public QObject {
         const verify::ConveyingPrediction still = predict(0.02e-3);
         QCOMPARE(still.conveyance, verify::Conveyance::sticks);
         QVERIFY(std::abs(still.speed) < 1e-6);
+    }
+
+    void whatClimbsIsSlower() {
+        double before = predict(0.45e-3, 0.5, -6.0).speed;
+        for (const double slope : {-3.0, 0.0, 3.0, 6.0}) {
+            const double speed = predict(0.45e-3, 0.5, slope).speed;
+            QVERIFY(speed < before);
+            before = speed;
+        }
+        // Steep enough, a weak drive lets everything come back.
+        const verify::ConveyingPrediction back = predict(0.3e-3, 0.3, 10.0);
+        QVERIFY(back.speed < 0.0);
+        QCOMPARE(back.conveyance, verify::Conveyance::slides);
+    }
+
+    // Friction 0.2 holds up to 11.3 degrees.
+    void nothingStaysOnTooSteepASlope() {
+        QCOMPARE(predict(0.45e-3, 0.2, 11.0).conveyance, verify::Conveyance::slides);
+        for (const double slope : {12.0, -12.0})
+            QCOMPARE(predict(0.45e-3, 0.2, slope).conveyance, verify::Conveyance::slidesAway);
     }
 
     // No part is conveyed faster than the track moves along itself at its quickest.

@@ -13,7 +13,7 @@ constexpr double kGravity = base::kStandardGravity;
 
 /// The same by many small implicit steps: the point is pulled to the plane's speed by no more than friction
 /// can. Started far from the periodic motion, measured over the last of many periods.
-double stepStickSlip(const trial::Vibration& drive, double friction, double start) {
+double stepStickSlip(const trial::Vibration& drive, double friction, double start, double slope) {
     constexpr int kPeriods = 300;
     constexpr int kSteps = 40000;  // per period
     const double h = drive.period() / kSteps;
@@ -24,13 +24,16 @@ double stepStickSlip(const trial::Vibration& drive, double friction, double star
     std::vector<double> most;  // change of speed by friction
     for (int i = 0; i < kSteps; ++i) {
         plane.push_back(along * w * std::cos(w * h * (i + 1)));
-        most.push_back(friction * (kGravity - up * w * w * std::sin(w * h * (i + 0.5))) * h);
+        most.push_back(friction * (kGravity * std::cos(slope) - up * w * w * std::sin(w * h * (i + 0.5))) *
+                       h);
     }
+    const double back = kGravity * std::sin(slope) * h;
     double v = start;
     double last = 0.0;
     for (int p = 0; p < kPeriods; ++p) {
         last = 0.0;
         for (int i = 0; i < kSteps; ++i) {
+            v -= back;
             v += std::clamp(plane[i] - v, -most[i], most[i]);
             last += v * h;
         }
@@ -55,21 +58,26 @@ class StickSlipTest : public QObject {
         QTest::addColumn<double>("halfStroke");
         QTest::addColumn<double>("degrees");
         QTest::addColumn<double>("friction");
-        QTest::newRow("0.25 mm, 12 deg, 0.3") << 0.25e-3 << 12.0 << 0.3;
-        QTest::newRow("0.35 mm, 12 deg, 0.5") << 0.35e-3 << 12.0 << 0.5;
-        QTest::newRow("0.47 mm, 12 deg, 0.5") << 0.47e-3 << 12.0 << 0.5;
-        QTest::newRow("0.15 mm, 35 deg, 0.8") << 0.15e-3 << 35.0 << 0.8;
-        QTest::newRow("slides always: 0.45 mm, 10 deg, 0.05") << 0.45e-3 << 10.0 << 0.05;
+        QTest::addColumn<double>("slope");
+        QTest::newRow("0.25 mm, 12 deg, 0.3") << 0.25e-3 << 12.0 << 0.3 << 0.0;
+        QTest::newRow("0.35 mm, 12 deg, 0.5") << 0.35e-3 << 12.0 << 0.5 << 0.0;
+        QTest::newRow("0.47 mm, 12 deg, 0.5") << 0.47e-3 << 12.0 << 0.5 << 0.0;
+        QTest::newRow("0.15 mm, 35 deg, 0.8") << 0.15e-3 << 35.0 << 0.8 << 0.0;
+        QTest::newRow("slides always: 0.45 mm, 10 deg, 0.05") << 0.45e-3 << 10.0 << 0.05 << 0.0;
+        QTest::newRow("climbs by 3 deg: 0.35 mm, 12 deg, 0.5") << 0.35e-3 << 12.0 << 0.5 << 3.0;
+        QTest::newRow("falls by 3 deg: 0.25 mm, 12 deg, 0.3") << 0.25e-3 << 12.0 << 0.3 << -3.0;
+        QTest::newRow("falls by 10 deg: 0.15 mm, 30 deg, 0.4") << 0.15e-3 << 30.0 << 0.4 << -10.0;
     }
     void agreesWithSmallSteps() {
         QFETCH(double, halfStroke);
         QFETCH(double, degrees);
         QFETCH(double, friction);
+        QFETCH(double, slope);
         const trial::Vibration drive = makeDrive(halfStroke, degrees);
-        const double got = verify::calcStickSlipSpeed(drive, friction, kGravity);
+        const double got = verify::calcStickSlipSpeed(drive, friction, kGravity, slope * base::kDegree);
         QVERIFY(got > 1e-3);
         for (const double start : {-0.05, 0.2}) {
-            const double expected = stepStickSlip(drive, friction, start);
+            const double expected = stepStickSlip(drive, friction, start, slope * base::kDegree);
             // A step more or less before the slip turns shifts the mean by the last term.
             QVERIFY2(std::abs(got - expected) < 1e-3 * got + 2e-5,
                      qPrintable(QString("%1 instead of %2 m/s").arg(got).arg(expected)));

@@ -57,13 +57,16 @@ inline std::shared_ptr<const track::Track> makeLevelOn(const track::FeederShape&
 }
 
 /// The paper's cuboid on its 8 x 12 mm face on such a track: its centre at track coordinates (x, y), turned
-/// by `heading` out of the conveying direction.
+/// by `heading` out of the conveying direction. On a bowl that climbs it is let down from a tenth of a
+/// millimetre, as a helix is nowhere flat.
 inline trial::TrialBatch makeLyingOn(const track::FeederShape& shape, double heading, double duration) {
     const auto level = makeLevelOn(shape, 0.5);
     const base::Quaternion lying = base::Quaternion::FromTwoVectors(base::Vec3::UnitX(), base::Vec3::UnitZ());
     const base::Quaternion turn(Eigen::AngleAxisd(heading, base::Vec3::UnitZ()));
     const base::Quaternion frame(shape.tangentFrame(0.1));
-    const base::Pose pose{frame * turn * lying, shape.toRoom({0.1, 0.002, 0.017 + 1e-7})};
+    base::Pose pose{frame * turn * lying, shape.toRoom({0.1, 0.002, 0.017 + 1e-7})};
+    if (shape.type == track::FeederType::bowl && shape.slope != 0.0)
+        pose.position = shape.toRoom({0.1, 0.002, 0.015}) + 0.0021 * shape.tangentFrame(0.1).col(2);
     trial::TrialBatch batch = verify::makeStillScene(level, verify::makePaperCuboid(), pose, duration);
     batch.drive = {};
     return batch;

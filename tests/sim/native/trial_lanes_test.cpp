@@ -17,7 +17,7 @@ struct Scene {
     trial::TrialBatch batch = testing::makeRoughBatch(verify::makePaperCuboid(), 3, 40, 1.0);
     native::PackedBody body{contact::prepareBody(batch.parts.front()->pieces)};
     native::PackedTrack track{contact::prepareTrack(batch.track->solid)};
-    native::LaneModel model{*batch.parts.front(), body, batch.gravity, 2e-4, false};
+    native::LaneModel model{*batch.parts.front(), body, batch.gravityVector(), 2e-4, false};
 
     void add(TrialLanes& group, std::size_t trial) const { group.add(track, batch, batch.trials[trial]); }
 };

@@ -73,7 +73,7 @@ class CertifyingTest : public QObject {
         simbody::CertifyingTrial running(
             {&scene.track, &scene.body, batch.track->shape, batch.drive, phase,
              batch.parts.front()->massProperties.mass, batch.parts.front()->massProperties.inertia,
-             batch.gravity, batch.contact},
+             batch.gravityVector(), batch.contact},
             start, {Vec3(0.1, 0.2, 0.3), Vec3(3.0, -2.0, 5.0)});
         const contact::DriveMotion drive(batch.drive, batch.track->shape, phase);
         for (int i = 0; i <= 40; ++i) {

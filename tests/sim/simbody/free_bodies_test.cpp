@@ -18,7 +18,7 @@ constexpr double kStep = 2e-4;
 
 FreeBodies makeBodies(int count, double gravity = base::kStandardGravity) {
     const auto cuboid = verify::makePaperCuboid();
-    return {cuboid->massProperties.mass, cuboid->massProperties.inertia, gravity, count};
+    return {cuboid->massProperties.mass, cuboid->massProperties.inertia, {0.0, 0.0, -gravity}, count};
 }
 
 /// One step in which nothing touches.

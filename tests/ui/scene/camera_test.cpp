@@ -3,6 +3,8 @@
 #include <QTest>
 #include <random>
 
+#include "core/track/feeder_shape.h"
+
 using namespace trapwright;
 using base::Vec3;
 using scene::Camera;
@@ -35,6 +37,23 @@ class CameraTest : public QObject {
             QVERIFY(std::abs(camera.forward().norm() - 1.0) < 1e-12);
             QVERIFY(camera.up().z() >= 0.0);  // upright
         }
+    }
+
+    // On a feeder that climbs by 10 degrees what is plumb there is upright on the screen, and the track's
+    // x axis climbs by as much in the view from the front.
+    void whatIsPlumbIsUpright() {
+        track::FeederShape shape;
+        shape.slope = 10.0 * base::kDegree;
+        Camera camera;
+        camera.tilt = shape.slope;
+        QVERIFY((camera.right().cross(camera.up()) + camera.forward()).norm() < 1e-12);
+        QVERIFY(std::abs(camera.right().dot(shape.down())) < 1e-12);
+        camera = turnedTo(camera, StandardView::front);
+        QVERIFY((camera.up() + shape.down()).norm() < 1e-12);
+        const auto middle = *camera.project(camera.focus, screen_);
+        const auto ahead = *camera.project(camera.focus + 0.05 * Vec3::UnitX(), screen_);
+        const double climb = std::atan2(middle.y() - ahead.y(), ahead.x() - middle.x());
+        QVERIFY2(std::abs(climb - shape.slope) < 1e-9, qPrintable(QString::number(climb)));
     }
 
     void focusIsInTheMiddle() {
