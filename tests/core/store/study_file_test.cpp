@@ -180,7 +180,7 @@ class StudyFileTest : public QObject {
     void keepsStreams() {
         study::StreamsRecord record{{3, 5}, "native", study::Settings().box, {}};
         record.streams.results = {
-            {30.0, 60.0, {{9, 8, 7, 1, 0, 1, 1, 0.5}, {1, 1, 1, 0, 0, 0, 0, 0.0}}, 4.0, 2.0, 1.0}};
+            {30.0, 60.0, {{9, 8, 7, 1, 2, 0, 1, 1, 0.5}, {1, 1, 1, 0, 0, 0, 0, 0, 0.0}}, 4.0, 2.0, 1.0}};
         auto study = StudyFile::create(path_, sample::settings(), sample::part(), sample::kProgram);
         VERIFY_OK(study);
         QVERIFY(study->loadStreams().value().empty());
