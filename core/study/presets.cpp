@@ -147,7 +147,8 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     evolution.search = search::Method::genetic;
     evolution.objectives = "F_C, purity, success";
     evolution.firstGeneration = search::ga::FirstGeneration::graded;
-    // Few numbers are looked for, and one wrong part in a hundred is to be seen.
+    // Few numbers are looked for, of a hundred bits at most, and one wrong part in a hundred is to be seen.
+    evolution.staticMutation = 0.02;
     evolution.populationSize = 50;
     evolution.trialsPerEvaluation = 400;
     evolution.racingTrials = 50;
