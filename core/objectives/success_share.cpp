@@ -166,6 +166,9 @@ Objective purity() {
         "how many parts are tried. Higher is better.";
     objective.decimals = 2;
     objective.usesTolerance = true;
+    objective.applies = [](const Evaluation& evaluation) {
+        return evaluation.returns != trial::Returns::nowhere;
+    };
     objective.measure = &measurePurity;
     return objective;
 }

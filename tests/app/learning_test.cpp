@@ -195,10 +195,10 @@ class LearningTest : public QObject {
             const QJsonObject generation = value.toObject();
             const qsizetype line = 8 * generation["generation"].toInt() + generation["winner"].toInt();
             const QList<QByteArray> fields = dump[line].split(' ');
-            QCOMPARE(fields.size(), 32);  // ten scores with their errors
+            QCOMPARE(fields.size(), 30);  // nine scores with their errors
             const QJsonObject success = generation["success"].toObject();
-            QCOMPARE(success["count"].toInt(-1), fields[31].toInt());
-            QCOMPARE(success["share"].toDouble(-1.0), fields[31].toDouble() / fields[27].toDouble());
+            QCOMPARE(success["count"].toInt(-1), fields[29].toInt());
+            QCOMPARE(success["share"].toDouble(-1.0), fields[29].toDouble() / fields[25].toDouble());
             QVERIFY(success["low"].toDouble() <= success["share"].toDouble());
             QCOMPARE(success["bounds"].toString(), "95 % Clopper-Pearson");
             const double top = generation["top_30_percent_success"].toDouble(-1.0);

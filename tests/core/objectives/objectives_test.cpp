@@ -52,7 +52,8 @@ struct Judge {
 
 /// In all of these trials' scores, without being named in F.
 bool isScored(const objectives::Objective& objective) {
-    return !objective.needsWanted && objective.key != "F_P" && objective.key != objectives::kThroughput;
+    return !objective.needsWanted && objective.key != "F_P" && objective.key != objectives::kThroughput &&
+           objective.key != objectives::kPurity;
 }
 
 Outcome finishedAfter(double way, double seconds, const base::Quaternion& rotation) {
@@ -368,8 +369,23 @@ class ObjectivesTest : public QObject {
         evaluation.returns = returns ? trial::Returns::innerSide : trial::Returns::nowhere;
         for (Outcome& outcome : outcomes)
             outcome.parts[0].farthest.position.y() = -25e-3;
-        const double nines = scoreOf(objectives::measureAll(evaluation, paperObjectives()), "purity");
+        const auto sum = objectives::readObjectives("purity").value();
+        const double nines = objectives::measureAll(evaluation, sum).total;
         QVERIFY2(std::abs(nines + std::log10(share)) < 1e-9, qPrintable(QString::number(nines)));
+    }
+
+    // Of studies whose parts do not come again it says nothing.
+    void purityIsOfPartsThatComeAgain() {
+        const Judge judge;
+        const std::vector outcomes(4, finishedAfter(104e-3, 2.0, base::Quaternion::Identity()));
+        Evaluation evaluation = judge.evaluation(outcomes);
+        const auto isMeasured = [&] {
+            return objectives::findScore(objectives::measureAll(evaluation, paperObjectives()), "purity") !=
+                   nullptr;
+        };
+        QVERIFY(!isMeasured());
+        evaluation.returns = trial::Returns::innerSide;
+        QVERIFY(isMeasured());
     }
 
     void throughputIsOfStreamsAlone() {
@@ -603,7 +619,7 @@ class ObjectivesTest : public QObject {
         const Fitness all = objectives::measureOthers(judge.evaluation(outcomes), some);
         QCOMPARE(all.total, 1.0);
         QCOMPARE(all.scores.size(),
-                 objectives::allObjectives().size() - 3);  // all but F_W, F_P and throughput
+                 objectives::allObjectives().size() - 4);  // all but F_W, F_P, purity and throughput
         QVERIFY(all == objectives::measureAll(judge.evaluation(outcomes), *list));
         const Fitness errors{0.0, {{"F_D", 1.0, 3.0}, {"success", 1.0, 4.0}, {"F_O", 1.0, 9.0}}};
         QCOMPARE(objectives::calcTotalError(errors, *list), 5.0);
