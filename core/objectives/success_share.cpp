@@ -165,6 +165,7 @@ Objective purity() {
         "How few of the parts that do not come again are wrong: 2 are 99 % right, 3 are 99.9 %. Limited by "
         "how many parts are tried. Higher is better.";
     objective.decimals = 2;
+    objective.isDetail = true;
     objective.usesTolerance = true;
     objective.applies = [](const Evaluation& evaluation) {
         return evaluation.returns != trial::Returns::nowhere;
@@ -180,6 +181,7 @@ Objective throughput() {
     objective.name = "Throughput";
     objective.help =
         "Parts of streams that leave the track as wanted, of those that come to it. Higher is better.";
+    objective.isDetail = true;
     objective.isSuccess = false;
     objective.applies = [](const Evaluation& evaluation) { return evaluation.streams.has_value(); };
     objective.measure = &measureThroughput;
