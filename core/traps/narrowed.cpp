@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace trapwright::traps {
 
@@ -33,43 +35,66 @@ std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
     return dimensions;
 }
 
-/// The section between these two y, with as many points, as far apart in proportion, inclined.
+/// A section as it is, or what is left of it.
+struct Left {
+    double inner = 0.0;  // from this y ...
+    double outer = 0.0;  // ... to that
+    bool isWhole = true;
+};
+
+/// The section, or what is left of it with as many points, as far apart in proportion; inclined. One that
+/// goes back across the track somewhere is cut where it is met first, into points at equal distances.
 track::CrossSection shape(const TrapParameters& parameters, const track::CrossSection& whole, double x,
-                          double inner, double outer, double slope) {
-    const double first = whole.points.front().x();
-    const double last = whole.points.back().x();
+                          const Left& left, double slope) {
+    const std::vector<base::Vec2>& points = whole.points;
+    const bool isFunction =
+        std::ranges::is_sorted(points, std::less_equal(), [](const base::Vec2& point) { return point.x(); });
+    const double first = points.front().x();
+    const double last = points.back().x();
     track::CrossSection section{x, {}};
-    const bool isWhole = inner == first && outer == last;
-    for (const base::Vec2& point : whole.points) {
-        const double y = isWhole ? point.x() : within(inner, outer, (point.x() - first) / (last - first));
-        const double z = isWhole ? point.y() : heightAt(whole, y);
-        section.points.emplace_back(y, std::clamp(z + slope * y, 0.0, parameters.segmentHeight));
+    for (std::size_t j = 0; j < points.size(); ++j) {
+        base::Vec2 point = points[j];
+        if (!left.isWhole) {
+            const double share = isFunction ? (point.x() - first) / (last - first)
+                                            : static_cast<double>(j) / static_cast<double>(points.size() - 1);
+            point.x() = within(left.inner, left.outer, share);
+            point.y() = heightAt(whole, point.x());
+        }
+        point.y() = std::clamp(point.y() + slope * point.x(), 0.0, parameters.segmentHeight);
+        section.points.push_back(point);
     }
     return section;
+}
+
+/// What is left of a section that is cut from both edges by so much, or less where nothing would be left.
+Left cutAway(const track::CrossSection& whole, double inner, double outer) {
+    const auto [low, high] =
+        std::ranges::minmax(whole.points, {}, [](const base::Vec2& point) { return point.x(); });
+    const double least = kNarrowest * (high.x() - low.x());
+    Left left{low.x() + std::max(0.0, inner), high.x() - std::max(0.0, outer),
+              (inner <= 0.0 && outer <= 0.0) || least <= 0.0};
+    if (left.outer - left.inner < least) {
+        const double middle =
+            std::clamp(std::midpoint(left.inner, left.outer), low.x() + 0.5 * least, high.x() - 0.5 * least);
+        left.inner = middle - 0.5 * least;
+        left.outer = middle + 0.5 * least;
+    }
+    return left;
 }
 
 std::vector<track::CrossSection> buildNarrowed(const TrapParameters& parameters,
                                                const track::CrossSection& before,
                                                std::span<const double> numbers) {
     const double deepest = kDeepest * parameters.segmentWidth;
-    const double inner = before.points.front().x();
-    const double outer = before.points.back().x();
-    double left = inner + std::max(0.0, within(-deepest, deepest, numbers[1]));
-    double right = outer - std::max(0.0, within(-deepest, deepest, numbers[2]));
-    // Both cuts meet where nothing would be left.
-    const double least = kNarrowest * (outer - inner);
-    if (right - left < least) {
-        const double middle = std::clamp(0.5 * (left + right), inner + 0.5 * least, outer - 0.5 * least);
-        left = middle - 0.5 * least;
-        right = middle + 0.5 * least;
-    }
+    const Left whole;
+    const Left left =
+        cutAway(before, within(-deepest, deepest, numbers[1]), within(-deepest, deepest, numbers[2]));
     const double slope = -std::tan(within(-kMostInclined, kMostInclined, numbers[4]));
     const double begin = within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[0]);
     const double end = begin + kEdge + within(kEdge, parameters.maxSegmentLength, numbers[3]);
-    return {shape(parameters, before, begin, inner, outer, slope),
-            shape(parameters, before, begin + kEdge, left, right, slope),
-            shape(parameters, before, end, left, right, slope),
-            shape(parameters, before, end + kEdge, inner, outer, slope)};
+    return {
+        shape(parameters, before, begin, whole, slope), shape(parameters, before, begin + kEdge, left, slope),
+        shape(parameters, before, end, left, slope), shape(parameters, before, end + kEdge, whole, slope)};
 }
 
 std::vector<double> layOutNarrowed(const TrapParameters& parameters) {

@@ -288,6 +288,28 @@ class TrapKindsTest : public QObject {
         QVERIFY(std::abs(least[1].points.back().x() - 1.5e-3) < 1e-12);
     }
 
+    // Points anywhere make sections that go back across the track; also of those something is left.
+    void aNarrowedTrackFollowsAnySection() {
+        TrapParameters parameters;
+        parameters.encoding = traps::PointEncoding::free;
+        const auto chain = traps::readTraps("free-form, narrowed").value();
+        const search::DesignSpace space = traps::designSpace(chain, parameters);
+        for (std::uint64_t seed = 0; seed < 50; ++seed) {
+            const auto sections = traps::build(chain, parameters, drawDesign(space, seed));
+            for (const track::CrossSection& section : sections) {
+                QCOMPARE(section.points.size(), std::size_t{8});
+                for (const base::Vec2& point : section.points)
+                    QVERIFY(std::abs(point.x()) <= 30e-3 + 1e-15 && point.y() >= 0.0 && point.y() <= 30e-3);
+            }
+            QVERIFY(track::buildTrack({}, sections).ok());
+        }
+        const track::CrossSection upright{0.0, std::vector(8, base::Vec2(5e-3, 5e-3))};
+        const auto cut =
+            traps::narrowed().build(parameters, upright, std::vector<double>{0.5, 1.0, 1.0, 0.5, 0.5});
+        for (const track::CrossSection& section : cut)
+            QVERIFY(section.points == upright.points);
+    }
+
     void chainsAreReadFromText() {
         const auto chain = traps::readTraps(" step,free-form ");
         QVERIFY(chain.ok());
