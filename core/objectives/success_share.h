@@ -38,8 +38,8 @@ Objective sorting();
 inline constexpr double kBitsOfHalving = 1.0 / 6.0;
 
 /// For tracks behind whose end nothing may be wrong, in nines: minus the decimal logarithm of the share of
-/// wrong parts among those that neither finish as wanted nor come again, by Laplace's rule of succession
-/// ((wrong + 1) / (all + 2)), so that with none wrong more parts that arrive are more certainty. What gets
+/// wrong parts among those that do not come again, by Laplace's rule of succession ((wrong + 1) / (all + 2)),
+/// so that with none wrong more parts that arrive are more certainty. What gets
 /// stuck or is lost counts as wrong.
 Objective purity();
 

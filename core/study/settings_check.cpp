@@ -8,6 +8,7 @@
 #include "core/study/pose_weights.h"
 #include "core/study/settings.h"
 #include "core/study/settings_fields.h"
+#include "core/study/stream.h"
 #include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/traps/trap_chain.h"
@@ -176,6 +177,12 @@ std::vector<std::string> findProblems(const Settings& settings) {
     if (isPlanned(evolution)) {
         if (const std::string problem = findPlanningProblem(settings.track); !problem.empty())
             problems.push_back("evolution.firstGeneration is planned. " + problem);
+    }
+    // Learning sends streams at this inflow where throughput counts.
+    if (evolution.populationSize > 0 && objectives::readObjectives(evolution.objectives) &&
+        countStreamed(evolution) > 0) {
+        const std::vector<std::string> stream = findStreamProblems(settings, settings.stream.partsPerMinute);
+        problems.insert(problems.end(), stream.begin(), stream.end());
     }
     const trial::ContactParameters& contact = settings.simulation.contact;
     if (contact.kineticFriction > contact.staticFriction) {

@@ -447,11 +447,8 @@ std::string formatStreams(const Streams& streams) {
     }
     text += fmt::format(
         "In brackets: 95 %, over {} streams of {:g} s each after {:g} s of warm-up. Share as wanted: of "
-        "those "
-        "that arrive; of all: of those that leave the track in any way, with what falls back and comes "
-        "again. "
-        "Jammed: nobody arrives, and all on the track or two of them stand still. Full: more comes than gets "
-        "on.\n",
+        "those that arrive; of all: of those that leave the track in any way, with what comes again. Jammed: "
+        "nobody arrives, and all on the track or two of them stand still. Full: more comes than gets on.\n",
         streams.settings.streams, streams.settings.duration, streams.settings.warmUp);
     return text;
 }

@@ -115,6 +115,19 @@ class SettingsCheckTest : public QObject {
     }
 
     // What the presets were before there was a library, to the last bit.
+    // More parts than a stream can have are a problem where learning sends streams.
+    void streamsOfLearningMustFit() {
+        study::Settings s = study::presetSettings("cuboid").value();
+        s.stream.partsPerMinute = 5000.0;
+        QVERIFY(study::findProblems(s).empty());
+        s.evolution.objectives = "F_C, throughput";
+        const auto problems = study::findProblems(s);
+        QCOMPARE(problems.size(), std::size_t{1});
+        QVERIFY(problems[0].find("no more than 3600 can") != std::string::npos);
+        s.evolution.streamShare = 0.0;
+        QVERIFY(study::findProblems(s).empty());
+    }
+
     void presetsTakeTheirPairs_data() {
         QTest::addColumn<QString>("preset");
         QTest::addColumn<QString>("pair");
