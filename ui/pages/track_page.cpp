@@ -160,8 +160,7 @@ QWidget* TrackPage::makeHead() {
     behind->setObjectName("track.forkBehind");
     behind->setToolTip(
         tr("The chosen track stays as it is, and narrowed tracks are learned behind it that throw out what "
-           "still lies "
-           "wrong, so that it comes again: few parts a minute less, and hardly any wrong one"));
+           "still lies wrong, so that it comes again: fewer wrong ones, at the price of parts a minute"));
     // One or the other, or neither.
     connect(withTracks, &QCheckBox::toggled, behind, [behind](bool on) {
         if (on) behind->setChecked(false);
