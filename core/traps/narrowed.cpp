@@ -13,6 +13,10 @@ constexpr double kEdge = 0.5e-3;                        // along the track, of t
 constexpr double kMostInclined = 20.0 * base::kDegree;  // across the track
 constexpr double kDeepest = 2.0 / 3.0;                  // of the track's width, from either edge
 constexpr double kNarrowest = 0.05;                     // what is left of it at least, as a share
+constexpr double kSteepestRise = 6.0 * base::kDegree;   // along the track, before a notch
+constexpr double kSteepestFall = 15.0 * base::kDegree;
+constexpr double kHighestStep = 1.0 / 3.0;  // of the box's height, behind a notch
+constexpr double kLongestSlant = 0.5;       // of the longest segment: a notch's ends
 constexpr int kBits = 7;
 
 double within(double low, double high, double share) {
@@ -42,10 +46,9 @@ struct Left {
     bool isWhole = true;
 };
 
-/// The section, or what is left of it with as many points, as far apart in proportion; inclined. One that
-/// goes back across the track somewhere is cut where it is met first, into points at equal distances.
-track::CrossSection shape(const TrapParameters& parameters, const track::CrossSection& whole, double x,
-                          const Left& left, double slope) {
+/// The section, or what is left of it with as many points, as far apart in proportion. One that goes back
+/// across the track somewhere is cut where it is met first, into points at equal distances.
+track::CrossSection cut(const track::CrossSection& whole, double x, const Left& left) {
     const std::vector<base::Vec2>& points = whole.points;
     const bool isFunction =
         std::ranges::is_sorted(points, std::less_equal(), [](const base::Vec2& point) { return point.x(); });
@@ -60,9 +63,26 @@ track::CrossSection shape(const TrapParameters& parameters, const track::CrossSe
             point.x() = within(left.inner, left.outer, share);
             point.y() = heightAt(whole, point.x());
         }
-        point.y() = std::clamp(point.y() + slope * point.x(), 0.0, parameters.segmentHeight);
         section.points.push_back(point);
     }
+    return section;
+}
+
+/// Turned about the track's middle line; what would leave the segment's box is cut off at it.
+track::CrossSection incline(const TrapParameters& parameters, track::CrossSection section, double slope) {
+    for (base::Vec2& point : section.points)
+        point.y() = std::clamp(point.y() + slope * point.x(), 0.0, parameters.segmentHeight);
+    return section;
+}
+
+/// Raised, or lowered where `height` is negative, as far as that leaves all of it in the segment's box.
+track::CrossSection raise(const TrapParameters& parameters, track::CrossSection section, double height) {
+    const auto [low, high] =
+        std::ranges::minmax(section.points, {}, [](const base::Vec2& point) { return point.y(); });
+    const double room = std::max(0.0, parameters.segmentHeight - high.y());
+    const double raised = std::clamp(height, -std::max(0.0, low.y()), room);
+    for (base::Vec2& point : section.points)
+        point.y() += raised;
     return section;
 }
 
@@ -82,6 +102,10 @@ Left cutAway(const track::CrossSection& whole, double inner, double outer) {
     return left;
 }
 
+double slopeOf(double inclination) {
+    return -std::tan(within(-kMostInclined, kMostInclined, inclination));
+}
+
 std::vector<track::CrossSection> buildNarrowed(const TrapParameters& parameters,
                                                const track::CrossSection& before,
                                                std::span<const double> numbers) {
@@ -89,12 +113,13 @@ std::vector<track::CrossSection> buildNarrowed(const TrapParameters& parameters,
     const Left whole;
     const Left left =
         cutAway(before, within(-deepest, deepest, numbers[1]), within(-deepest, deepest, numbers[2]));
-    const double slope = -std::tan(within(-kMostInclined, kMostInclined, numbers[4]));
+    const double slope = slopeOf(numbers[4]);
     const double begin = within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[0]);
     const double end = begin + kEdge + within(kEdge, parameters.maxSegmentLength, numbers[3]);
-    return {
-        shape(parameters, before, begin, whole, slope), shape(parameters, before, begin + kEdge, left, slope),
-        shape(parameters, before, end, left, slope), shape(parameters, before, end + kEdge, whole, slope)};
+    const auto shape = [&](double x, const Left& part) {
+        return incline(parameters, cut(before, x, part), slope);
+    };
+    return {shape(begin, whole), shape(begin + kEdge, left), shape(end, left), shape(end + kEdge, whole)};
 }
 
 std::vector<double> layOutNarrowed(const TrapParameters& parameters) {
@@ -105,6 +130,65 @@ std::vector<double> layOutNarrowed(const TrapParameters& parameters) {
 
 double longestNarrowed(const TrapParameters& parameters) {
     return 2.0 * parameters.maxSegmentLength + 2.0 * kEdge;
+}
+
+std::vector<search::Dimension> dimensionsOfNotched(const TrapParameters& parameters) {
+    constexpr double kMillimetres = 1.0 / base::kMillimetre;
+    const double deepest = kMillimetres * parameters.segmentWidth;
+    const double highest = kMillimetres * kHighestStep * parameters.segmentHeight;
+    const double shortest = kMillimetres * kEdge;
+    const double longest = kMillimetres * parameters.maxSegmentLength;
+    const double steepest = kMostInclined / base::kDegree;
+    std::vector<search::Dimension> dimensions = {
+        {"before, length", "mm", kMillimetres * parameters.minSegmentLength, longest, kBits},
+        {"before, fall", "deg", -kSteepestRise / base::kDegree, kSteepestFall / base::kDegree, kBits},
+        {"depth", "mm", -deepest, deepest, kBits},
+        {"beginning", "mm", shortest, kLongestSlant * longest, kBits},
+        {"length", "mm", shortest, longest, kBits},
+        {"end", "mm", shortest, kLongestSlant * longest, kBits},
+        {"step", "mm", -highest, highest, kBits},
+        {"inclination", "deg", -steepest, steepest, kBits}};
+    for (const std::size_t relief : {1, 2, 6, 7})
+        dimensions[relief].isRelief = true;
+    return dimensions;
+}
+
+std::vector<track::CrossSection> buildNotched(const TrapParameters& parameters,
+                                              const track::CrossSection& before,
+                                              std::span<const double> numbers) {
+    const double longest = parameters.maxSegmentLength;
+    const double length = within(parameters.minSegmentLength, longest, numbers[0]);
+    const double fall = length * std::tan(within(-kSteepestRise, kSteepestFall, numbers[1]));
+    const double depth = within(-parameters.segmentWidth, parameters.segmentWidth, numbers[2]);
+    const double highest = kHighestStep * parameters.segmentHeight;
+    const double step = within(-highest, highest, numbers[6]);
+    const auto edge = [&](double number) { return within(kEdge, kLongestSlant * longest, number); };
+
+    const track::CrossSection entry =
+        raise(parameters, incline(parameters, before, slopeOf(numbers[7])), -fall);
+    const track::CrossSection lower = raise(parameters, entry, -std::abs(step));
+    const track::CrossSection& bridge = step < 0.0 ? lower : entry;
+    const Left whole;
+    const Left left = cutAway(before, std::max(0.0, -depth), std::max(0.0, depth));
+    double x = length;
+    std::vector<track::CrossSection> sections{cut(entry, x, whole)};
+    sections.push_back(cut(bridge, x += edge(numbers[3]), left));
+    sections.push_back(cut(bridge, x += within(kEdge, longest, numbers[4]), left));
+    sections.push_back(cut(lower, x += edge(numbers[5]), whole));
+    return sections;
+}
+
+std::vector<double> layOutNotched(const TrapParameters& parameters) {
+    const double longest = parameters.maxSegmentLength;
+    std::vector<double> places{within(parameters.minSegmentLength, longest, 0.5)};
+    for (const double next : {within(kEdge, kLongestSlant * longest, 0.5), within(kEdge, longest, 0.5),
+                              within(kEdge, kLongestSlant * longest, 0.5)})
+        places.push_back(places.back() + next);
+    return places;
+}
+
+double longestNotched(const TrapParameters& parameters) {
+    return (2.0 + 2.0 * kLongestSlant) * parameters.maxSegmentLength;
 }
 
 }  // namespace
@@ -130,6 +214,16 @@ TrapKind narrowed() {
             &buildNarrowed,
             &layOutNarrowed,
             &longestNarrowed};
+}
+
+TrapKind notched() {
+    return {"notched",
+            "Notched track",
+            "What comes before goes on, with a notch across it and a step: tells a part's two ends apart.",
+            &dimensionsOfNotched,
+            &buildNotched,
+            &layOutNotched,
+            &longestNotched};
 }
 
 }  // namespace trapwright::traps

@@ -51,8 +51,8 @@ Repeated readRepeated(std::string_view word) {
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 7> kinds = {freeForm(), step(), groove(),  drop(),
-                                                  cutOut(),   gap(),  narrowed()};
+    static const std::array<TrapKind, 8> kinds = {freeForm(), step(), groove(),   drop(),
+                                                  cutOut(),   gap(),  narrowed(), notched()};
     return kinds;
 }
 

@@ -39,8 +39,8 @@ class TrapKindsTest : public QObject {
         QTest::addColumn<QString>("chain");
         for (const traps::TrapKind& kind : traps::trapKinds())
             QTest::newRow(kind.key.data()) << QString::fromUtf8(kind.key.data());
-        QTest::newRow("several")
-            << "step, free-form,step, groove, drop,drop, cut-out, narrowed, cut-out, gap, narrowed";
+        QTest::newRow("several") << "step, free-form,step, groove, drop,drop, cut-out, narrowed, cut-out, "
+                                    "gap, narrowed, notched, 2 x notched";
     }
     void everyKindGivesATrack() {
         QFETCH(QString, chain);
@@ -286,6 +286,44 @@ class TrapKindsTest : public QObject {
         const auto least = narrowed.build(parameters, before, std::vector<double>{0.5, 1.0, 1.0, 0.5, 0.5});
         QVERIFY(std::abs(least[1].points.front().x() + 1.5e-3) < 1e-12);
         QVERIFY(std::abs(least[1].points.back().x() - 1.5e-3) < 1e-12);
+    }
+
+    void aNotchedTrackIsWhatItsNumbersSay() {
+        const traps::TrapKind notched = traps::notched();
+        const TrapParameters parameters;
+        track::CrossSection before{0.0, {}};
+        for (int j = 0; j < 8; ++j)
+            before.points.emplace_back(60e-3 * (j / 7.0 - 0.5), 10e-3 + 1e-3 * (j % 3));
+        // Falls by 4.5 degrees, notched by 45 mm from the outer edge, 5 mm lower behind it, not inclined.
+        const auto upright =
+            notched.build(parameters, before, std::vector<double>{0.5, 0.5, 0.875, 0.0, 0.5, 1.0, 0.75, 0.5});
+        QCOMPARE(upright.size(), std::size_t{4});
+        const double begin = 0.5 * (15e-3 + 36e-3);
+        const double fall = begin * std::tan(4.5 * base::kDegree);
+        const std::array<double, 4> xs = {begin, begin + 0.5e-3, begin + 0.5e-3 + 18.25e-3,
+                                          begin + 0.5e-3 + 18.25e-3 + 18e-3};
+        for (std::size_t i = 0; i < 4; ++i) {
+            QVERIFY(std::abs(upright[i].x - xs[i]) < 1e-12);
+            const bool isCut = i == 1 || i == 2;
+            QVERIFY(std::abs(upright[i].points.front().x() + 30e-3) < 1e-12);
+            QVERIFY(std::abs(upright[i].points.back().x() - (isCut ? -15e-3 : 30e-3)) < 1e-12);
+            const double lower = fall + (i == 3 ? 5e-3 : 0.0);
+            for (const base::Vec2& point : upright[i].points)
+                QVERIFY(std::abs(point.y() - traps::heightAt(before, point.x()) + lower) < 1e-12);
+        }
+        // Notched from the inner edge, the step at the beginning, deeper than there is room for.
+        const auto early =
+            notched.build(parameters, before, std::vector<double>{0.5, 0.5, 0.125, 0.5, 0.5, 0.5, 0.0, 0.5});
+        QVERIFY(std::abs(early[1].points.front().x() - 15e-3) < 1e-12);
+        QVERIFY(std::abs(early[3].points.front().y()) < 1e-12);
+        for (std::size_t j = 0; j < 8; ++j)
+            QVERIFY(std::abs(early[3].points[j].y() - before.points[j].y() + 10e-3) < 1e-12);
+        QVERIFY(std::abs(early[1].points.back().y() - early[3].points.back().y()) < 1e-12);
+        // A narrow bridge is left of a notch across the whole width.
+        const auto whole =
+            notched.build(parameters, before, std::vector<double>{0.5, 0.5, 1.0, 0.5, 0.5, 0.5, 0.5, 0.5});
+        QVERIFY(std::abs(whole[1].points.front().x() + 30e-3) < 1e-12);
+        QVERIFY(std::abs(whole[1].points.back().x() + 27e-3) < 1e-12);
     }
 
     // Points anywhere make sections that go back across the track; also of those something is left.
