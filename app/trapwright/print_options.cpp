@@ -75,7 +75,8 @@ void addPrintOptions(Command command, PrintRequest& request) {
         command.addOption(name, value, help).type("MM").group(kGroup);
     };
     add("--base-thickness", request.baseThickness, "Below the lowest valley (default: the study's)");
-    add("--wall-height", request.wallHeight, "Of both side walls, above the highest hill (0: no walls)");
+    add("--wall-height", request.wallHeight,
+        "Of both side walls, above the highest hill (0: those that the track has)");
     add("--wall-thickness", request.wallThickness, "Of the side walls, at least (2)");
     command
         .addFlag(

@@ -95,6 +95,10 @@ std::vector<Score> listAttainable(const Task& task) {
     return scores;
 }
 
+bool contains(const ObjectiveList& list, std::string_view key) {
+    return std::ranges::find(list, key, &Objective::key) != list.end();
+}
+
 double calcTotal(std::span<const Score> scores, const ObjectiveList& summed) {
     double total = 0.0;
     bool isFirst = true;

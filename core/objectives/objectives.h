@@ -39,6 +39,8 @@ inline constexpr std::string_view kThroughput = "throughput";
 /// Objectives by their keys, commas between them. An error that names what there is not, what is named twice,
 /// and what there is.
 base::Result<ObjectiveList> readObjectives(std::string_view text);
+/// Whether the objective of that key is one of them.
+bool contains(const ObjectiveList& list, std::string_view key);
 /// "F_C + F_D + F_O"
 std::string describeSum(const ObjectiveList& objectives);
 

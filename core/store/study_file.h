@@ -104,6 +104,10 @@ class StudyFile {
     [[nodiscard]] base::Result<study::IndividualRecord> loadIndividual(const study::IndividualId& id) const;
     /// Winner, curves and time of every generation from `first` on: all that a chart needs.
     [[nodiscard]] base::Result<std::vector<study::GenerationSummary>> loadSummaries(int first = 0) const;
+    /// Two scores of every individual that was simulated and has both, by generation and individual; of the
+    /// objectives with these keys. No key need be known.
+    [[nodiscard]] base::Result<std::vector<study::ScorePair>> loadScorePairs(const std::string& first,
+                                                                             const std::string& second) const;
     /// The winner of every generation, in their order.
     [[nodiscard]] base::Result<std::vector<study::Individual>> loadWinners() const;
 

@@ -329,6 +329,30 @@ base::Result<std::vector<study::GenerationSummary>> StudyFile::loadSummaries(int
                    });
 }
 
+base::Result<std::vector<study::ScorePair>> StudyFile::loadScorePairs(const std::string& first,
+                                                                      const std::string& second) const {
+    using Pairs = std::vector<study::ScorePair>;
+    return guarded(path(), "The scores could not be read", [&]() -> base::Result<Pairs> {
+        SQLite::Statement query(
+            *state_->database,
+            "SELECT individual.generation, individual.number, individual.trials, a.value, b.value "
+            "FROM individual "
+            "JOIN score a ON a.generation = individual.generation AND a.individual = individual.number "
+            "AND a.objective = (SELECT place FROM objective WHERE key = ?) "
+            "JOIN score b ON b.generation = individual.generation AND b.individual = individual.number "
+            "AND b.objective = (SELECT place FROM objective WHERE key = ?) "
+            "WHERE individual.trials > 0 ORDER BY individual.generation, individual.number");
+        SQLite::bind(query, first, second);
+        Pairs pairs;
+        while (query.executeStep())
+            pairs.push_back({{query.getColumn(0).getInt(), query.getColumn(1).getInt()},
+                             query.getColumn(2).getInt(),
+                             query.getColumn(3).getDouble(),
+                             query.getColumn(4).getDouble()});
+        return pairs;
+    });
+}
+
 base::Result<std::optional<study::LearningState>> StudyFile::loadLearningState() const {
     using Last = std::optional<study::LearningState>;
     return guarded(path(), "The state of the search could not be read", [&]() -> base::Result<Last> {

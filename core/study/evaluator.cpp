@@ -1,12 +1,16 @@
 #include "core/study/evaluator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <string>
 
 #include "core/base/parallel.h"
 #include "core/geometry/self_overlap.h"
 #include "core/objectives/success_share.h"
+#include "core/search/pareto.h"
 #include "core/search/racing.h"
 #include "core/search/ranking.h"
 #include "core/study/stream.h"
@@ -88,10 +92,7 @@ class Race {
 
     /// Who runs next; empty when all is decided.
     [[nodiscard]] std::vector<search::RacingStep> findNextRound() const {
-        std::vector<double> fitnesses;
-        for (const Candidate& candidate : *candidates_)
-            fitnesses.push_back(candidate.record.fitness.total);
-        return search::findNextRound(fitnesses, countTrials(), stages_);
+        return search::findNextRound(rank(), countTrials(), stages_);
     }
 
     [[nodiscard]] GenerationPlan plan(std::span<const search::RacingStep> round,
@@ -128,10 +129,7 @@ class Race {
     /// Over the best that have all trials.
     base::Status sendStreams(const base::RunControl& control) {
         std::vector<std::size_t> sent;
-        std::vector<double> fitnesses;
-        for (const Candidate& candidate : *candidates_)
-            fitnesses.push_back(candidate.record.fitness.total);
-        for (const std::size_t i : search::rankByFitness(fitnesses)) {
+        for (const std::size_t i : search::rankByFitness(rank())) {
             const Candidate& candidate = (*candidates_)[i];
             if (static_cast<int>(sent.size()) == countStreamed(settings())) break;
             if (candidate.simulated && candidate.record.trials == settings().trialsPerEvaluation)
@@ -166,6 +164,19 @@ class Race {
 
  private:
     [[nodiscard]] const EvolutionSettings& settings() const { return inputs_->settings.evolution; }
+
+    /// rankingScores of all by their trials so far; who has none yet is as good as any.
+    [[nodiscard]] std::vector<double> rank() const {
+        std::vector<objectives::Fitness> fitnesses;
+        fitnesses.reserve(candidates_->size());
+        bool isScored = true;
+        for (const Candidate& candidate : *candidates_) {
+            fitnesses.push_back(candidate.record.fitness);
+            isScored = isScored && !candidate.record.fitness.scores.empty();
+        }
+        if (!isScored) return std::vector<double>(candidates_->size(), 0.0);
+        return rankingScores(settings(), fitnesses);
+    }
 
     [[nodiscard]] std::vector<int> countTrials() const {
         std::vector<int> trials;
@@ -230,12 +241,53 @@ objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings) {
     return std::move(list).value();
 }
 
+objectives::ObjectiveList tradedObjectives(const EvolutionSettings& settings) {
+    if (settings.tradeOff.empty() || !findTradeOffProblem(settings).empty()) return {};
+    return objectives::readObjectives(settings.tradeOff).value();
+}
+
+std::string findTradeOffProblem(const EvolutionSettings& settings) {
+    const auto summed = objectives::readObjectives(settings.objectives);
+    if (settings.tradeOff.empty() || !summed) return {};
+    const std::string subject = fmt::format("evolution.tradeOff is \"{}\". ", settings.tradeOff);
+    const auto traded = objectives::readObjectives(settings.tradeOff);
+    if (!traded) return subject + traded.error().message;
+    if (traded->size() != 2)
+        return subject + "Name the two objectives that are traded for each other, or none.";
+    for (const objectives::Objective* objective : *traded) {
+        if (!objectives::contains(*summed, objective->key))
+            return subject + fmt::format("{} is not among evolution.objectives, which are {}; add it there.",
+                                         objective->key, settings.objectives);
+    }
+    return {};
+}
+
+std::vector<double> rankingScores(const EvolutionSettings& settings,
+                                  std::span<const objectives::Fitness> fitnesses) {
+    std::vector<double> scores(fitnesses.size());
+    const objectives::ObjectiveList traded = tradedObjectives(settings);
+    if (traded.empty()) {
+        std::ranges::transform(fitnesses, scores.begin(), &objectives::Fitness::total);
+        return scores;
+    }
+    std::array<objectives::ObjectiveList, 2> sums;
+    for (std::size_t k = 0; k < 2; ++k) {
+        sums[k] = summedObjectives(settings);
+        std::erase(sums[k], traded[1 - k]);
+    }
+    std::vector<search::TwoScores> points;
+    points.reserve(fitnesses.size());
+    for (const objectives::Fitness& fitness : fitnesses)
+        points.push_back(
+            {objectives::calcTotal(fitness.scores, sums[0]), objectives::calcTotal(fitness.scores, sums[1])});
+    double place = 0.0;
+    for (const std::size_t i : search::rankByFronts(points))
+        scores[i] = -place++;
+    return scores;
+}
+
 int countStreamed(const EvolutionSettings& settings) {
-    const objectives::ObjectiveList summed = summedObjectives(settings);
-    const bool counts = std::ranges::any_of(summed, [](const objectives::Objective* objective) {
-        return objective->key == objectives::kThroughput;
-    });
-    return counts
+    return objectives::contains(summedObjectives(settings), objectives::kThroughput)
                ? search::countShare(static_cast<std::size_t>(settings.populationSize), settings.streamShare)
                : 0;
 }

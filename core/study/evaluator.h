@@ -81,6 +81,18 @@ struct StudyInputs {
 /// What counts in F. The settings must be without problems (findProblems).
 objectives::ObjectiveList summedObjectives(const EvolutionSettings& settings);
 
+/// The two objectives of the sum that are traded for each other. Empty: none are, or the settings have a
+/// problem (findTradeOffProblem).
+objectives::ObjectiveList tradedObjectives(const EvolutionSettings& settings);
+/// What is wrong with EvolutionSettings::tradeOff; empty: nothing.
+std::string findTradeOffProblem(const EvolutionSettings& settings);
+
+/// By what a search ranks tracks, the more the better: F, or where two objectives are traded the place among
+/// all, 0 for the best, then -1, ... in the order of search::rankByFronts. Each of the two goes with all else
+/// that counts, so that one score is F without the one, and one F without the other.
+std::vector<double> rankingScores(const EvolutionSettings& settings,
+                                  std::span<const objectives::Fitness> fitnesses);
+
 /// How many of a generation streams of parts are sent over: none unless the objective throughput counts.
 int countStreamed(const EvolutionSettings& settings);
 

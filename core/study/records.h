@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -122,6 +123,21 @@ GenerationSummary summarize(const GenerationRecord& record);
 struct Individual : IndividualId {
     IndividualRecord record;
 };
+
+/// Two scores of an individual, as the objectives measure them.
+struct ScorePair : IndividualId {
+    int trials = 0;  // that both were made of
+    double first = 0.0;
+    double second = 0.0;
+
+    friend bool operator==(const ScorePair&, const ScorePair&) = default;
+};
+
+/// The individuals for which no other does better in both ways, the best in the first way first: indices into
+/// `pairs`. Who has fewer trials than `least`, as a race leaves those behind, is not compared: the luckiest
+/// of few trials would be on it.
+std::vector<std::size_t> findParetoFront(std::span<const ScorePair> pairs, const objectives::Objective& first,
+                                         const objectives::Objective& second, int least);
 
 /// What one engine made of the trials of a check.
 struct EngineScore {

@@ -21,14 +21,22 @@ std::vector<double> totalsOf(std::span<const IndividualRecord> individuals) {
     return totals;
 }
 
-std::vector<search::Judgement> judgementsOf(std::span<const IndividualRecord> individuals,
-                                            const objectives::ObjectiveList& summed) {
+/// A place among all has no standard error.
+std::vector<search::Judgement> judgementsOf(const EvolutionSettings& settings,
+                                            std::span<const IndividualRecord> individuals) {
+    const objectives::ObjectiveList summed = summedObjectives(settings);
+    const bool isSum = tradedObjectives(settings).empty();
+    std::vector<objectives::Fitness> fitnesses;
+    fitnesses.reserve(individuals.size());
+    for (const IndividualRecord& individual : individuals)
+        fitnesses.push_back(individual.fitness);
+    const std::vector<double> scores = rankingScores(settings, fitnesses);
     std::vector<search::Judgement> judgements;
     judgements.reserve(individuals.size());
-    for (const IndividualRecord& individual : individuals) {
-        const objectives::Fitness& fitness = individual.fitness;
-        search::Judgement judgement{fitness.total, individual.trials,
-                                    objectives::calcTotalError(fitness, summed)};
+    for (std::size_t i = 0; i < individuals.size(); ++i) {
+        const objectives::Fitness& fitness = individuals[i].fitness;
+        search::Judgement judgement{scores[i], individuals[i].trials,
+                                    isSum ? objectives::calcTotalError(fitness, summed) : 0.0};
         for (const objectives::Objective* objective : summed) {
             const double value = objectives::findScore(fitness, objective->key)->value;
             judgement.objectives.push_back(
@@ -146,7 +154,7 @@ base::Result<LearningEnd> evolve(const StudyInputs& inputs, const std::optional<
         if (control.run.cancelled()) return LearningEnd::cancelled;
         if (!evaluation) return evaluation.error();
 
-        search->tell(judgementsOf(evaluation->individuals, summed));
+        search->tell(judgementsOf(settings.evolution, evaluation->individuals));
         GenerationRecord record =
             completeGeneration(index, std::move(evaluation->individuals), search->report(), summed);
         record.made = {makerOf(*inputs.engine), std::move(evaluation->outcomes)};

@@ -61,9 +61,8 @@ std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) 
 
 bool forgivesFalls(const EvolutionSettings& settings) {
     const objectives::ObjectiveList summed = summedObjectives(settings);
-    return std::any_of(summed.begin(), summed.end(), [](const objectives::Objective* objective) {
-        return objective->key == objectives::kSorting || objective->key == objectives::kPurity;
-    });
+    return objectives::contains(summed, objectives::kSorting) ||
+           objectives::contains(summed, objectives::kPurity);
 }
 
 const Individual* findBestWinner(std::span<const Individual> winners, bool fallsAreForgiven) {

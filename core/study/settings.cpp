@@ -42,7 +42,8 @@ bool operator==(const TrackSettings& a, const TrackSettings& b) {
         return std::tie(s.shape.type, s.shape.bowlRadius, s.shape.conveying, s.shape.slope, s.traps,
                         s.crossSections, s.pointsPerSection, s.minSegmentLength, s.maxSegmentLength,
                         s.segmentWidth, s.segmentHeight, s.leadInLength, s.startFromLeadInEnd,
-                        s.leadOutSegments, s.baseThickness, s.encoding, s.given, s.returns);
+                        s.leadOutSegments, s.baseThickness, s.walls.inner, s.walls.outer, s.encoding, s.given,
+                        s.returns);
     };
     return fields(a) == fields(b);
 }
@@ -100,10 +101,7 @@ bool keepsScores(const Settings& before, const Settings& after, int generations)
     const auto summed = objectives::readObjectives(before.evolution.objectives);
     if (summed && std::ranges::any_of(*summed, &objectives::Objective::usesTolerance))
         same.validation.tolerance = after.validation.tolerance;
-    const bool sendsStreams = summed && std::ranges::any_of(*summed, [](const auto* objective) {
-                                  return objective->key == objectives::kThroughput;
-                              });
-    if (!sendsStreams) same.stream = before.stream;
+    if (!summed || !objectives::contains(*summed, objectives::kThroughput)) same.stream = before.stream;
     same.feeder = before.feeder;
     if (before.evolution.conditions == TrialConditions::nominal) same.box = before.box;
     return same == before;

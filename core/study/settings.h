@@ -45,6 +45,9 @@ struct EvolutionSettings {
     int plannedTraps = 1500;  // that are tried by themselves for a first generation that is planned
     // Whose sum a search maximises (objectives::readObjectives).
     std::string objectives{objectives::kPaperObjectives};
+    // Two of them, a comma between, that are not added up but traded: tracks are ranked by Pareto fronts
+    // (tradedObjectives); empty: by the sum.
+    std::string tradeOff{};
     TrialConditions conditions = TrialConditions::varied;  // nominal in the paper
     // Of trials that vary: those in corners of the operating box, from that generation on.
     double cornerShare = 0.0;

@@ -123,10 +123,11 @@ std::vector<std::string> findTrackProblems(const TrackSettings& track) {
     }
     if (track.shape.type == track::FeederType::bowl) {
         const double radius = track.shape.bowlRadius;
-        if (track.segmentWidth / 2 >= radius) {
+        if (track::widthWithWalls(track.segmentWidth, track.walls) / 2 >= radius) {
             problems.push_back("track.segmentWidth_mm is " + shown(track.segmentWidth, FileUnit::millimetre) +
                                "; on a bowl it must be less than twice track.bowlRadius_mm, which is " +
-                               shown(radius, FileUnit::millimetre) + ".");
+                               shown(radius, FileUnit::millimetre) +
+                               (track.walls.any() ? ", and leave room for the walls." : "."));
         }
         const double longest = calcLongestTrack(track);
         const double turn = 2.0 * base::kPi * radius;
@@ -178,6 +179,8 @@ std::vector<std::string> findProblems(const Settings& settings) {
         if (const std::string problem = findPlanningProblem(settings.track); !problem.empty())
             problems.push_back("evolution.firstGeneration is planned. " + problem);
     }
+    if (std::string problem = findTradeOffProblem(evolution); !problem.empty())
+        problems.push_back(std::move(problem));
     // Learning sends streams at this inflow where throughput counts.
     if (evolution.populationSize > 0 && objectives::readObjectives(evolution.objectives) &&
         countStreamed(evolution) > 0) {
@@ -263,9 +266,10 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
     }
     const EvolutionSettings& evolution = settings.evolution;
     const bool isVaried = evolution.conditions == TrialConditions::varied;
-    const bool countsCorners = summed && std::ranges::any_of(*summed, [](const auto* objective) {
-                                   return objective->key == objectives::kCorners;
-                               });
+    const auto counts = [&summed](std::string_view key) {
+        return summed && objectives::contains(*summed, key);
+    };
+    const bool countsCorners = counts(objectives::kCorners);
     if (evolution.cornerShare > 0.0 && !isVaried)
         recommendations.push_back(
             "evolution.cornerShare does nothing while evolution.conditions is nominal, because no trial "
@@ -294,10 +298,10 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
             "evolution.firstGeneration is known, but only the genetic search begins with tracks that are "
             "known; "
             "genetic is recommended as evolution.search.");
-    const auto counts = [&summed](std::string_view key) {
-        return summed &&
-               std::ranges::any_of(*summed, [key](const auto* objective) { return objective->key == key; });
-    };
+    if (!evolution.tradeOff.empty() && evolution.search == search::Method::random)
+        recommendations.push_back(
+            "evolution.tradeOff does nothing where designs are drawn at random; genetic is recommended as "
+            "evolution.search.");
     if ((counts(objectives::kSorting) || counts(objectives::kPurity)) &&
         settings.track.returns == trial::Returns::nowhere)
         recommendations.push_back(

@@ -80,6 +80,8 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"track.startFromLeadInEnd_mm", mm, 0.1, 2000.0}, s.track.startFromLeadInEnd);
     v.count({"track.leadOutSegments", 1, 50}, s.track.leadOutSegments);
     v.number({"track.baseThickness_mm", mm, 0.1, 100.0}, s.track.baseThickness);
+    v.number({"track.innerWall_mm", mm, 0.0, 1000.0}, s.track.walls.inner);
+    v.number({"track.outerWall_mm", mm, 0.0, 1000.0}, s.track.walls.outer);
     v.choice("track.encoding", s.track.encoding,
              Choices<PointEncoding, 2>{{{"strip", PointEncoding::strip}, {"free", PointEncoding::free}}});
 
@@ -98,6 +100,7 @@ void visitFields(Visitor& v, SettingsType& s) {
                                                       {"known", search::ga::FirstGeneration::known}}});
     v.count({"evolution.plannedTraps", 32, 1000000}, s.evolution.plannedTraps);
     v.text("evolution.objectives", s.evolution.objectives);
+    v.text("evolution.tradeOff", s.evolution.tradeOff);
     v.choice("evolution.conditions", s.evolution.conditions, kConditionChoices);
     v.number({"evolution.cornerShare", none, 0.0, 1.0}, s.evolution.cornerShare);
     v.count({"evolution.cornersFrom", 0, 1000000}, s.evolution.cornersFrom);

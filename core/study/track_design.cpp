@@ -142,6 +142,7 @@ base::Result<TrackSettings> placeBehind(const track::Track& track, TrackSettings
     settings.segmentWidth = track.width;
     settings.segmentHeight = track.height + 2.0 * raised;
     settings.baseThickness = track.baseThickness;
+    settings.walls = track.walls;
     settings.leadInLength = inNanometres(begin - track.begin());
     settings.startFromLeadInEnd = inNanometres(begin - track.start);
     return settings;

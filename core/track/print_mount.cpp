@@ -12,6 +12,10 @@ using base::inMillimetres;
 
 constexpr double kLongest = 1.0;  // [m]; what is larger was not meant
 
+bool hasWalls(const Track& track, const PrintOptions& options) {
+    return options.wallHeight > 0.0 || track.walls.any();
+}
+
 bool isBowl(const Track& track) {
     return track.shape.type == FeederType::bowl;
 }
@@ -79,7 +83,7 @@ std::optional<PrintProblem> findBoltProblem(const Track& track, const PrintOptio
 }  // namespace
 
 double outerSideOf(const Track& track, const PrintOptions& options) {
-    return 0.5 * track.width + (options.wallHeight > 0.0 ? options.wallThickness : 0.0);
+    return 0.5 * track.width + (hasWalls(track, options) ? options.wallThickness : 0.0);
 }
 
 double flangeWidthOf(const PrintOptions& options) {
@@ -94,7 +98,7 @@ double insertRadiusOf(const Track& track, const PrintOptions& options) {
 std::optional<PrintProblem> findPrintProblem(const Track& track, const PrintOptions& options) {
     const double base = options.baseThickness.value_or(track.baseThickness);
     if (auto problem = findRangeProblem(options, base)) return problem;
-    if (isBowl(track) && options.wallHeight > 0.0 &&
+    if (isBowl(track) && hasWalls(track, options) &&
         !(outerSideOf(track, options) < track.shape.bowlRadius)) {
         return tooSmall("wallThickness", "wall thickness", options.wallThickness,
                         "less, or the inner wall reaches the bowl's axis");

@@ -1,10 +1,9 @@
 #include "core/track/print_outline.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
-
-#include "core/track/track_solid.h"
 
 namespace trapwright::track {
 
@@ -42,7 +41,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
     } else {
         posts.emplace_back();
     }
-    if (outline.wallTop) {
+    if (outline.innerWallTop) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 2, next + 1}, {}});
         next += 2;
@@ -52,7 +51,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
     for (int j = 1; j < surfacePoints; ++j, ++next)
         posts.push_back({{next}, {next}});
     topology.lastSurface = next - 1;
-    if (outline.wallTop) {
+    if (outline.outerWallTop) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
         next += 2;
@@ -71,26 +70,26 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
 Row makeRow(const CrossSection& section, const PrintOutline& outline, double rise) {
     const double innerBorder = section.points.front().x();
     const double outerBorder = section.points.back().x();
-    const double innerSide = outline.wallTop ? outline.innerSide : innerBorder;
-    const double outerSide = outline.wallTop ? outline.outerSide : outerBorder;
+    const double innerSide = outline.innerWallTop ? outline.innerSide : innerBorder;
+    const double outerSide = outline.outerWallTop ? outline.outerSide : outerBorder;
     Row row;
     if (outline.innerFlange) {
         row.top.emplace_back(*outline.innerFlange, outline.flangeTop);
         row.top.emplace_back(innerSide, outline.flangeTop);
         row.base.push_back(*outline.innerFlange);
     }
-    if (outline.wallTop) {
-        row.top.emplace_back(innerSide, *outline.wallTop + rise);
-        row.top.emplace_back(innerBorder, *outline.wallTop + rise);
+    if (outline.innerWallTop) {
+        row.top.emplace_back(innerSide, *outline.innerWallTop + rise);
+        row.top.emplace_back(innerBorder, *outline.innerWallTop + rise);
         row.base.push_back(innerSide);
     }
     for (const base::Vec2& point : section.points)
         row.top.emplace_back(point.x(), point.y() + rise);
     const std::vector<double> below = placeBase(section);
     row.base.insert(row.base.end(), below.begin(), below.end());
-    if (outline.wallTop) {
-        row.top.emplace_back(outerBorder, *outline.wallTop + rise);
-        row.top.emplace_back(outerSide, *outline.wallTop + rise);
+    if (outline.outerWallTop) {
+        row.top.emplace_back(outerBorder, *outline.outerWallTop + rise);
+        row.top.emplace_back(outerSide, *outline.outerWallTop + rise);
         row.base.push_back(outerSide);
     }
     if (outline.outerFlange) {
@@ -109,11 +108,12 @@ class Builder {
             addRow(shape, section.x, makeRow(section, outline, shape.rise(section.x)), outline.base);
     }
 
-    geometry::TriangleMesh build(bool mirrored) {
+    TrackSolid build(bool mirrored) {
         const int rows = static_cast<int>(top_.size());
         const int points = topology_.topCount;
         for (int i = 0; i + 1 < rows; ++i)
             addTop(i, topology_.firstSurface, topology_.lastSurface);
+        const std::size_t surfaceTriangles = mesh_.triangles.size();
         for (int i = 0; i + 1 < rows; ++i) {
             addTop(i, 0, topology_.firstSurface);
             addTop(i, topology_.lastSurface, points - 1);
@@ -129,7 +129,7 @@ class Builder {
             for (geometry::Triangle& triangle : mesh_.triangles)
                 std::swap(triangle[1], triangle[2]);
         }
-        return std::move(mesh_);
+        return {std::move(mesh_), surfaceTriangles};
     }
 
  private:
@@ -205,8 +205,17 @@ class Builder {
 
 }  // namespace
 
-geometry::TriangleMesh buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
-                                     const PrintOutline& outline) {
+double highestOf(std::span<const CrossSection> sections) {
+    double highest = 0.0;
+    for (const CrossSection& section : sections) {
+        for (const base::Vec2& point : section.points)
+            highest = std::max(highest, point.y());
+    }
+    return highest;
+}
+
+TrackSolid buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
+                         const PrintOutline& outline) {
     // Anticlockwise track coordinates are left-handed in the room.
     const bool mirrored = shape.type == FeederType::bowl && shape.conveying == Conveying::anticlockwise;
     return Builder(shape, sections, outline).build(mirrored);

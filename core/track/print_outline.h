@@ -3,28 +3,33 @@
 #include <optional>
 #include <span>
 
-#include "core/geometry/triangle_mesh.h"
 #include "core/track/track.h"
+#include "core/track/track_solid.h"
 
 namespace trapwright::track {
 
-/// What stands beside the surface in every cross-section of a printed track. y in track coordinates; what
+/// What stands beside the surface in every cross-section of a track: walls that are simulated, and what is
+/// printed besides. y in track coordinates; what
 /// lies flat is told by its height in the room, what climbs with a bowl's track by that in the track's. [m]
 struct PrintOutline {
     double base = 0.0;                    // z of the underside, in the room
-    std::optional<double> wallTop;        // z on the track; none: no walls
-    double innerSide = 0.0;               // y of the walls' outer faces
+    std::optional<double> innerWallTop;   // z on the track; none: no wall at this side
+    std::optional<double> outerWallTop;   // likewise
+    double innerSide = 0.0;               // y of the wall's outer face
     double outerSide = 0.0;               // likewise
     double flangeTop = 0.0;               // z in the room; not above the surface
     std::optional<double> innerFlange{};  // y of its edge; none: no flange at this side
     std::optional<double> outerFlange{};  // likewise
 };
 
+/// The highest of the surface's points, above z = 0 of the track; at least 0. [m]
+double highestOf(std::span<const CrossSection> sections);
+
 /// The surface over these sections, what stands beside it, sides, ends and a flat base as one closed,
 /// oriented manifold. Its first triangles are those of the track's surface. Walls stand upright on the
 /// surface's borders and reach outward to the sides; flanges begin at the walls, or without walls at the
 /// borders.
-geometry::TriangleMesh buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
-                                     const PrintOutline& outline);
+TrackSolid buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
+                         const PrintOutline& outline);
 
 }  // namespace trapwright::track

@@ -19,16 +19,6 @@ constexpr int kBoltSides = 48;
 constexpr int kInsertSides = 360;              // 175 mm: within 7 micrometres of the circle
 constexpr double kBeyond = base::kMillimetre;  // how far tools reach past what they cut
 
-/// Of the surface's points above the track's plane.
-double highestOf(const Track& track) {
-    double highest = 0.0;
-    for (const CrossSection& section : track.sections) {
-        for (const base::Vec2& point : section.points)
-            highest = std::max(highest, point.y());
-    }
-    return highest;
-}
-
 /// Of the places of the track's plane, in the room.
 double lowestRiseOf(const Track& track) {
     return std::min(track.shape.rise(track.begin()), track.shape.rise(track.end()));
@@ -43,7 +33,12 @@ PrintOutline makeOutline(const Track& track, const PrintOptions& options) {
     outline.base = findBase(track.shape, track.sections, thickness);
     outline.outerSide = outerSideOf(track, options);
     outline.innerSide = -outline.outerSide;
-    if (options.wallHeight > 0.0) outline.wallTop = highestOf(track) + options.wallHeight;
+    // What the track was simulated with is printed at least.
+    const double highest = highestOf(track.sections);
+    const double inner = std::max(track.walls.inner, options.wallHeight);
+    const double outer = std::max(track.walls.outer, options.wallHeight);
+    if (inner > 0.0) outline.innerWallTop = highest + inner;
+    if (outer > 0.0) outline.outerWallTop = highest + outer;
     if (!options.flange) return outline;
     // Of equal thicknesses the sum must be 0, whatever rounding says.
     outline.flangeTop = lowestRiseOf(track) + std::min(0.0, options.flangeThickness - thickness);
@@ -81,13 +76,15 @@ base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& 
     const PrintOutline outline = makeOutline(track, options);
     const std::span<const CrossSection> sections(track.sections);
     geometry::TriangleMesh solid =
-        buildOutlined(track.shape, sections.subspan(range.first, range.last - range.first + 1), outline);
+        buildOutlined(track.shape, sections.subspan(range.first, range.last - range.first + 1), outline).mesh;
     if (!options.flange) return solid;
 
     const double low = outline.base - kBeyond;
     if (track.shape.type == FeederType::bowl) {
-        const double high =
-            highestRiseOf(track) + std::max(outline.wallTop.value_or(0.0), highestOf(track)) + kBeyond;
+        const double high = highestRiseOf(track) +
+                            std::max({outline.innerWallTop.value_or(0.0), outline.outerWallTop.value_or(0.0),
+                                      highestOf(track.sections)}) +
+                            kBeyond;
         auto cut = geometry::intersectSolids(
             solid,
             geometry::makeCylinder({0.0, 0.0}, insertRadiusOf(track, options), low, high, kInsertSides));

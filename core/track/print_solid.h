@@ -12,8 +12,9 @@ namespace trapwright::track {
 /// What is printed around a track's surface. Lengths in metres.
 struct PrintOptions {
     std::optional<double> baseThickness;  // below the lowest place of z = 0; none: as designed
-    double wallHeight = 0.0;      // of both side walls, above the surface's highest point; 0: no walls
-    double wallThickness = 2e-3;  // at least, beyond the track's width
+    // Of both side walls, above the surface's highest point; what the track's own walls are higher counts.
+    double wallHeight = 0.0;
+    double wallThickness = kWallThickness;  // at least, beyond the track's width
     /// To screw the track to a linear feeder: a plate at the foot of both sides. In a bowl: one at the outer
     /// side, cut round at insertRadius.
     bool flange = false;

@@ -14,6 +14,19 @@ struct CrossSection {
     std::vector<base::Vec2> points;
 };
 
+/// What keeps parts on the track: upright walls on the surface's borders, a part of the solid that parts meet
+/// (decisions.md#walls). Heights above the surface's highest point [m]; 0: an edge without a wall.
+struct Walls {
+    double inner = 0.0;
+    double outer = 0.0;
+
+    [[nodiscard]] bool any() const { return inner > 0.0 || outer > 0.0; }
+    friend bool operator==(const Walls&, const Walls&) = default;
+};
+
+/// How far walls reach beyond the track's width, unless they are printed thicker (PrintOptions). [m]
+inline constexpr double kWallThickness = 2e-3;
+
 /// Lead-in, trap and lead-out as one closed, oriented solid. Immutable once built (track_builder.h).
 struct Track {
     FeederShape shape;
@@ -21,12 +34,13 @@ struct Track {
     int firstTrapSection = 1;            // index of the lead-in's end, where the trap begins
     int lastTrapSection = 1;             // index of the last functional section
     geometry::TriangleMesh solid;        // in the room, drive at its mean position [m]
-    std::size_t surfaceTriangles = 0;    // the solid's first triangles; the others are sides, ends and base
-    double start = 0.0;                  // x where parts are placed [m]
-    double finish = 0.0;                 // x of the finish line [m]
-    double width = 0.0;                  // of a segment [m]
-    double height = 0.0;                 // of a segment [m]
-    double baseThickness = 0.0;          // of the solid below the lowest place of z = 0 [m]
+    std::size_t surfaceTriangles = 0;  // the solid's first triangles; the others are walls, sides, ends, base
+    double start = 0.0;                // x where parts are placed [m]
+    double finish = 0.0;               // x of the finish line [m]
+    double width = 0.0;                // of a segment [m]
+    double height = 0.0;               // of a segment [m]
+    double baseThickness = 0.0;        // of the solid below the lowest place of z = 0 [m]
+    Walls walls;
 
     [[nodiscard]] double begin() const { return sections.front().x; }
     [[nodiscard]] double end() const { return sections.back().x; }

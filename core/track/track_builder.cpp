@@ -4,8 +4,9 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
 
-#include "core/track/track_solid.h"
+#include "core/track/print_outline.h"
 
 namespace trapwright::track {
 
@@ -76,7 +77,22 @@ base::Status checkParameters(const TrackParameters& parameters) {
             fmt::format("The number of lead-out segments is {}; the finish line needs at least 1.",
                         parameters.leadOutSegments)};
     }
+    return checkWalls(parameters.walls);
+}
+
+base::Status checkWalls(const Walls& walls) {
+    constexpr double kHighest = 1.0;  // [m]; what is higher was not meant
+    for (const auto& [name, height] : {std::pair("inner wall", walls.inner), {"outer wall", walls.outer}}) {
+        if (!(height >= 0.0 && height <= kHighest)) {
+            return base::Error{fmt::format("The {} is {:g} mm high; it must be from 0 to {:g} mm.", name,
+                                           inMillimetres(height), inMillimetres(kHighest))};
+        }
+    }
     return base::success();
+}
+
+double widthWithWalls(double width, const Walls& walls) {
+    return width + (walls.any() ? 2.0 * kWallThickness : 0.0);
 }
 
 base::Status checkShape(const FeederShape& shape, double length, double width) {
@@ -103,12 +119,32 @@ base::Status checkShape(const FeederShape& shape, double length, double width) {
     return base::success();
 }
 
+void addSolid(Track& track) {
+    TrackSolid solid;
+    if (track.walls.any()) {
+        const double highest = highestOf(track.sections);
+        PrintOutline outline;
+        outline.base = findBase(track.shape, track.sections, track.baseThickness);
+        outline.outerSide = 0.5 * widthWithWalls(track.width, track.walls);
+        outline.innerSide = -outline.outerSide;
+        if (track.walls.inner > 0.0) outline.innerWallTop = highest + track.walls.inner;
+        if (track.walls.outer > 0.0) outline.outerWallTop = highest + track.walls.outer;
+        solid = buildOutlined(track.shape, track.sections, outline);
+    } else {
+        solid = buildTrackSolid(track.shape, track.sections, track.baseThickness);
+    }
+    track.solid = std::move(solid.mesh);
+    track.surfaceTriangles = solid.surfaceTriangles;
+}
+
 base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap) {
     if (auto status = checkParameters(parameters); !status) return status.error();
     if (auto status = checkTrap(trap); !status) return status.error();
     const double length =
         parameters.leadInLength + trap.back().x + parameters.leadOutSegments * parameters.maxSegmentLength;
-    if (auto status = checkShape(parameters.shape, length, parameters.segmentWidth); !status)
+    if (auto status =
+            checkShape(parameters.shape, length, widthWithWalls(parameters.segmentWidth, parameters.walls));
+        !status)
         return status.error();
 
     Track track;
@@ -133,9 +169,8 @@ base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<cons
     track.start = parameters.leadInLength - parameters.startFromLeadInEnd;
     track.finish = track.end() - 0.5 * parameters.maxSegmentLength;
 
-    TrackSolid solid = buildTrackSolid(track.shape, track.sections, parameters.baseThickness);
-    track.solid = std::move(solid.mesh);
-    track.surfaceTriangles = solid.surfaceTriangles;
+    track.walls = parameters.walls;
+    addSolid(track);
     return track;
 }
 

@@ -20,18 +20,26 @@ struct TrackParameters {
     double startFromLeadInEnd = 20e-3;
     int leadOutSegments = 2;      // duplicates of the last functional section
     double baseThickness = 3e-3;  // of the solid below the lowest place of z = 0 [m]
+    Walls walls;
 };
 
 /// An error that names the first parameter that is out of its range.
 base::Status checkParameters(const TrackParameters& parameters);
+base::Status checkWalls(const Walls& walls);
+
+/// From the outer face of the inner wall to that of the outer one, as if there were both or none. [m]
+double widthWithWalls(double width, const Walls& walls);
 
 /// Flat lead-in from x = 0, the functional sections (x measured from the lead-in's end, at least one), and
 /// the lead-out; finish in the middle of the last duplicate. An error that names the parameter that is out of
 /// range, or tells that the track does not fit on the bowl.
 base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap);
 
-/// An error if a track of this length and width cannot lie on the feeder: it slopes too steeply, the radius
-/// does not exceed half the width, or the length reaches the circumference.
+/// Gives a track its solid, of which all else is known.
+void addSolid(Track& track);
+
+/// An error if a track of this length and width, walls included, cannot lie on the feeder: it slopes too
+/// steeply, the radius does not exceed half the width, or the length reaches the circumference.
 base::Status checkShape(const FeederShape& shape, double length, double width);
 
 }  // namespace trapwright::track

@@ -10,7 +10,6 @@
 #include "core/base/file.h"
 #include "core/base/json_object.h"
 #include "core/track/track_builder.h"
-#include "core/track/track_solid.h"
 
 namespace trapwright::track {
 
@@ -58,6 +57,10 @@ class Reader {
             return 0.0;
         }
         return value->get<double>();
+    }
+
+    double numberOr(const Json& object, const std::string& key, double missing) {
+        return object.is_object() && object.contains(key) ? number(object, key) : missing;
     }
 
     std::string text(const Json& object, const std::string& key) {
@@ -115,8 +118,7 @@ FeederShape readFeeder(Reader& reader) {
     FeederShape shape;
     const Json* feeder = reader.find(reader.object(), "feeder");
     if (feeder == nullptr) return shape;
-    if (feeder->is_object() && feeder->contains("slope_deg"))
-        shape.slope = reader.number(*feeder, "slope_deg") * base::kDegree;
+    shape.slope = reader.numberOr(*feeder, "slope_deg", 0.0) * base::kDegree;
     const std::string type = reader.text(*feeder, "type");
     if (type == "linear") return shape;
     if (type != "bowl")
@@ -176,6 +178,9 @@ TrackFile readValues(Reader& reader) {
     track.width = reader.number(object, "width") * kMillimetre;
     track.height = reader.number(object, "height") * kMillimetre;
     track.baseThickness = reader.number(object, "baseThickness") * kMillimetre;
+    // Of tracks from before there were walls neither is told.
+    track.walls = {reader.numberOr(object, "innerWall", 0.0) * kMillimetre,
+                   reader.numberOr(object, "outerWall", 0.0) * kMillimetre};
     track.start = reader.number(object, "start") * kMillimetre;
     track.finish = reader.number(object, "finish") * kMillimetre;
     track.sections = readSections(reader);
@@ -203,9 +208,9 @@ TrackFile readValues(Reader& reader) {
     if (!(track.baseThickness > 0.0)) reader.fail("\"baseThickness\" is not greater than 0");
     if (!(track.width > 0.0)) reader.fail("\"width\" is not greater than 0");
     if (!(track.height > 0.0)) reader.fail("\"height\" is not greater than 0");
-    if (const auto status = checkShape(track.shape, track.end() - begin, track.width); !status) {
-        reader.fail(status.error().message);
-    }
+    const auto fits = checkShape(track.shape, track.end() - begin, widthWithWalls(track.width, track.walls));
+    if (!fits) reader.fail(fits.error().message);
+    if (const auto walls = checkWalls(track.walls); !walls) reader.fail(walls.error().message);
     return file;
 }
 
@@ -229,6 +234,8 @@ std::string trackToJson(const TrackFile& file) {
         const base::Quaternion& q = *file.expectedOrientation;
         object["expectedOrientation"] = std::array{q.w(), q.x(), q.y(), q.z()};
     }
+    if (track.walls.inner > 0.0) object["innerWall"] = toMillimetres(track.walls.inner);
+    if (track.walls.outer > 0.0) object["outerWall"] = toMillimetres(track.walls.outer);
     Json& sections = object["sections"] = Json::array();
     for (std::size_t i = 1; i < track.sections.size(); ++i) {
         Json points = Json::array();
@@ -248,9 +255,7 @@ base::Result<TrackFile> trackFromJson(const std::string& text) {
     if (!reader.problem().empty())
         return base::Error{fmt::format("The track cannot be read: {}.", reader.problem())};
 
-    TrackSolid solid = buildTrackSolid(file.track.shape, file.track.sections, file.track.baseThickness);
-    file.track.solid = std::move(solid.mesh);
-    file.track.surfaceTriangles = solid.surfaceTriangles;
+    addSolid(file.track);
     return file;
 }
 

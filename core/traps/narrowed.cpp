@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <vector>
 
 namespace trapwright::traps {
 
@@ -17,6 +18,7 @@ constexpr double kSteepestRise = 6.0 * base::kDegree;   // along the track, befo
 constexpr double kSteepestFall = 15.0 * base::kDegree;
 constexpr double kHighestStep = 1.0 / 3.0;  // of the box's height, behind a notch
 constexpr double kLongestSlant = 0.5;       // of the longest segment: a notch's ends
+constexpr double kLeastStretch = 10e-6;     // between points of a section [m]
 constexpr int kBits = 7;
 
 double within(double low, double high, double share) {
@@ -46,25 +48,54 @@ struct Left {
     bool isWhole = true;
 };
 
-/// The section, or what is left of it with as many points, as far apart in proportion. One that goes back
-/// across the track somewhere is cut where it is met first, into points at equal distances.
-track::CrossSection cut(const track::CrossSection& whole, double x, const Left& left) {
-    const std::vector<base::Vec2>& points = whole.points;
-    const bool isFunction =
-        std::ranges::is_sorted(points, std::less_equal(), [](const base::Vec2& point) { return point.x(); });
-    const double first = points.front().x();
-    const double last = points.back().x();
-    track::CrossSection section{x, {}};
-    for (std::size_t j = 0; j < points.size(); ++j) {
-        base::Vec2 point = points[j];
-        if (!left.isWhole) {
-            const double share = isFunction ? (point.x() - first) / (last - first)
-                                            : static_cast<double>(j) / static_cast<double>(points.size() - 1);
-            point.x() = within(left.inner, left.outer, share);
-            point.y() = heightAt(whole, point.x());
-        }
-        section.points.push_back(point);
+/// From one point to another, `count` of them at equal distances, the second one left out.
+void spread(const track::CrossSection& whole, double from, double to, std::size_t count,
+            std::span<base::Vec2> points) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double y = from + (to - from) * static_cast<double>(i) / static_cast<double>(count);
+        points[i] = {y, heightAt(whole, y)};
     }
+}
+
+/// What is left of a section whose points follow each other across the track: these stay where and which they
+/// are, so that what lies on them does not feel the cut; those that are cut off share the way from the cut
+/// edge to the next one.
+void cutExactly(const track::CrossSection& whole, const Left& left, track::CrossSection& section) {
+    const std::vector<base::Vec2>& points = whole.points;
+    const auto isLeft = [&](const base::Vec2& point) {
+        return point.x() >= left.inner + kLeastStretch && point.x() <= left.outer - kLeastStretch;
+    };
+    const auto first = static_cast<std::size_t>(std::ranges::find_if(points, isLeft) - points.begin());
+    if (first == points.size()) {
+        spread(whole, left.inner, left.outer, points.size() - 1, section.points);
+        section.points.back() = {left.outer, heightAt(whole, left.outer)};
+        return;
+    }
+    std::size_t last = first;
+    while (last + 1 < points.size() && isLeft(points[last + 1]))
+        ++last;
+    if (first > 0) spread(whole, left.inner, points[first].x(), first, section.points);
+    const std::size_t behind = points.size() - 1 - last;
+    if (behind > 0) {
+        std::vector<base::Vec2> outward(behind);
+        spread(whole, left.outer, points[last].x(), behind, outward);
+        std::ranges::copy(outward, section.points.rbegin());
+    }
+}
+
+/// The section, or what is left of it with as many points. One that goes back across the track somewhere is
+/// cut where it is met first, into points at equal distances.
+track::CrossSection cut(const track::CrossSection& whole, double x, const Left& left) {
+    track::CrossSection section{x, whole.points};
+    if (left.isWhole) return section;
+    const bool isFunction =
+        std::ranges::is_sorted(whole.points, std::less(), [](const base::Vec2& point) { return point.x(); });
+    if (isFunction) {
+        cutExactly(whole, left, section);
+        return section;
+    }
+    spread(whole, left.inner, left.outer, whole.points.size() - 1, section.points);
+    section.points.back() = {left.outer, heightAt(whole, left.outer)};
     return section;
 }
 
@@ -146,9 +177,10 @@ std::vector<search::Dimension> dimensionsOfNotched(const TrapParameters& paramet
         {"beginning", "mm", shortest, kLongestSlant * longest, kBits},
         {"length", "mm", shortest, longest, kBits},
         {"end", "mm", shortest, kLongestSlant * longest, kBits},
-        {"step", "mm", -highest, highest, kBits},
+        {"raised", "mm", -highest, highest, kBits},
+        {"behind, raised", "mm", -highest, highest, kBits},
         {"inclination", "deg", -steepest, steepest, kBits}};
-    for (const std::size_t relief : {1, 2, 6, 7})
+    for (const std::size_t relief : {1, 2, 6, 7, 8})
         dimensions[relief].isRelief = true;
     return dimensions;
 }
@@ -160,21 +192,22 @@ std::vector<track::CrossSection> buildNotched(const TrapParameters& parameters,
     const double length = within(parameters.minSegmentLength, longest, numbers[0]);
     const double fall = length * std::tan(within(-kSteepestRise, kSteepestFall, numbers[1]));
     const double depth = within(-parameters.segmentWidth, parameters.segmentWidth, numbers[2]);
-    const double highest = kHighestStep * parameters.segmentHeight;
-    const double step = within(-highest, highest, numbers[6]);
     const auto edge = [&](double number) { return within(kEdge, kLongestSlant * longest, number); };
+    const auto height = [&](double number) {
+        return kHighestStep * parameters.segmentHeight * within(-1.0, 1.0, number);
+    };
 
     const track::CrossSection entry =
-        raise(parameters, incline(parameters, before, slopeOf(numbers[7])), -fall);
-    const track::CrossSection lower = raise(parameters, entry, -std::abs(step));
-    const track::CrossSection& bridge = step < 0.0 ? lower : entry;
+        raise(parameters, incline(parameters, before, slopeOf(numbers[8])), -fall);
+    const track::CrossSection notch = raise(parameters, entry, height(numbers[6]));
+    const track::CrossSection behind = raise(parameters, entry, height(numbers[7]));
     const Left whole;
     const Left left = cutAway(before, std::max(0.0, -depth), std::max(0.0, depth));
     double x = length;
     std::vector<track::CrossSection> sections{cut(entry, x, whole)};
-    sections.push_back(cut(bridge, x += edge(numbers[3]), left));
-    sections.push_back(cut(bridge, x += within(kEdge, longest, numbers[4]), left));
-    sections.push_back(cut(lower, x += edge(numbers[5]), whole));
+    sections.push_back(cut(notch, x += edge(numbers[3]), left));
+    sections.push_back(cut(notch, x += within(kEdge, longest, numbers[4]), left));
+    sections.push_back(cut(behind, x += edge(numbers[5]), whole));
     return sections;
 }
 
@@ -219,7 +252,7 @@ TrapKind narrowed() {
 TrapKind notched() {
     return {"notched",
             "Notched track",
-            "What comes before goes on, with a notch across it and a step: tells a part's two ends apart.",
+            "What comes before goes on, notched across, raised or lowered: tells a part's two ends apart.",
             &dimensionsOfNotched,
             &buildNotched,
             &layOutNotched,

@@ -13,13 +13,14 @@ namespace trapwright::traps {
 TrapKind narrowed();
 
 /// A narrowed track that tells which end comes first: what comes before goes on with the same cross-section
-/// and a notch from one edge, as deep as the whole width if need be, down to a narrow bridge; its beginning
-/// and its end may slant, and the track is lower behind it, or from its beginning on. A cut of one length and
-/// upright ends carries a part and its mirror image alike, for both come over it in every place; slanting
-/// ends and a step do not. Eight numbers: length and fall before it, how deep and from which edge (negative:
-/// the inner one), how long its beginning is, it itself, and its end, how high the step is (negative: at its
-/// beginning), and how much all of it is inclined across the track. Nothing is cut off at the segment's box
-/// but by the inclination: there is as much fall and step as there is room for.
+/// and a notch from one edge, as deep as the whole width if need be, down to a narrow bridge. Its beginning
+/// and its end may slant, and what is left beside it may be higher or lower than what comes before, and so
+/// may the track behind it: a rise that one end climbs and the other does not, or a step. A cut of one length
+/// and upright ends in a level track carries a part and its mirror image alike, for both come over it in
+/// every place. Nine numbers: length and fall before it, how deep and from which edge (negative: the inner
+/// one), how long its beginning is, it itself, and its end, how much it and the track behind it are raised,
+/// and how much all of it is inclined across the track. Nothing is cut off at the segment's box but by the
+/// inclination: all is raised and lowered as far as there is room.
 TrapKind notched();
 
 /// The height of a section at y, on the first of its stretches that has such a y; that of the nearest end

@@ -49,12 +49,18 @@ void serialize(Archive& archive, T& section) {
     archive(x, points);
 }
 
+template <class Archive, base::OrConst<Walls> T>
+void serialize(Archive& archive, T& walls) {
+    auto& [inner, outer] = walls;
+    archive(inner, outer);
+}
+
 template <class Archive, base::OrConst<Track> T>
 void serialize(Archive& archive, T& track) {
     auto& [shape, sections, firstTrapSection, lastTrapSection, solid, surfaceTriangles, start, finish, width,
-           height, baseThickness] = track;
+           height, baseThickness, walls] = track;
     archive(shape, sections, firstTrapSection, lastTrapSection, solid, surfaceTriangles, start, finish, width,
-            height, baseThickness);
+            height, baseThickness, walls);
 }
 
 }  // namespace trapwright::track
@@ -122,7 +128,7 @@ void serialize(Archive& archive, T& outcome) {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

@@ -18,6 +18,27 @@ Failure describeFailure(const base::RunControl& control, const base::Error& erro
     return {FailureKind::simulation, error.message};
 }
 
+/// `count` tracks of the whole study's Pareto front, from one end to the other. Empty if no track has all its
+/// trials.
+Result<std::vector<study::Individual>> loadFront(const store::StudyFile& file,
+                                                 const study::EvolutionSettings& settings,
+                                                 const objectives::ObjectiveList& traded, int count) {
+    const auto pairs = file.loadScorePairs(std::string(traded[0]->key), std::string(traded[1]->key));
+    if (!pairs) return Failure{FailureKind::reading, pairs.error().message};
+    const std::vector<std::size_t> front =
+        study::findParetoFront(*pairs, *traded[0], *traded[1], settings.trialsPerEvaluation);
+    const std::size_t taken = std::min(front.size(), static_cast<std::size_t>(std::max(1, count)));
+    std::vector<study::Individual> tracks;
+    for (std::size_t k = 0; k < taken; ++k) {
+        const std::size_t place = taken < 2 ? 0 : k * (front.size() - 1) / (taken - 1);
+        const study::IndividualId id = (*pairs)[front[place]];
+        auto record = file.loadIndividual(id);
+        if (!record) return Failure{FailureKind::reading, record.error().message};
+        tracks.push_back({id, std::move(*record)});
+    }
+    return tracks;
+}
+
 }  // namespace
 
 Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& file,
@@ -32,6 +53,10 @@ Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& fi
                            " has no generations to select from. Learn some first with evolve."};
     }
     const int count = inputs.settings.validation.selectionWinners;
+    if (const auto traded = study::tradedObjectives(inputs.settings.evolution); !traded.empty()) {
+        auto front = loadFront(file, inputs.settings.evolution, traded, count);
+        if (!front || !front->empty()) return front;
+    }
     if (!study::isPlanned(inputs.settings.evolution)) return study::rankWinners(std::move(*winners), count);
     constexpr study::IndividualId kBestPlanned{0, 0};
     auto planned = file.loadIndividual(kBestPlanned);

@@ -104,6 +104,8 @@ void CurveChart::addActions() {
     add(tr("Cursor to the right"), {Qt::Key_Right}, [this] { stepCursor(1); });
     add(tr("Pick the generation at the cursor"), {Qt::Key_Return, Qt::Key_Enter}, [this] {
         if (cursor_) emit picked(static_cast<int>(*cursor_));
+        for (Plot* plot : shownPlots())
+            plot->pickPoint();
     });
 }
 
@@ -125,6 +127,7 @@ void CurveChart::updateShown() {
 }
 
 void CurveChart::stepCursor(int step) {
+    if (!plots_.empty() && plots_.front()->sheet().byPoint) return plots_.front()->stepPoint(step);
     double low = 0.0;
     double high = -1.0;
     for (const PlotSheet& plot : sheet_.plots) {
@@ -146,6 +149,7 @@ void CurveChart::linkPlot(Plot* plot) {
     });
     connect(plot, &Plot::fitWanted, this, &CurveChart::fit);
     connect(plot, &Plot::cursorMoved, this, &CurveChart::setCursor);
+    connect(plot, &Plot::pointPicked, this, &CurveChart::pointPicked);
     connect(plot, &Plot::picked, this, [this](double x) { emit picked(static_cast<int>(x)); });
 }
 

@@ -41,6 +41,8 @@ class CurveChart : public ChartPanel {
  signals:
     /// A generation was clicked.
     void picked(int x);
+    /// A point of a scattered curve was clicked, of the plot that reads off by point.
+    void pointPicked(std::size_t curve, std::size_t index);
 
  protected:
     void applyTheme(const ChartTheme& theme) override;

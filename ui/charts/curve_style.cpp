@@ -8,6 +8,13 @@ namespace {
 
 constexpr double kLineWidth = 1.8;
 constexpr double kMarkerSize = 7.0;
+constexpr double kDotRadius = 2.2;
+constexpr float kDotOpacity = 0.45F;  // where many are, it is darker
+
+QColor fadeTo(QColor colour, float opacity) {
+    colour.setAlphaF(opacity);
+    return colour;
+}
 
 /// In multiples of the line's width; empty: solid.
 QList<qreal> dashesOf(const CurveStyle& style) {
@@ -66,6 +73,11 @@ void paintMarker(QPainter& painter, const QPointF& centre, const CurveStyle& sty
     switch (style.marker) {
         case Marker::none:
             break;
+        case Marker::dot:
+            painter.setPen(Qt::NoPen);
+            painter.setBrush(fadeTo(colour, kDotOpacity));
+            painter.drawEllipse(centre, kDotRadius, kDotRadius);
+            break;
         case Marker::circle:
             painter.drawEllipse(centre, r, r);
             break;
@@ -86,7 +98,9 @@ void paintMarker(QPainter& painter, const QPointF& centre, const CurveStyle& sty
 
 void paintSample(QPainter& painter, const QRectF& rect, const CurveStyle& style, const ChartTheme& theme) {
     painter.save();
-    if (style.line == Qt::NoPen) {
+    if (style.line == Qt::NoPen && style.marker != Marker::none) {
+        paintMarker(painter, rect.center(), style, theme);
+    } else if (style.line == Qt::NoPen) {
         const double side = std::min({rect.width(), rect.height(), 11.0});
         QRectF square(0, 0, side, side);
         square.moveCenter(rect.center());

@@ -40,6 +40,10 @@ void setTicks(QCategoryAxis* axis, const std::vector<Tick>& ticks, const Range& 
         axis->append(tick.label, tick.position);
 }
 
+bool isPickable(const Curve& curve) {
+    return curve.isScattered && !curve.pointNames.isEmpty();
+}
+
 }  // namespace
 
 Plot::Plot(QWidget* parent)
@@ -58,6 +62,7 @@ void Plot::setSheet(const PlotSheet& sheet) {
     xAxis_->setTitleText(sheet.xTitle);
     setAccessibleName(QString(sheet.yTitle).remove("<sub>").remove("</sub>"));
     curves_.resize(sheet_.curves.size());
+    point_.reset();
     updateCurves();
     updateLimits();
     updateTitle();
@@ -101,6 +106,47 @@ void Plot::setCursor(std::optional<double> x) {
     cursor_ = x;
     setAccessibleDescription(readOff().join(u'\n'));
     viewport()->update();
+}
+
+void Plot::stepPoint(int step) {
+    const std::vector<Curve>& curves = sheet_.curves;
+    std::optional<std::size_t> top;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        if (isPickable(curves[i])) top = i;
+    if (!top) return;
+    const int last = static_cast<int>(curves[*top].points.size()) - 1;
+    const int from = point_ && point_->curve == *top ? static_cast<int>(point_->index) : -1;
+    const int to = from < 0 ? 0 : std::clamp(from + step, 0, last);
+    movePointTo(PlotPoint{*top, static_cast<std::size_t>(to)});
+}
+
+void Plot::pickPoint() {
+    if (point_) emit pointPicked(point_->curve, point_->index);
+}
+
+void Plot::movePointTo(std::optional<PlotPoint> point) {
+    if (point_ == point) return;
+    point_ = point;
+    setAccessibleDescription(readOff().join(u'\n'));
+    viewport()->update();
+}
+
+/// The nearest one that is in reach and shown.
+std::optional<PlotPoint> Plot::findPoint(const QPointF& position) const {
+    constexpr double kReach = 16.0;  // pixels
+    std::optional<PlotPoint> nearest;
+    double least = kReach;
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+        if (!curves_[i].shown || !isPickable(sheet_.curves[i])) continue;
+        for (std::size_t at = 0; at < sheet_.curves[i].points.size(); ++at) {
+            const QPointF away = toWidget(sheet_.curves[i].points[at]) - position;
+            const double distance = std::hypot(away.x(), away.y());
+            if (distance > least) continue;  // of equal ones that on top
+            least = distance;
+            nearest = PlotPoint{i, at};
+        }
+    }
+    return nearest;
 }
 
 void Plot::setPicturing(bool picturing) {
@@ -263,6 +309,7 @@ void Plot::mouseReleaseEvent(QMouseEvent* event) {
         // Whatever came between, such as a leave.
         moveCursorTo(event->position());
         if (cursor_) emit picked(*cursor_);
+        pickPoint();
     }
     pressed_.reset();
     dragging_ = false;
@@ -275,10 +322,13 @@ void Plot::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void Plot::leaveEvent(QEvent* event) {
     QChartView::leaveEvent(event);
+    movePointTo(std::nullopt);
     emit cursorMoved(std::nullopt);
 }
 
 void Plot::moveCursorTo(const QPointF& position) {
+    if (sheet_.byPoint)
+        return movePointTo(plotArea().contains(position) ? findPoint(position) : std::nullopt);
     Extent extent;
     for (const Curve& curve : sheet_.curves) {
         for (const QPointF& point : curve.points)

@@ -13,6 +13,14 @@ class QCategoryAxis;
 
 namespace trapwright::charts {
 
+/// A point of a scattered curve.
+struct PlotPoint {
+    std::size_t curve = 0;
+    std::size_t index = 0;  // of Curve::points
+
+    friend bool operator==(const PlotPoint&, const PlotPoint&) = default;
+};
+
 /// One plot: curves with axes whose ticks are always round. Zooms by wheel (over an axis:
 /// along that one), pans by dragging; double click and fit() show everything.
 class Plot : public QChartView {
@@ -37,6 +45,12 @@ class Plot : public QChartView {
 
     /// Where values are read off; none: nowhere.
     void setCursor(std::optional<double> x);
+    /// Where points are read off one by one (PlotSheet::byPoint): the point under the cursor.
+    [[nodiscard]] std::optional<PlotPoint> point() const { return point_; }
+    /// So many points on along the topmost curve that has some to pick; from nowhere to its first one.
+    void stepPoint(int step);
+    /// As a click on it.
+    void pickPoint();
     /// The values at the cursor, a line each.
     [[nodiscard]] QStringList readOff() const;
 
@@ -53,6 +67,7 @@ class Plot : public QChartView {
     void fitWanted();
     void cursorMoved(std::optional<double> x);
     void picked(double x);
+    void pointPicked(std::size_t curve, std::size_t index);
 
  protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -95,6 +110,9 @@ class Plot : public QChartView {
     void paintCurves(QPainter& painter) const;
     void paintMarkers(QPainter& painter, std::size_t curve) const;
     void moveCursorTo(const QPointF& position);
+    void movePointTo(std::optional<PlotPoint> point);
+    [[nodiscard]] std::optional<PlotPoint> findPoint(const QPointF& position) const;
+    void paintPoint(QPainter& painter) const;
 
     PlotSheet sheet_;
     ChartTheme theme_;
@@ -108,6 +126,7 @@ class Plot : public QChartView {
     bool fitted_ = true;
     bool picturing_ = false;
     std::optional<double> cursor_;
+    std::optional<PlotPoint> point_;
     std::optional<QPointF> pressed_;
     QPointF dragged_;
     bool dragging_ = false;

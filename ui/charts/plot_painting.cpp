@@ -45,6 +45,13 @@ QString valueText(const Curve& curve, double x, int decimals) {
 }  // namespace
 
 QStringList Plot::readOff() const {
+    if (point_) {
+        const Curve& curve = sheet_.curves[point_->curve];
+        const QPointF& value = curve.points[point_->index];
+        return {curve.pointNames.value(static_cast<qsizetype>(point_->index)),
+                QStringLiteral("%1: %2").arg(sheet_.xTitle, numberText(value.x(), sheet_.decimals)),
+                QStringLiteral("%1: %2").arg(sheet_.yTitle, numberText(value.y(), sheet_.decimals))};
+    }
     if (!cursor_) return {};
     QStringList lines{QStringLiteral("%1 %2").arg(sheet_.xTitle).arg(*cursor_)};
     for (std::size_t i = 0; i < curves_.size(); ++i) {
@@ -63,6 +70,7 @@ void Plot::drawForeground(QPainter* painter, const QRectF&) {
     paintCurves(*painter);
     for (std::size_t i = 0; i < curves_.size(); ++i)
         if (curves_[i].shown) paintMarkers(*painter, i);
+    if (point_ && !picturing_ && !dragging_) paintPoint(*painter);
     const bool reading = cursor_ && !picturing_ && !dragging_ && x_.contains(*cursor_);
     if (reading) {
         std::vector<ReadValue> values;
@@ -79,6 +87,19 @@ void Plot::drawForeground(QPainter* painter, const QRectF&) {
                      QStringLiteral("%1 %2").arg(sheet_.xTitle).arg(*cursor_), values, theme_);
     }
     painter->restore();
+}
+
+void Plot::paintPoint(QPainter& painter) const {
+    const Curve& curve = sheet_.curves[point_->curve];
+    const QPointF& value = curve.points[point_->index];
+    const QPointF place = toWidget(value);
+    if (!plotArea().contains(place)) return;
+    const QPointF nowhere(-1e9, -1e9);
+    const QStringList lines = readOff();
+    paintReadOff(painter, plotArea(), place.x(), lines.front(),
+                 {{curve.style, sheet_.xTitle, numberText(value.x(), sheet_.decimals), nowhere},
+                  {curve.style, sheet_.yTitle, numberText(value.y(), sheet_.decimals), place}},
+                 theme_);
 }
 
 void Plot::paintMark(QPainter& painter) const {
@@ -117,6 +138,12 @@ void Plot::paintMarkers(QPainter& painter, std::size_t curve) const {
     const QPolygonF& points = curves_[curve].points;
     const QRectF area = plotArea();
     const QRectF inside = area.adjusted(-kSlack, -kSlack, kSlack, kSlack);
+    if (sheet_.curves[curve].isScattered) {
+        for (const QPointF& point : points)
+            if (const QPointF centre = placeOf(point); inside.contains(centre))
+                paintMarker(painter, centre, style, theme_);
+        return;
+    }
     for (const Piece& piece : piecesOf(points)) {
         const bool alone = piece.first == piece.last;
         if (!alone) {
@@ -160,7 +187,7 @@ void Plot::paintBands(QPainter& painter) const {
 void Plot::paintCurves(QPainter& painter) const {
     const QRectF area = plotArea();
     for (std::size_t i = 0; i < curves_.size(); ++i) {
-        if (!curves_[i].shown) continue;
+        if (!curves_[i].shown || sheet_.curves[i].isScattered) continue;
         painter.setPen(curvePen(sheet_.curves[i].style, theme_));
         painter.setBrush(Qt::NoBrush);
         // A level is one line from edge to edge, whatever the step.

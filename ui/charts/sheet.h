@@ -16,7 +16,7 @@ namespace trapwright::charts {
 
 enum class Scale { linear, logarithmic };
 
-enum class Marker { none, circle, square, triangle, diamond };
+enum class Marker { none, dot, circle, square, triangle, diamond };
 
 /// Curves differ by dash and marker too, so that they can be told apart in print.
 struct CurveStyle {
@@ -37,6 +37,8 @@ struct Curve {
     std::optional<double> level{};        // instead of points: a horizontal line
     std::vector<stats::Interval> band{};  // slot i about points[i], drawn as an area; empty: none
     QStringList bandColumns{};            // in CSV, of its low and its high end
+    bool isScattered = false;             // points by themselves, x in any order
+    QStringList pointNames{};             // of a scattered curve whose points can be picked
 };
 
 /// A place on the x axis that means something.
@@ -57,6 +59,7 @@ struct PlotSheet {
     double leastWidth = 10.0;         // of the fitted x range
     bool isWhole = true;  // x is whole numbers; else its values are read off where a curve has points
     double xStep = 0.0;   // between points that farther apart miss data between them; 0: they never do
+    bool byPoint = false;  // points of scattered curves are read off and picked one by one, none by its x
     std::optional<XMark> mark{};
     std::vector<Curve> curves;
 };

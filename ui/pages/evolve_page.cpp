@@ -24,6 +24,7 @@
 #include "ui/pages/run_card.h"
 #include "ui/pages/settings_form.h"
 #include "ui/pages/track_in_scene.h"
+#include "ui/pages/trade_off_panel.h"
 #include "ui/scene/scene_view.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -53,6 +54,7 @@ EvolvePage::EvolvePage(RunActions& run, QWidget* parent)
       charts_(new LearningCharts(this)),
       generations_(new GenerationTable),
       individuals_(new IndividualTable),
+      tradeOff_(new TradeOffPanel),
       log_(new EventLog),
       strip_(new FilmStrip) {
     auto* settingsGroup = new look::FoldingGroup("evolve.settings", tr("Settings"), false, this);
@@ -168,6 +170,8 @@ void EvolvePage::connectViews() {
     connect(individuals_, &IndividualTable::generationPicked, this, &EvolvePage::pickWinner);
     connect(charts_, &LearningCharts::picked, this, &EvolvePage::pickWinner);
     connect(charts_, &LearningCharts::failed, this, &Page::failed);
+    connect(tradeOff_, &TradeOffPanel::picked, this, &EvolvePage::pick);
+    connect(tradeOff_, &TradeOffPanel::failed, this, &Page::failed);
     connect(generations_, &GenerationTable::failed, this, &Page::failed);
     connect(individuals_, &IndividualTable::failed, this, &Page::failed);
 }
@@ -176,6 +180,7 @@ std::vector<Panel> EvolvePage::panels() {
     std::vector<Panel> panels = charts_->panels();  // success first
     panels.insert(panels.begin() + 1, {{"generations", tr("Generations"), generations_},
                                        {"individuals", tr("Individuals"), individuals_},
+                                       {"tradeOff", tr("Trade-off"), tradeOff_},
                                        {"log", tr("Log"), log_}});
     return panels;
 }
@@ -196,6 +201,7 @@ void EvolvePage::setSession(StudySession* session) {
     charts_->setSession(session);
     generations_->setRuns(runs);
     individuals_->setRuns(runs);
+    tradeOff_->setSession(session);
     log_->setRuns(runs);
     strip_->setRuns(runs);
     if (session_) {
@@ -285,6 +291,8 @@ void EvolvePage::showPicked() {
     strip_->setCurrent(generation, caption, !picked_);
     generations_->setCurrent(generation);
     individuals_->setCurrent(generation, individual != nullptr ? individual->individual : -1);
+    tradeOff_->setShown(individual != nullptr ? std::optional<study::IndividualId>(*individual)
+                                              : std::nullopt);
     individualGroup_->setSummary(caption);
     if (individual == nullptr) {
         individual_->clear();

@@ -30,6 +30,7 @@ class LearningCharts;
 class RunActions;
 class RunCard;
 class SettingsForm;
+class TradeOffPanel;
 
 /// Step 3: learning is started, watched and stopped; any individual that was learned can be looked at. The
 /// scene follows the best winner until another one is picked.
@@ -93,6 +94,7 @@ class EvolvePage : public Page {
     // The window owns these.
     GenerationTable* generations_;
     IndividualTable* individuals_;
+    TradeOffPanel* tradeOff_;
     EventLog* log_;
     FilmStrip* strip_;
 };

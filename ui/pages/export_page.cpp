@@ -229,7 +229,8 @@ void ExportPage::refresh() {
     foot_->setVisible(any);
     if (session_) {
         const study::TrackSettings& settings = session_->design().settings().track;
-        form_->setDesign(settings.baseThickness, settings.shape.type == track::FeederType::bowl);
+        form_->setDesign(settings.baseThickness, settings.shape.type == track::FeederType::bowl,
+                         settings.walls.any());
     }
     const QVariant before = tracks_->currentData(kGeneration);
     const QVariant beforeIndividual = tracks_->currentData(kIndividual);

@@ -39,7 +39,9 @@ const RawText kTexts[] = {
     {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
     {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
     {"track.slope_deg", TEXT("Slope"), TEXT("How steeply the track climbs; below 0 it falls. A linear feeder is tilted as a whole, and the vibration with it; a bowl's track climbs around an upright bowl.")},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps and narrowed tracks that throw out what lies wrong, or several one after the other.")},
+    {"track.innerWall_mm", TEXT("Inner wall"), TEXT("How far a wall at the inner side rises above the surface's highest point, to keep parts on the track; 0: an edge. It closes cut-outs and gaps at its side.")},
+    {"track.outerWall_mm", TEXT("Outer wall"), TEXT("The same at the outer side, where a bowl has its wall.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
     {"track.given", TEXT("Given trap"), TEXT("Cross-sections that the traps follow: those of a track that was learned before and stays as it is. Change in a new study, Add a rejecting trap, sets them.")},
     {"track.returns", TEXT("What falls off"), TEXT("Where parts that fall off the track come again because they fall back into the bowl or a tray: nowhere, at one side, anywhere. What falls elsewhere is lost."), {TEXT("Is lost"), TEXT("Returns inside"), TEXT("Returns outside"), TEXT("Returns")}},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
@@ -73,6 +75,7 @@ const RawText kTexts[] = {
     {"evolution.racingTrials", TEXT("Racing trials"), TEXT("Trials for every individual before only the best get all; 0 gives all to everybody.")},
     {"evolution.racingShare", TEXT("Racing share"), TEXT("Share of the population that gets all trials in a race.")},
     {"evolution.commonRandomNumbers", TEXT("Starts of parts"), TEXT("Whether all individuals of a generation meet the same random starts."), {TEXT("Differ"), TEXT("Same for all")}},
+    {"evolution.tradeOff", TEXT("Trade-off"), TEXT("Two of the objectives that pull against each other, such as purity and success. Instead of by their sum tracks are ranked by Pareto fronts (NSGA-II), so that the population spreads over all that there is to choose from.")},
     {"evolution.streamShare", TEXT("Share with streams"), TEXT("Where throughput is an objective: the share of the population, the best by single parts, that streams of parts are sent over in each generation.")},
     {"evolution.streamsEach", TEXT("Streams each"), TEXT("How many streams are sent over each of these tracks, as Stream of parts says.")},
     {"evolution.learningStuckTime_s", TEXT("Stuck while learning"), TEXT("A part that makes no progress for this long counts as stuck while learning; it saves time.")},
@@ -189,9 +192,10 @@ std::vector<Choice> trapChoices() {
     };
     for (const traps::TrapKind& kind : traps::trapKinds())
         add(std::string(kind.key));
-    for (const char* chain : {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop",
-                              "groove, 6 x drop", "groove, 10 x drop", "groove, groove, 8 x gap",
-                              "groove, groove, 8 x cut-out", "2 x narrowed", "free-form, narrowed"})
+    for (const char* chain :
+         {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
+          "groove, 10 x drop", "groove, groove, 8 x gap", "groove, groove, 8 x cut-out", "2 x narrowed",
+          "narrowed, notched", "free-form, narrowed"})
         add(chain);
     return choices;
 }
@@ -213,6 +217,16 @@ std::vector<Choice> objectiveChoices() {
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Paper, streams"))},
         {"F_C, F_D, success, conveying_speed",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success, speed"))}};
+}
+
+std::vector<Choice> tradeOffChoices() {
+    const auto tr = [](const char* text) { return translated(text); };
+    return {{"", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "None"))},
+            {"purity, success", tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Purity, success"))},
+            {"success, conveying_speed",
+             tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success, speed"))},
+            {"success, throughput",
+             tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Success, throughput"))}};
 }
 
 std::vector<Choice> engineChoices(const trial::EngineRegistry& engines) {
@@ -240,7 +254,8 @@ std::vector<FieldGroup> trackGroups() {
     return {
         {"feeder",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Feeder")),
-         {"track.feeder", "track.bowlRadius_mm", "track.conveying", "track.slope_deg"}},
+         {"track.feeder", "track.bowlRadius_mm", "track.conveying", "track.slope_deg", "track.innerWall_mm",
+          "track.outerWall_mm"}},
         {"drive",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Drive")),
          {"simulation.drive.frequency_Hz", "simulation.drive.halfStroke_mm", "simulation.drive.angle_deg"}},
@@ -265,8 +280,9 @@ std::vector<FieldGroup> trackGroups() {
           "box.startSpeed_mm_s", "box.roughness_deg", "box.distribution"}},
         {"learning",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Learning")),
-         {"evolution.search", "evolution.objectives", "evolution.generations", "evolution.populationSize",
-          "evolution.trialsPerEvaluation", "simulation.engine", "evolution.seed"}},
+         {"evolution.search", "evolution.objectives", "evolution.tradeOff", "evolution.generations",
+          "evolution.populationSize", "evolution.trialsPerEvaluation", "simulation.engine",
+          "evolution.seed"}},
         {"operators",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Genetic operators")),
          {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",

@@ -31,6 +31,7 @@ std::vector<Choice> trapChoices();
 
 /// Sums of objectives that make sense for evolution.objectives; the command line takes any.
 std::vector<Choice> objectiveChoices();
+std::vector<Choice> tradeOffChoices();
 
 /// What simulation.engine can be.
 std::vector<Choice> engineChoices(const trial::EngineRegistry& engines);

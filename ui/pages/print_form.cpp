@@ -55,9 +55,8 @@ PrintForm::PrintForm(QWidget* parent)
         base_, kMillimetre);
     addRow(shape,
            {"wallHeight", tr("Wall height"), tr("mm"),
-            tr("How far both side walls rise above the surface's highest point; 0 for none. They stand "
-               "outside the "
-               "surface, which stays as it was learned."),
+            tr("How far both side walls rise above the surface's highest point; those that the track was "
+               "learned with are there at least. They stand outside the surface, which stays as it was."),
             0, 100},
            choice_.options.wallHeight, kMillimetre);
     wallRows_ = {addRow(shape,
@@ -98,7 +97,7 @@ PrintForm::PrintForm(QWidget* parent)
     insertRow_ = flangeRows_.back();
 
     takePrinter();
-    setDesign(kMillimetre, false);
+    setDesign(kMillimetre, false, false);
 }
 
 look::FoldingGroup* PrintForm::addGroup(const QString& name, const QString& title) {
@@ -125,9 +124,10 @@ PrintRow* PrintForm::addRow(look::FoldingGroup& group, const PrintField& field, 
     return row;
 }
 
-void PrintForm::setDesign(double baseThickness, bool bowl) {
+void PrintForm::setDesign(double baseThickness, bool bowl, bool walled) {
     designBase_ = baseThickness;
     bowl_ = bowl;
+    walled_ = walled;
     base_ = choice_.options.baseThickness.value_or(baseThickness);
     flange_->setText(bowl ? tr("Insert for the bowl") : tr("Mounting flange"));
     flange_->setToolTip(bowl ? tr("A foot at the outer side that fits into the bowl, with bolt holes")
@@ -165,7 +165,7 @@ void PrintForm::showValues() {
         value.row->show(*value.target / value.unit, fallback / value.unit);
     }
     for (PrintRow* row : wallRows_)
-        row->setVisible(choice_.options.wallHeight > 0.0);
+        row->setVisible(choice_.options.wallHeight > 0.0 || walled_);
     for (PrintRow* row : flangeRows_)
         row->setVisible(choice_.options.flange && (row != insertRow_ || bowl_));
 }

@@ -36,8 +36,9 @@ class PrintForm : public QWidget {
     explicit PrintForm(QWidget* parent);
 
     [[nodiscard]] const PrintChoice& choice() const { return choice_; }
-    /// What the study says: the base's thickness [m], and whether the feeder is a bowl.
-    void setDesign(double baseThickness, bool bowl);
+    /// What the study says: the base's thickness [m], whether the feeder is a bowl, whether the track has
+    /// walls.
+    void setDesign(double baseThickness, bool bowl, bool walled);
     [[nodiscard]] const track::Printer& printer() const;
     [[nodiscard]] const SplitForm& split() const { return *split_; }
     /// What became of the choice.
@@ -75,6 +76,7 @@ class PrintForm : public QWidget {
     PrintRow* insertRow_;
     QCheckBox* flange_;
     bool bowl_ = false;
+    bool walled_ = false;
     PrinterChoice* printer_;
     SplitForm* split_;
 };

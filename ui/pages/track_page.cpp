@@ -60,6 +60,7 @@ TrackPage::TrackPage(RunActions& run, QWidget* parent)
     column->addWidget(form_);
     form_->offer("track.traps", trapChoices());
     form_->offer("evolution.objectives", objectiveChoices());
+    form_->offer("evolution.tradeOff", tradeOffChoices());
     column->addStretch(1);
     auto* scroll = new QScrollArea(this);
     scroll->setWidget(contents);

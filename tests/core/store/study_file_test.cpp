@@ -116,6 +116,45 @@ class StudyFileTest : public QObject {
         }
     }
 
+    /// Two scores of all that were simulated; of an objective that is not there, of nobody.
+    void loadsScoresInPairs() {
+        sample::write(path_, 3);
+        const auto study = StudyFile::openReadOnly(path_);
+        VERIFY_OK(study);
+        const auto pairs = study->loadScorePairs("F_O", "F_D");
+        VERIFY_OK(pairs);
+        std::vector<study::ScorePair> expected;
+        for (int g = 0; g < 3; ++g) {
+            const study::GenerationRecord record = sample::generation(g);
+            for (std::size_t i = 0; i < record.individuals.size(); ++i) {
+                const study::IndividualRecord& individual = record.individuals[i];
+                if (individual.trials == 0) continue;
+                expected.push_back({{g, static_cast<int>(i)},
+                                    individual.trials,
+                                    objectives::findScore(individual.fitness, "F_O")->value,
+                                    objectives::findScore(individual.fitness, "F_D")->value});
+            }
+        }
+        QVERIFY(!expected.empty());
+        QVERIFY(*pairs == expected);
+        QVERIFY(study->loadScorePairs("F_O", "nothing").value().empty());
+    }
+
+    /// Who has few trials by a race is not compared; less is better where the objective says so.
+    void findsTheFrontOfPairs() {
+        const objectives::Objective& more = *objectives::findObjective("success");
+        const objectives::Objective& less = *objectives::findObjective("disorder");
+        QVERIFY(more.moreIsBetter && !less.moreIsBetter);
+        const std::vector<study::ScorePair> pairs = {{{0, 0}, 20, 0.5, 1.0},
+                                                     {{0, 1}, 5, 1.0, 0.0},
+                                                     {{1, 0}, 20, 0.9, 1.5},
+                                                     {{1, 1}, 20, 0.4, 1.1},
+                                                     {{1, 2}, 30, 0.1, 0.2}};
+        QVERIFY((study::findParetoFront(pairs, more, less, 20) == std::vector<std::size_t>{2, 0, 4}));
+        QVERIFY((study::findParetoFront(pairs, more, less, 1) == std::vector<std::size_t>{1}));
+        QVERIFY((study::findParetoFront(pairs, more, more, 20) == std::vector<std::size_t>{2}));
+    }
+
     void refusesAGenerationOutOfTurn() {
         sample::write(path_, 2);
         auto study = StudyFile::open(path_, sample::kProgram);

@@ -170,6 +170,51 @@ class EvaluatorTest : public QObject {
         }
     }
 
+    /// By F, or by the fronts of two sums that differ in what is traded.
+    void tracksAreRankedByWhatIsTraded() {
+        study::EvolutionSettings settings;
+        settings.objectives = "F_C, purity, success";
+        std::vector<objectives::Fitness> fitnesses;
+        const auto add = [&](double collisions, double purity, double success) {
+            objectives::Fitness fitness;
+            fitness.scores = {{"F_C", collisions}, {"purity", purity}, {"success", success}};
+            fitness.total = objectives::calcTotal(fitness.scores, study::summedObjectives(settings));
+            fitnesses.push_back(fitness);
+        };
+        add(0.0, 1.0, 0.9);   // the most right
+        add(0.0, 3.0, 0.2);   // the fewest wrong
+        add(0.0, 2.0, 0.5);   // between both
+        add(0.0, 1.9, 0.4);   // worse than that
+        add(-5.0, 3.0, 0.9);  // best of both, but it cannot be
+        const auto totals = study::rankingScores(settings, fitnesses);
+        for (std::size_t i = 0; i < fitnesses.size(); ++i)
+            QCOMPARE(totals[i], fitnesses[i].total);
+        settings.tradeOff = "purity, success";
+        const auto places = study::rankingScores(settings, fitnesses);
+        QVERIFY((places == std::vector{0.0, -1.0, -2.0, -3.0, -4.0}));
+    }
+
+    /// Learning by fronts keeps both ends of what there is to choose from, for any number of threads.
+    void learningTradesTwoObjectives() {
+        std::vector<std::vector<GenerationRecord>> runs;
+        for (const unsigned threads : {1U, 4U}) {
+            study::StudyInputs inputs = racingInputs(threads);
+            inputs.settings.evolution.objectives = "F_C, F_D, F_O";
+            inputs.settings.evolution.tradeOff = "F_D, F_O";
+            VERIFY_OK(learn(inputs, runs.emplace_back()));
+        }
+        study::StudyInputs summed = racingInputs();
+        summed.settings.evolution.objectives = "F_C, F_D, F_O";
+        std::vector<GenerationRecord> others;
+        VERIFY_OK(learn(summed, others));
+        QCOMPARE(runs[0].size(), others.size());
+        for (std::size_t g = 0; g < others.size(); ++g)
+            QVERIFY(runs[0][g].individuals == runs[1][g].individuals);
+        // The same first generation, raced for by the front, and other children of it.
+        QVERIFY(runs[0][0].individuals.front().design == others[0].individuals.front().design);
+        QVERIFY(runs[0].back().individuals != others.back().individuals);
+    }
+
     /// An individual's success is that of the selection: of all its trials, whether it raced or not. The law
     /// lays the parts of each trial as its number says.
     void successIsCountedOfAllTrials_data() {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/study/evaluator.h"
 #include "core/study/presets.h"
 #include "core/study/settings.h"
 #include "core/study/track_design.h"
@@ -114,7 +115,6 @@ class SettingsCheckTest : public QObject {
         QCOMPARE(study::keepsScores(before, after, 5), kept);
     }
 
-    // What the presets were before there was a library, to the last bit.
     // More parts than a stream can have are a problem where learning sends streams.
     void streamsOfLearningMustFit() {
         study::Settings s = study::presetSettings("cuboid").value();
@@ -128,6 +128,41 @@ class SettingsCheckTest : public QObject {
         QVERIFY(study::findProblems(s).empty());
     }
 
+    // Two of the objectives that are summed, or none.
+    void whatIsTradedIsInTheSum_data() {
+        QTest::addColumn<QString>("tradeOff");
+        QTest::addColumn<QString>("problem");  // empty: none
+        QTest::newRow("none") << ""
+                              << "";
+        QTest::newRow("two") << "success, F_D"
+                             << "";
+        QTest::newRow("one") << "success"
+                             << "Name the two objectives";
+        QTest::newRow("three") << "success, F_D, F_C"
+                               << "Name the two objectives";
+        QTest::newRow("not in the sum") << "success, F_O"
+                                        << "F_O is not among evolution.objectives";
+        QTest::newRow("unknown") << "success, sucess"
+                                 << "no objective named \"sucess\"";
+        QTest::newRow("twice") << "success, success"
+                               << "named twice";
+    }
+    void whatIsTradedIsInTheSum() {
+        QFETCH(QString, tradeOff);
+        QFETCH(QString, problem);
+        study::Settings s = study::presetSettings("cuboid").value();
+        s.evolution.objectives = "F_C, F_D, success";
+        s.evolution.tradeOff = tradeOff.toStdString();
+        const auto problems = study::findProblems(s);
+        QCOMPARE(problems.empty(), problem.isEmpty());
+        if (!problems.empty()) QVERIFY(QString::fromStdString(problems[0]).contains(problem));
+        QCOMPARE(study::tradedObjectives(s.evolution).size(), tradeOff == "success, F_D" ? 2U : 0U);
+        // What is nonsense in the sum is told once.
+        s.evolution.objectives = "nothing";
+        QCOMPARE(study::findProblems(s).size(), std::size_t{1});
+    }
+
+    // What the presets were before there was a library, to the last bit.
     void presetsTakeTheirPairs_data() {
         QTest::addColumn<QString>("preset");
         QTest::addColumn<QString>("pair");

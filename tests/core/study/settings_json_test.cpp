@@ -26,6 +26,7 @@ Settings unusualSettings() {
               study::PoseWeights::dropped,
               "129, 48, 23"};
     s.track.shape = {track::FeederType::bowl, 0.1 + 0.2, track::Conveying::anticlockwise, 0.05};
+    s.track.walls = {1.0 / 300.0, 0.0123};
     s.track.traps = "step, free-form";
     s.track.given = "10.5: -30 1, 30 2";
     s.track.returns = trial::Returns::outerSide;
@@ -51,6 +52,7 @@ Settings unusualSettings() {
                    search::ga::FirstGeneration::random,
                    777,
                    "success, F_C",
+                   "F_C, success",
                    study::TrialConditions::nominal,
                    0.1 / 0.7,
                    23,

@@ -171,6 +171,34 @@ class PrintSolidTest : public QObject {
         }
     }
 
+    // A track with walls is printed with them as it was simulated; only higher ones change it.
+    void wallsOfTheTrackArePrinted() {
+        for (const auto& shape : {FeederShape{}, testing::makeBowl(Conveying::anticlockwise)}) {
+            const Track bare = makeFlat(shape);
+            Track track = bare;
+            track.walls = {0.0, 8 * kMm};
+            track::addSolid(track);
+            const auto printed = track::buildPrintSolid(track, {});
+            QVERIFY(printed.ok());
+            QCOMPARE(printed->vertices, track.solid.vertices);
+            QCOMPARE(printed->triangles, track.solid.triangles);
+            QCOMPARE(countMissingSurface(bare, *printed), 0U);
+
+            const auto higher = track::buildPrintSolid(track, makeOptions(10 * kMm, false, 0.0));
+            const auto bareHigher = track::buildPrintSolid(bare, makeOptions(10 * kMm, false, 0.0));
+            QVERIFY(higher.ok() && bareHigher.ok());
+            QCOMPARE(higher->vertices, bareHigher->vertices);
+
+            // The inner side gets what the options say, the outer one what it had.
+            const auto lower = track::buildPrintSolid(track, makeOptions(5 * kMm, true, 4 * kMm));
+            QVERIFY2(lower.ok(), lower.ok() ? "" : lower.error().message.c_str());
+            const geometry::MeshReport report = geometry::checkMesh(*lower, true);
+            QVERIFY(report.isSolid() && report.overlappingTriangles == 0);
+            const geometry::Box box = geometry::calcBoundingBox(*lower);
+            QVERIFY(std::abs(box.high.z() - (kSurface + 8 * kMm)) < 1e-9);
+        }
+    }
+
     void insertOfABowl() {
         for (const Conveying conveying : {Conveying::clockwise, Conveying::anticlockwise}) {
             const FeederShape shape = testing::makeBowl(conveying);

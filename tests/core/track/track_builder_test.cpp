@@ -237,6 +237,71 @@ class TrackBuilderTest : public QObject {
         }
     }
 
+    // Walls stand on the borders, as high above the surface's highest point as is said, 2 mm wide at least.
+    void wallsArePartOfTheSolid_data() {
+        QTest::addColumn<FeederShape>("shape");
+        QTest::addColumn<double>("inner");
+        QTest::addColumn<double>("outer");
+        const std::pair<const char*, FeederShape> shapes[] = {
+            {"linear", {}},
+            {"clockwise", testing::makeBowl(Conveying::clockwise)},
+            {"anticlockwise, climbs", testing::makeBowl(Conveying::anticlockwise, 4.0 * base::kDegree)}};
+        for (const auto& [name, shape] : shapes) {
+            QTest::addRow("%s, outer", name) << shape << 0.0 << 12e-3;
+            QTest::addRow("%s, inner", name) << shape << 5e-3 << 0.0;
+            QTest::addRow("%s, both", name) << shape << 5e-3 << 12e-3;
+        }
+    }
+    void wallsArePartOfTheSolid() {
+        QFETCH(FeederShape, shape);
+        QFETCH(double, inner);
+        QFETCH(double, outer);
+        TrackParameters parameters;
+        parameters.shape = shape;
+        for (std::uint64_t seed = 0; seed < 5; ++seed) {
+            const auto trap = testing::drawTrap(TrapParameters{}, seed);
+            parameters.walls = {};
+            const auto bare = build(parameters, trap);
+            parameters.walls = {inner, outer};
+            const auto walled = build(parameters, trap);
+            QVERIFY(isClosedManifold(walled.solid));
+            QVERIFY(walled.walls == parameters.walls);
+            // The surface stays as it is: the same triangles, and no others count.
+            QCOMPARE(walled.surfaceTriangles, bare.surfaceTriangles);
+            for (std::size_t t = 0; t < bare.surfaceTriangles; ++t) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto a = static_cast<std::size_t>(bare.solid.triangles[t][k]);
+                    const auto b = static_cast<std::size_t>(walled.solid.triangles[t][k]);
+                    QCOMPARE(walled.solid.vertices[b], bare.solid.vertices[a]);
+                }
+            }
+            double highest = 0.0;
+            for (const CrossSection& section : bare.sections) {
+                for (const base::Vec2& point : section.points)
+                    highest = std::max(highest, point.y());
+            }
+            double sides[2] = {0.0, 0.0};  // how far it reaches inward and outward
+            double tops[2] = {0.0, 0.0};   // how high it is at either side
+            double near = 0.0;
+            for (const base::Vec3& vertex : walled.solid.vertices) {
+                const base::Vec3 place = shape.toTrack(vertex, near);
+                near = place.x();
+                const std::size_t side = place.y() > 0.0 ? 1 : 0;
+                sides[side] = std::max(sides[side], std::abs(place.y()));
+                tops[side] = std::max(tops[side], place.z());
+            }
+            const double heights[2] = {inner, outer};
+            for (std::size_t side = 0; side < 2; ++side) {
+                if (heights[side] == 0.0) {
+                    QVERIFY(sides[side] <= 30e-3 + 1e-12 && tops[side] <= highest + 1e-12);
+                } else {
+                    QVERIFY(std::abs(sides[side] - 32e-3) < 1e-12);
+                    QVERIFY(std::abs(tops[side] - highest - heights[side]) < 1e-12);
+                }
+            }
+        }
+    }
+
     void flatTrackIsABlock() {
         const auto track = build({}, flatTrap(15e-3, 30e-3));
         const double length = 80e-3 + 30e-3 + 2 * 36e-3;
@@ -283,6 +348,11 @@ class TrackBuilderTest : public QObject {
         QTest::newRow("slope") << p << "slope is 15.1 deg";
         p.shape.slope = -0.3;
         QTest::newRow("slope down") << p << "slope";
+        p = {};
+        p.walls.inner = -1e-3;
+        QTest::newRow("inner wall") << p << "inner wall is -1 mm high";
+        p.walls = {0.0, 1.5};
+        QTest::newRow("outer wall") << p << "outer wall is 1500 mm high";
         p = {};
         p.leadInLength = 0.0;
         QTest::newRow("lead-in") << p << "lead-in length";

@@ -58,6 +58,8 @@ class TrackFileTest : public QObject {
         if (shape == 2) parameters.shape = testing::makeBowl(track::Conveying::anticlockwise);
         if (shape == 3) parameters.shape.slope = 3.3 * base::kDegree;
         if (shape == 4) parameters.shape = testing::makeBowl(track::Conveying::anticlockwise, -0.05);
+        if (shape == 2) parameters.walls = {0.0, 12.5e-3};
+        if (shape == 4) parameters.walls = {3e-3, 20e-3};
         auto built = track::buildTrack(parameters, testing::drawTrap({}, 4));
         QVERIFY(built.ok());
         const track::TrackFile file{"drawn at random", *built, std::nullopt};
@@ -74,6 +76,9 @@ class TrackFileTest : public QObject {
         QVERIFY(std::abs(again->track.finish - built->finish) < 1e-14);
         QVERIFY(std::abs(again->track.shape.slope - parameters.shape.slope) < 1e-14);
         QCOMPARE(track::trackToJson(file).find("slope") != std::string::npos, shape >= 3);
+        QVERIFY(std::abs(again->track.walls.inner - parameters.walls.inner) < 1e-14);
+        QVERIFY(std::abs(again->track.walls.outer - parameters.walls.outer) < 1e-14);
+        QCOMPARE(track::trackToJson(file).find("Wall") != std::string::npos, parameters.walls.any());
         for (std::size_t i = 0; i < built->solid.vertices.size(); ++i) {
             QVERIFY((again->track.solid.vertices[i] - built->solid.vertices[i]).norm() < 1e-14);
         }
@@ -109,6 +114,9 @@ class TrackFileTest : public QObject {
             << QByteArray("leadOutSegments");
         QTest::newRow("no feeder type")
             << QByteArray("\"linear\"") << QByteArray("\"spiral\"") << QByteArray("spiral");
+        QTest::newRow("a wall below nothing") << QByteArray("\"start\":")
+                                              << QByteArray("\"innerWall\": -2, \"start\":")
+                                              << QByteArray("inner wall is -2 mm high");
         QTest::newRow("too steep") << QByteArray("\"linear\"") << QByteArray("\"linear\", \"slope_deg\": 16")
                                    << QByteArray("slope is 16 deg");
         QTest::newRow("an array") << QByteArray("{") << QByteArray("[{") << QByteArray("not JSON");

@@ -295,8 +295,8 @@ class TrapKindsTest : public QObject {
         for (int j = 0; j < 8; ++j)
             before.points.emplace_back(60e-3 * (j / 7.0 - 0.5), 10e-3 + 1e-3 * (j % 3));
         // Falls by 4.5 degrees, notched by 45 mm from the outer edge, 5 mm lower behind it, not inclined.
-        const auto upright =
-            notched.build(parameters, before, std::vector<double>{0.5, 0.5, 0.875, 0.0, 0.5, 1.0, 0.75, 0.5});
+        const auto upright = notched.build(
+            parameters, before, std::vector<double>{0.5, 0.5, 0.875, 0.0, 0.5, 1.0, 0.5, 0.25, 0.5});
         QCOMPARE(upright.size(), std::size_t{4});
         const double begin = 0.5 * (15e-3 + 36e-3);
         const double fall = begin * std::tan(4.5 * base::kDegree);
@@ -311,19 +311,47 @@ class TrapKindsTest : public QObject {
             for (const base::Vec2& point : upright[i].points)
                 QVERIFY(std::abs(point.y() - traps::heightAt(before, point.x()) + lower) < 1e-12);
         }
-        // Notched from the inner edge, the step at the beginning, deeper than there is room for.
-        const auto early =
-            notched.build(parameters, before, std::vector<double>{0.5, 0.5, 0.125, 0.5, 0.5, 0.5, 0.0, 0.5});
+        // Notched from the inner edge and lower from its beginning on, by more than there is room for.
+        const auto early = notched.build(parameters, before,
+                                         std::vector<double>{0.5, 0.5, 0.125, 0.5, 0.5, 0.5, 0.0, 0.0, 0.5});
         QVERIFY(std::abs(early[1].points.front().x() - 15e-3) < 1e-12);
         QVERIFY(std::abs(early[3].points.front().y()) < 1e-12);
         for (std::size_t j = 0; j < 8; ++j)
             QVERIFY(std::abs(early[3].points[j].y() - before.points[j].y() + 10e-3) < 1e-12);
         QVERIFY(std::abs(early[1].points.back().y() - early[3].points.back().y()) < 1e-12);
-        // A narrow bridge is left of a notch across the whole width.
-        const auto whole =
-            notched.build(parameters, before, std::vector<double>{0.5, 0.5, 1.0, 0.5, 0.5, 0.5, 0.5, 0.5});
+        // A rise in the middle, and a narrow bridge that is left of a notch across the whole width.
+        const auto whole = notched.build(parameters, before,
+                                         std::vector<double>{0.5, 0.5, 1.0, 0.5, 0.5, 0.5, 0.75, 0.5, 0.5});
         QVERIFY(std::abs(whole[1].points.front().x() + 30e-3) < 1e-12);
         QVERIFY(std::abs(whole[1].points.back().x() + 27e-3) < 1e-12);
+        QVERIFY(std::abs(whole[1].points.front().y() - whole[0].points.front().y() - 5e-3) < 1e-12);
+        QVERIFY(std::abs(whole[3].points.front().y() - whole[0].points.front().y()) < 1e-12);
+    }
+
+    /// Points that a cut leaves stay where and which they are: what lies on them goes on as if there were
+    /// none. The others share what is left of the way to the cut edge.
+    void aCutLeavesTheRestAsItIs() {
+        const TrapParameters parameters;
+        track::CrossSection before{0.0, {}};
+        for (int j = 0; j < 8; ++j)
+            before.points.emplace_back(60e-3 * (j / 7.0 - 0.5), 10e-3 + 1e-3 * (j % 3));
+        for (int inner = 0; inner <= 127; inner += 3) {
+            for (int outer = 0; outer <= 127; outer += 7) {
+                const auto sections = traps::narrowed().build(
+                    parameters, before, std::vector<double>{0.5, inner / 127.0, outer / 127.0, 0.5, 0.5});
+                const std::vector<base::Vec2>& points = sections[1].points;
+                const double first = points.front().x();
+                const double last = points.back().x();
+                QVERIFY(last - first >= 3e-3 - 1e-12);
+                for (std::size_t j = 0; j < 8; ++j) {
+                    QVERIFY(std::abs(points[j].y() - traps::heightAt(before, points[j].x())) < 1e-12);
+                    if (j > 0) QVERIFY(points[j].x() > points[j - 1].x() + 1e-7);
+                    const double y = before.points[j].x();
+                    if (y > first + 11e-6 && y < last - 11e-6) QCOMPARE(points[j], before.points[j]);
+                }
+                QVERIFY(track::buildTrack({}, sections).ok());
+            }
+        }
     }
 
     // Points anywhere make sections that go back across the track; also of those something is left.

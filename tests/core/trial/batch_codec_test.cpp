@@ -113,6 +113,7 @@ track::Track makeTrack() {
     track.width = next();
     track.height = next();
     track.baseThickness = next();
+    track.walls = {next(), next()};
     return track;
 }
 
@@ -226,7 +227,8 @@ bool same(const track::Track& a, const track::Track& b) {
            a.firstTrapSection == b.firstTrapSection && a.lastTrapSection == b.lastTrapSection &&
            same(a.solid, b.solid) && a.surfaceTriangles == b.surfaceTriangles && same(a.start, b.start) &&
            same(a.finish, b.finish) && same(a.width, b.width) && same(a.height, b.height) &&
-           same(a.baseThickness, b.baseThickness);
+           same(a.baseThickness, b.baseThickness) && same(a.walls.inner, b.walls.inner) &&
+           same(a.walls.outer, b.walls.outer);
 }
 
 bool same(const trial::PartStart& a, const trial::PartStart& b) {
@@ -398,8 +400,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 519, and this program "
-                         "knows version 7; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 520, and this program "
+                         "knows version 8; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

@@ -1,6 +1,7 @@
 #include "ui/pages/evolve_page.h"
 
 #include <QAction>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QListView>
@@ -21,7 +22,9 @@
 #include "tests/ui/session/event_loop_probe.h"
 #include "tests/ui/session/session_fixture.h"
 #include "tests/ui/window/window_user.h"
+#include "ui/charts/plot.h"
 #include "ui/charts/study_chart.h"
+#include "ui/charts/trade_off_chart.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/message_bar.h"
 #include "ui/models/generation_model.h"
@@ -276,6 +279,42 @@ class EvolvePageTest : public QObject {
         QCOMPARE(user.text("evolve.success"),
                  QString("%1 %").arg(100.0 * best.oriented.value_or(0) / best.finished, 0, 'f', 1));
         QVERIFY(user.text("evolve.successSource").contains("parts that arrive"));
+    }
+
+    // Two objectives of all tracks against each other; a point, or a link above, opens its track.
+    void theTradeOffOpensTracks() {
+        session::SessionFixture studies;
+        QVERIFY(makeLearned(studies, "a.trap"));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        user.show("tradeOff");
+        auto* chart = user.find<charts::TradeOffChart>("tradeOff");
+        const auto head = [&] { return user.text("evolve.tradeOff.head"); };
+        QVERIFY(waitUntil([&] { return head().contains("on the Pareto front"); }));
+        auto* up = user.find<QComboBox>("evolve.tradeOff.up");
+        QCOMPARE(up->currentData().toString(), QString("success"));
+        // Another objective: read anew.
+        up->setCurrentIndex(up->findData("F_O"));
+        QVERIFY(waitUntil([&] { return chart->sheet().plots[0].yTitle.startsWith("Orientation"); }));
+        const std::vector<charts::Curve>& curves = chart->sheet().plots[0].curves;
+        const std::shared_ptr<const track::Track> before = user.track();
+        charts::Plot* plot = chart->shownPlots().front();
+        // The front's other end is not the best winner, or it has one point alone.
+        const charts::Curve front = curves[2];
+        QVERIFY(!front.points.empty());
+        const QString name = front.pointNames.back();
+        QTest::mouseClick(plot->viewport(), Qt::LeftButton, {},
+                          plot->toWidget(front.points.back()).toPoint());
+        const auto generation = [&] { return user.text("filmStrip.caption").section(',', 0, 0); };
+        QVERIFY2(waitUntil([&] { return generation() == name.section(',', 0, 0); }), qPrintable(name));
+        QVERIFY(waitUntil([&] { return user.find<QAction>("evolve.follow")->isEnabled(); }));
+        user.find<QAction>("evolve.follow")->trigger();
+        QVERIFY(user.text("filmStrip.caption").endsWith("best so far"));
+        // And a link.
+        emit user.find<QLabel>("evolve.tradeOff.head")->linkActivated("4/3");
+        QCOMPARE(generation(), QString("Generation 4"));
+        QVERIFY(waitUntil([&] { return user.track() != before; }));
+        QCOMPARE(chart->sheet().plots[0].curves[3].points.size(), std::size_t{1});
     }
 
     void winnersInViewGetPictures() {
@@ -560,7 +599,8 @@ class EvolvePageTest : public QObject {
         User user(studies);
         QVERIFY(user.open(studies.path("a.trap")));
         QList<QWidget*> controls;
-        for (const char* place : {"page.evolve", "filmStrip", "generations", "individuals"}) {
+        for (const char* place :
+             {"page.evolve", "filmStrip", "generations", "individuals", "evolve.tradeOffPanel"}) {
             auto* widget = user.find<QWidget>(place);
             for (QWidget* child : widget->findChildren<QWidget*>()) {
                 if (qobject_cast<QAbstractButton*>(child) || qobject_cast<QAbstractSpinBox*>(child) ||
