@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
+#include <ranges>
 #include <vector>
 
 namespace trapwright::traps {
@@ -17,9 +19,12 @@ constexpr double kNarrowest = 0.05;                     // what is left of it at
 constexpr double kSteepestRise = 6.0 * base::kDegree;   // along the track, before a notch
 constexpr double kSteepestFall = 15.0 * base::kDegree;
 constexpr double kHighestStep = 1.0 / 3.0;  // of the box's height, behind a notch
+constexpr double kFarthestBeyond = 0.1;     // of the track's width, a notch cuts beyond the lowest point
+constexpr double kHighestLip = 0.5;         // of the box's height
 constexpr double kLongestSlant = 0.5;       // of the longest segment: a notch's ends
 constexpr double kLeastStretch = 10e-6;     // between points of a section [m]
 constexpr int kBits = 7;
+constexpr int kFineBits = 10;  // of what decides by a tenth of a millimetre
 
 double within(double low, double high, double share) {
     return low + (high - low) * share;
@@ -32,8 +37,8 @@ std::vector<search::Dimension> dimensionsOf(const TrapParameters& parameters) {
     const double steepest = kMostInclined / base::kDegree;
     std::vector<search::Dimension> dimensions = {
         {"before, length", "mm", kMillimetres * parameters.minSegmentLength, longest, kBits},
-        {"inner cut", "mm", -deepest, deepest, kBits},
-        {"outer cut", "mm", -deepest, deepest, kBits},
+        {"inner cut", "mm", -deepest, deepest, kFineBits},
+        {"outer cut", "mm", -deepest, deepest, kFineBits},
         {"length", "mm", kMillimetres * kEdge, longest, kBits},
         {"inclination", "deg", -steepest, steepest, kBits}};
     for (const std::size_t relief : {1, 2, 4})
@@ -117,13 +122,12 @@ track::CrossSection raise(const TrapParameters& parameters, track::CrossSection 
     return section;
 }
 
-/// What is left of a section that is cut from both edges by so much, or less where nothing would be left.
-Left cutAway(const track::CrossSection& whole, double inner, double outer) {
+/// From one y to another, or as much as has to be left about the middle of both.
+Left leave(const track::CrossSection& whole, double inner, double outer, bool isWhole) {
     const auto [low, high] =
         std::ranges::minmax(whole.points, {}, [](const base::Vec2& point) { return point.x(); });
     const double least = kNarrowest * (high.x() - low.x());
-    Left left{low.x() + std::max(0.0, inner), high.x() - std::max(0.0, outer),
-              (inner <= 0.0 && outer <= 0.0) || least <= 0.0};
+    Left left{inner, outer, isWhole || least <= 0.0};
     if (left.outer - left.inner < least) {
         const double middle =
             std::clamp(std::midpoint(left.inner, left.outer), low.x() + 0.5 * least, high.x() - 0.5 * least);
@@ -131,6 +135,43 @@ Left cutAway(const track::CrossSection& whole, double inner, double outer) {
         left.outer = middle + 0.5 * least;
     }
     return left;
+}
+
+/// What is left of a section that is cut from both edges by so much, or less where nothing would be left.
+Left cutAway(const track::CrossSection& whole, double inner, double outer) {
+    const auto [low, high] =
+        std::ranges::minmax(whole.points, {}, [](const base::Vec2& point) { return point.x(); });
+    return leave(whole, low.x() + std::max(0.0, inner), high.x() - std::max(0.0, outer),
+                 inner <= 0.0 && outer <= 0.0);
+}
+
+/// How far from the lowest point its neighbours in this order are no more than a lip higher; a lip below 0
+/// is how far the cut goes beyond the lowest point. None: to the edge.
+template <class Points>
+std::optional<double> findLip(Points&& fromLowest, double lip, double towards) {
+    const base::Vec2 lowest = *fromLowest.begin();
+    if (lip < 0.0) return lowest.x() - towards * -lip;
+    base::Vec2 last = lowest;
+    for (const base::Vec2& point : fromLowest) {
+        if (point.y() - lowest.y() > lip) {
+            const double share = (lowest.y() + lip - last.y()) / (point.y() - last.y());
+            return std::lerp(last.x(), point.x(), std::clamp(share, 0.0, 1.0));
+        }
+        last = point;
+    }
+    return std::nullopt;
+}
+
+/// What is left of a section that keeps a lip of such a height on either side of its lowest point.
+Left cutAtLips(const track::CrossSection& whole, double innerLip, double outerLip) {
+    const std::span<const base::Vec2> points(whole.points);
+    const auto lowest = static_cast<std::size_t>(
+        std::ranges::min_element(points, {}, [](const base::Vec2& point) { return point.y(); }) -
+        points.begin());
+    const auto inner = findLip(points.first(lowest + 1) | std::views::reverse, innerLip, -1.0);
+    const auto outer = findLip(points.subspan(lowest), outerLip, 1.0);
+    return leave(whole, std::max(inner.value_or(points.front().x()), points.front().x()),
+                 std::min(outer.value_or(points.back().x()), points.back().x()), !inner && !outer);
 }
 
 double slopeOf(double inclination) {
@@ -165,7 +206,8 @@ double longestNarrowed(const TrapParameters& parameters) {
 
 std::vector<search::Dimension> dimensionsOfNotched(const TrapParameters& parameters) {
     constexpr double kMillimetres = 1.0 / base::kMillimetre;
-    const double deepest = kMillimetres * parameters.segmentWidth;
+    const double deepest = kMillimetres * kFarthestBeyond * parameters.segmentWidth;
+    const double lip = kMillimetres * kHighestLip * parameters.segmentHeight;
     const double highest = kMillimetres * kHighestStep * parameters.segmentHeight;
     const double shortest = kMillimetres * kEdge;
     const double longest = kMillimetres * parameters.maxSegmentLength;
@@ -173,14 +215,15 @@ std::vector<search::Dimension> dimensionsOfNotched(const TrapParameters& paramet
     std::vector<search::Dimension> dimensions = {
         {"before, length", "mm", kMillimetres * parameters.minSegmentLength, longest, kBits},
         {"before, fall", "deg", -kSteepestRise / base::kDegree, kSteepestFall / base::kDegree, kBits},
-        {"depth", "mm", -deepest, deepest, kBits},
+        {"inner lip", "mm", -deepest, lip, kFineBits},
+        {"outer lip", "mm", -deepest, lip, kFineBits},
         {"beginning", "mm", shortest, kLongestSlant * longest, kBits},
         {"length", "mm", shortest, longest, kBits},
         {"end", "mm", shortest, kLongestSlant * longest, kBits},
         {"raised", "mm", -highest, highest, kBits},
         {"behind, raised", "mm", -highest, highest, kBits},
         {"inclination", "deg", -steepest, steepest, kBits}};
-    for (const std::size_t relief : {1, 2, 6, 7, 8})
+    for (const std::size_t relief : {1, 7, 8, 9})
         dimensions[relief].isRelief = true;
     return dimensions;
 }
@@ -191,23 +234,26 @@ std::vector<track::CrossSection> buildNotched(const TrapParameters& parameters,
     const double longest = parameters.maxSegmentLength;
     const double length = within(parameters.minSegmentLength, longest, numbers[0]);
     const double fall = length * std::tan(within(-kSteepestRise, kSteepestFall, numbers[1]));
-    const double depth = within(-parameters.segmentWidth, parameters.segmentWidth, numbers[2]);
+    const auto lip = [&](double number) {
+        return within(-kFarthestBeyond * parameters.segmentWidth, kHighestLip * parameters.segmentHeight,
+                      number);
+    };
     const auto edge = [&](double number) { return within(kEdge, kLongestSlant * longest, number); };
     const auto height = [&](double number) {
         return kHighestStep * parameters.segmentHeight * within(-1.0, 1.0, number);
     };
 
     const track::CrossSection entry =
-        raise(parameters, incline(parameters, before, slopeOf(numbers[8])), -fall);
-    const track::CrossSection notch = raise(parameters, entry, height(numbers[6]));
-    const track::CrossSection behind = raise(parameters, entry, height(numbers[7]));
+        raise(parameters, incline(parameters, before, slopeOf(numbers[9])), -fall);
+    const track::CrossSection notch = raise(parameters, entry, height(numbers[7]));
+    const track::CrossSection behind = raise(parameters, entry, height(numbers[8]));
     const Left whole;
-    const Left left = cutAway(before, std::max(0.0, -depth), std::max(0.0, depth));
+    const Left left = cutAtLips(entry, lip(numbers[2]), lip(numbers[3]));
     double x = length;
     std::vector<track::CrossSection> sections{cut(entry, x, whole)};
-    sections.push_back(cut(notch, x += edge(numbers[3]), left));
-    sections.push_back(cut(notch, x += within(kEdge, longest, numbers[4]), left));
-    sections.push_back(cut(behind, x += edge(numbers[5]), whole));
+    sections.push_back(cut(notch, x += edge(numbers[4]), left));
+    sections.push_back(cut(notch, x += within(kEdge, longest, numbers[5]), left));
+    sections.push_back(cut(behind, x += edge(numbers[6]), whole));
     return sections;
 }
 

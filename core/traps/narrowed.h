@@ -12,15 +12,15 @@ namespace trapwright::traps {
 /// not at all), how long, and how much all of it is inclined across the track.
 TrapKind narrowed();
 
-/// A narrowed track that tells which end comes first: what comes before goes on with the same cross-section
-/// and a notch from one edge, as deep as the whole width if need be, down to a narrow bridge. Its beginning
-/// and its end may slant, and what is left beside it may be higher or lower than what comes before, and so
-/// may the track behind it: a rise that one end climbs and the other does not, or a step. A cut of one length
-/// and upright ends in a level track carries a part and its mirror image alike, for both come over it in
-/// every place. Nine numbers: length and fall before it, how deep and from which edge (negative: the inner
-/// one), how long its beginning is, it itself, and its end, how much it and the track behind it are raised,
-/// and how much all of it is inclined across the track. Nothing is cut off at the segment's box but by the
-/// inclination: all is raised and lowered as far as there is room.
+/// A narrowed track that tells by fractions of a millimetre: what comes before goes on with the same
+/// cross-section, but of the walls on either side of its lowest point only a lip is left for a length, as
+/// high as a number says, or nothing, also of the bottom. What lies with its weight low passes, what leans
+/// out or is turned by the slanting ends of the notch goes over the lip. What is left may be higher or lower
+/// than what comes before, and so may the track behind it. Ten numbers: length and fall before the notch, the
+/// inner and the outer lip (below 0: how far the cut goes beyond the lowest point), how long its beginning
+/// is, it itself, and its end, how much it and the track behind it are raised, and how much all of it is
+/// inclined across the track. Nothing is cut off at the segment's box but by the inclination: all is raised
+/// and lowered as far as there is room.
 TrapKind notched();
 
 /// The height of a section at y, on the first of its stretches that has such a y; that of the nearest end

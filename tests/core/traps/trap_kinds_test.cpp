@@ -291,12 +291,14 @@ class TrapKindsTest : public QObject {
     void aNotchedTrackIsWhatItsNumbersSay() {
         const traps::TrapKind notched = traps::notched();
         const TrapParameters parameters;
+        // A groove with its bottom at y = 0, z = 10 mm, and walls of 45 degrees.
         track::CrossSection before{0.0, {}};
-        for (int j = 0; j < 8; ++j)
-            before.points.emplace_back(60e-3 * (j / 7.0 - 0.5), 10e-3 + 1e-3 * (j % 3));
-        // Falls by 4.5 degrees, notched by 45 mm from the outer edge, 5 mm lower behind it, not inclined.
+        for (const double y : {-12.0, -6.0, -3.0, 0.0, 3.0, 6.0, 9.0, 12.0})
+            before.points.emplace_back(1e-3 * y, 10e-3 + 1e-3 * std::abs(y));
+        const auto lip = [](double millimetres) { return (millimetres + 6.0) / 21.0; };
+        // Falls by 4.5 degrees, an inner lip of 4 mm, no outer notch, 5 mm lower behind it, not inclined.
         const auto upright = notched.build(
-            parameters, before, std::vector<double>{0.5, 0.5, 0.875, 0.0, 0.5, 1.0, 0.5, 0.25, 0.5});
+            parameters, before, std::vector<double>{0.5, 0.5, lip(4.0), 1.0, 0.0, 0.5, 1.0, 0.5, 0.25, 0.5});
         QCOMPARE(upright.size(), std::size_t{4});
         const double begin = 0.5 * (15e-3 + 36e-3);
         const double fall = begin * std::tan(4.5 * base::kDegree);
@@ -305,27 +307,27 @@ class TrapKindsTest : public QObject {
         for (std::size_t i = 0; i < 4; ++i) {
             QVERIFY(std::abs(upright[i].x - xs[i]) < 1e-12);
             const bool isCut = i == 1 || i == 2;
-            QVERIFY(std::abs(upright[i].points.front().x() + 30e-3) < 1e-12);
-            QVERIFY(std::abs(upright[i].points.back().x() - (isCut ? -15e-3 : 30e-3)) < 1e-12);
+            QVERIFY(std::abs(upright[i].points.front().x() - (isCut ? -4e-3 : -12e-3)) < 1e-12);
+            QVERIFY(std::abs(upright[i].points.back().x() - 12e-3) < 1e-12);
             const double lower = fall + (i == 3 ? 5e-3 : 0.0);
             for (const base::Vec2& point : upright[i].points)
                 QVERIFY(std::abs(point.y() - traps::heightAt(before, point.x()) + lower) < 1e-12);
         }
-        // Notched from the inner edge and lower from its beginning on, by more than there is room for.
-        const auto early = notched.build(parameters, before,
-                                         std::vector<double>{0.5, 0.5, 0.125, 0.5, 0.5, 0.5, 0.0, 0.0, 0.5});
-        QVERIFY(std::abs(early[1].points.front().x() - 15e-3) < 1e-12);
-        QVERIFY(std::abs(early[3].points.front().y()) < 1e-12);
+        // Cut 2 mm beyond the lowest point, an outer lip of 7 mm, lower by more than there is room for.
+        const auto beyond =
+            notched.build(parameters, before,
+                          std::vector<double>{0.5, 0.5, lip(-2.0), lip(7.0), 0.5, 0.5, 0.5, 0.0, 0.0, 0.5});
+        QVERIFY(std::abs(beyond[1].points.front().x() - 2e-3) < 1e-12);
+        QVERIFY(std::abs(beyond[1].points.back().x() - 7e-3) < 1e-12);
+        QVERIFY(std::abs(beyond[3].points[3].y()) < 1e-12);
         for (std::size_t j = 0; j < 8; ++j)
-            QVERIFY(std::abs(early[3].points[j].y() - before.points[j].y() + 10e-3) < 1e-12);
-        QVERIFY(std::abs(early[1].points.back().y() - early[3].points.back().y()) < 1e-12);
-        // A rise in the middle, and a narrow bridge that is left of a notch across the whole width.
-        const auto whole = notched.build(parameters, before,
-                                         std::vector<double>{0.5, 0.5, 1.0, 0.5, 0.5, 0.5, 0.75, 0.5, 0.5});
-        QVERIFY(std::abs(whole[1].points.front().x() + 30e-3) < 1e-12);
-        QVERIFY(std::abs(whole[1].points.back().x() + 27e-3) < 1e-12);
-        QVERIFY(std::abs(whole[1].points.front().y() - whole[0].points.front().y() - 5e-3) < 1e-12);
-        QVERIFY(std::abs(whole[3].points.front().y() - whole[0].points.front().y()) < 1e-12);
+            QVERIFY(std::abs(beyond[3].points[j].y() - before.points[j].y() + 10e-3) < 1e-12);
+        // Something is left where both cuts would meet; a rise beside the notch.
+        const auto least = notched.build(
+            parameters, before, std::vector<double>{0.5, 0.5, 0.0, 0.0, 0.5, 0.5, 0.5, 0.75, 0.5, 0.5});
+        QVERIFY(std::abs(least[1].points.front().x() + 0.6e-3) < 1e-12);
+        QVERIFY(std::abs(least[1].points.back().x() - 0.6e-3) < 1e-12);
+        QVERIFY(std::abs(least[1].points.front().y() - (10e-3 + 0.6e-3 - fall + 5e-3)) < 1e-12);
     }
 
     /// Points that a cut leaves stay where and which they are: what lies on them goes on as if there were
