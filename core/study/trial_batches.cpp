@@ -1,10 +1,12 @@
 #include "core/study/trial_batches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/trial/goal.h"
 #include "core/trial/orientations.h"
+#include "core/trial/predicted_speed.h"
 #include "core/trial/start.h"
 
 namespace trapwright::study {
@@ -51,14 +53,31 @@ base::StreamKey keyOf(const TrialScene& scene, const IndividualId& individual, i
             static_cast<std::uint32_t>(individual.individual), static_cast<std::uint32_t>(trial), purpose};
 }
 
+/// How many times slower a flat part comes up the feeder's slope than along a level one, as predicted; 1
+/// where it does not climb, and at most 10, also for what does not come up at all.
+double slowdownOn(const SimulationSettings& simulation, const track::FeederShape& shape) {
+    constexpr double kMost = 10.0;
+    if (shape.slope <= 0.0) return 1.0;
+    const auto speedOn = [&](const trial::Vibration& drive, double slope) {
+        return trial::predictConveying(drive, simulation.contact, simulation.gravity, slope).speed;
+    };
+    const double level = speedOn(simulation.drive, 0.0);
+    const double climbing = speedOn(trial::seenFromTrack(simulation.drive, shape), shape.slope);
+    return climbing > 0.0 ? std::clamp(level / climbing, 1.0, kMost) : kMost;
+}
+
 }  // namespace
 
 trial::Termination terminationOn(const SimulationSettings& simulation, const track::Track& track) {
     constexpr double kSlowest = 20e-3;     // [m/s]
     constexpr double kShortestLimit = 10;  // [s]
     trial::Termination termination = simulation.termination;
-    if (termination.timeLimit == 0.0)
+    if (termination.timeLimit == 0.0) {
         termination.timeLimit = std::max((track.finish - track.start) / kSlowest, kShortestLimit);
+        // In whole seconds, the same on any machine.
+        if (const double slowdown = slowdownOn(simulation, track.shape); slowdown > 1.0)
+            termination.timeLimit = std::ceil(slowdown * termination.timeLimit);
+    }
     return termination;
 }
 

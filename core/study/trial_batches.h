@@ -40,7 +40,9 @@ TrialScene makeScene(const Settings& settings, const std::shared_ptr<const part:
                      std::shared_ptr<const track::Track> track);
 
 /// When trials on this track end: as set. A time limit of 0 is as long as a part needs to the finish at
-/// 20 mm/s, 10 s at least, so that what is slow on a long track is not called stuck (decisions.md#endings).
+/// 20 mm/s, 10 s at least, so that what is slow on a long track is not called stuck (decisions.md#endings);
+/// on a feeder that climbs as many times longer as a flat part is slower than on a level one (takes
+/// milliseconds).
 trial::Termination terminationOn(const SimulationSettings& simulation, const track::Track& track);
 
 /// Each trial's start is drawn from its own stream (seed, generation, individual, trial, purpose), so that

@@ -1,17 +1,16 @@
-#include "core/verify/predicted_speed.h"
+#include "core/trial/predicted_speed.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace trapwright::verify {
+namespace trapwright::trial {
 
 namespace {
 
 /// A point on or above the plane; steps from event to event.
 class HoppingPoint {
  public:
-    HoppingPoint(const trial::Vibration& drive, double friction, double restitution, double gravity,
-                 double slope)
+    HoppingPoint(const Vibration& drive, double friction, double restitution, double gravity, double slope)
         : w_(drive.angularFrequency()),
           along_(drive.halfStroke * std::cos(drive.angle)),
           up_(drive.halfStroke * std::sin(drive.angle)),
@@ -119,7 +118,7 @@ class HoppingPoint {
 /// the plane.
 class Plane {
  public:
-    Plane(const trial::Vibration& drive, double friction, double gravity, double slope)
+    Plane(const Vibration& drive, double friction, double gravity, double slope)
         : w_(drive.angularFrequency()),
           x_(drive.halfStroke * std::cos(drive.angle)),
           z_(drive.halfStroke * std::sin(drive.angle)),
@@ -163,7 +162,7 @@ double bisect(const F& positiveBefore, double low, double high) {
 
 }  // namespace
 
-double calcHoppingSpeed(const trial::Vibration& drive, double friction, double restitution, double gravity,
+double calcHoppingSpeed(const Vibration& drive, double friction, double restitution, double gravity,
                         int periods, double slope) {
     HoppingPoint point(drive, friction, restitution, gravity, slope);
     point.advanceTo(periods * drive.period());
@@ -172,7 +171,7 @@ double calcHoppingSpeed(const trial::Vibration& drive, double friction, double r
     return (point.x() - mark) / (periods * drive.period());
 }
 
-double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double gravity, double slope) {
+double calcStickSlipSpeed(const Vibration& drive, double friction, double gravity, double slope) {
     const Plane plane(drive, friction, gravity, slope);
     const double period = drive.period();
     const double scan = period / 2000.0;
@@ -228,14 +227,14 @@ double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double
     return mean;
 }
 
-ConveyingPrediction predictConveying(const trial::Vibration& drive, const trial::ContactParameters& contact,
-                                     double gravity, double slope) {
+ConveyingPrediction predictConveying(const Vibration& drive, const ContactParameters& contact, double gravity,
+                                     double slope) {
     // Hops need not repeat every period; over this many their mean has settled to a per cent.
     constexpr int kPeriods = 100;
     constexpr double kStandstill = 1e-6;  // [m/s]
 
     ConveyingPrediction prediction;
-    prediction.throwNumber = std::abs(trial::calcThrowNumber(drive, gravity * std::cos(slope)));
+    prediction.throwNumber = std::abs(calcThrowNumber(drive, gravity * std::cos(slope)));
     const double friction = contact.kineticFriction;
     if (slope != 0.0 && friction <= std::abs(std::tan(slope))) {
         prediction.conveyance = Conveyance::slidesAway;
@@ -250,4 +249,4 @@ ConveyingPrediction predictConveying(const trial::Vibration& drive, const trial:
     return prediction;
 }
 
-}  // namespace trapwright::verify
+}  // namespace trapwright::trial

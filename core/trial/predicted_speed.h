@@ -3,21 +3,21 @@
 #include "core/trial/batch.h"
 #include "core/trial/vibration.h"
 
-namespace trapwright::verify {
+namespace trapwright::trial {
 
 /// Mean conveying speed of a point on a vibrating plane under Coulomb friction and Newton's restitution, at
 /// any throw number, over `periods` periods after as many to settle. The plane climbs along conveying by
-/// `slope` [rad], and the drive's angle is told from it (trial::seenFromTrack). Event-driven: contact and
+/// `slope` [rad], and the drive's angle is told from it (seenFromTrack). Event-driven: contact and
 /// flight in closed form, events by bisection; friction impulse at an impact at most friction times the
 /// normal impulse. Restitution falls linearly from the given value at 12 mm/s to 0 at 3 mm/s, as the contact
 /// law's does. Shares no code with the engines. [m/s]
-double calcHoppingSpeed(const trial::Vibration& drive, double friction, double restitution, double gravity,
+double calcHoppingSpeed(const Vibration& drive, double friction, double restitution, double gravity,
                         int periods, double slope = 0.0);
 
 /// Likewise for throw numbers below 1, once the motion is periodic: where friction holds a part that rests
 /// (friction above |tan(slope)|). Event-driven: velocities in closed form between events (stick, slip),
 /// events by bisection. Shares no code with the engines. [m/s]
-double calcStickSlipSpeed(const trial::Vibration& drive, double friction, double gravity, double slope = 0.0);
+double calcStickSlipSpeed(const Vibration& drive, double friction, double gravity, double slope = 0.0);
 
 /// What a drive does to a part that lies flat on the track.
 enum class Conveyance {
@@ -37,7 +37,7 @@ struct ConveyingPrediction {
 /// calcStickSlipSpeed and calcHoppingSpeed for a point, whichever the throw number calls for. Below lift-off
 /// restitution plays no part. Some ten milliseconds of work. The drive and the parameters must be in their
 /// ranges (study::findProblems); slope and the drive's angle as in calcHoppingSpeed.
-ConveyingPrediction predictConveying(const trial::Vibration& drive, const trial::ContactParameters& contact,
-                                     double gravity, double slope = 0.0);
+ConveyingPrediction predictConveying(const Vibration& drive, const ContactParameters& contact, double gravity,
+                                     double slope = 0.0);
 
-}  // namespace trapwright::verify
+}  // namespace trapwright::trial

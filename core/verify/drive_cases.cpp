@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/trial/predicted_speed.h"
 #include "core/verify/cases.h"
 #include "core/verify/known_motions.h"
-#include "core/verify/predicted_speed.h"
 #include "core/verify/scenes.h"
 
 namespace trapwright::verify {
@@ -133,7 +133,7 @@ std::vector<KnownMotion> makeStickSlip() {
             const double period = drive.period();
             trial::TrialBatch scene = makeLying(drive, (kEnd + 0.5) * period);
             scene.contact = {friction, friction, 0.3};
-            const double expected = calcStickSlipSpeed(drive, friction, scene.gravity);
+            const double expected = trial::calcStickSlipSpeed(drive, friction, scene.gravity);
             motions.push_back(
                 {fmt::format("stick-slip, half-stroke {:g} mm, friction {:g}", halfStroke * 1e3, friction),
                  std::move(scene), period, expected, [period](const trial::Trajectory& trajectory) {
@@ -154,7 +154,7 @@ std::vector<KnownMotion> makeHopping() {
             const double period = drive.period();
             trial::TrialBatch scene = makeLying(drive, (2 * kPeriods + 1) * period);
             scene.contact = {0.5, 0.5, restitution};
-            const double expected = calcHoppingSpeed(drive, 0.5, restitution, scene.gravity, kPeriods);
+            const double expected = trial::calcHoppingSpeed(drive, 0.5, restitution, scene.gravity, kPeriods);
             motions.push_back(
                 {fmt::format("hopping, half-stroke {:g} mm, e = {:g}", halfStroke * 1e3, restitution),
                  std::move(scene), period, expected, [period](const trial::Trajectory& trajectory) {
@@ -184,8 +184,8 @@ std::vector<KnownMotion> makeClimbing(track::FeederType type) {
                 const double period = drive.period();
                 trial::TrialBatch scene = makeLying(drive, (kEnd + 0.5) * period, shape);
                 scene.contact = {friction, friction, 0.3};
-                const double expected =
-                    calcStickSlipSpeed(trial::seenFromTrack(drive, shape), friction, scene.gravity, slope);
+                const double expected = trial::calcStickSlipSpeed(trial::seenFromTrack(drive, shape),
+                                                                  friction, scene.gravity, slope);
                 motions.push_back(
                     {fmt::format("{} at {:+g} deg, half-stroke {:g} mm, friction {:g}",
                                  bowl ? "bowl" : "linear", slope / base::kDegree, halfStroke * 1e3, friction),

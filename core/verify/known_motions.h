@@ -10,7 +10,7 @@
 namespace trapwright::verify {
 
 /// A scene of one trial with a number in it of which the truth is known, in closed form or from an
-/// event-driven solution that shares no code with the engines (predicted_speed.h).
+/// event-driven solution that shares no code with the engines (core/trial/predicted_speed.h).
 struct KnownMotion {
     std::string name;
     trial::TrialBatch batch;

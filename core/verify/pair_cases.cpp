@@ -7,8 +7,8 @@
 
 #include "core/base/random.h"
 #include "core/geometry/convex_separation.h"
+#include "core/trial/predicted_speed.h"
 #include "core/verify/cases.h"
-#include "core/verify/predicted_speed.h"
 #include "core/verify/scenes.h"
 
 namespace trapwright::verify {
@@ -219,7 +219,7 @@ std::vector<Row> runStack(const trial::EngineKind& kind, const base::RunControl&
     const auto at = [&](int i) { return ridden.samples[static_cast<std::size_t>(i)].parts; };
     const double speed =
         (at(kEnd)[0].room.position.x() - at(kSettled)[0].room.position.x()) / ((kEnd - kSettled) * period);
-    const double expected = calcStickSlipSpeed(drive, kFriction, ride.gravity);
+    const double expected = trial::calcStickSlipSpeed(drive, kFriction, ride.gravity);
     const double slipped = std::abs((at(kEnd)[1].room.position.x() - at(kEnd)[0].room.position.x()) -
                                     (at(0)[1].room.position.x() - at(0)[0].room.position.x()));
 

@@ -57,8 +57,8 @@ struct PlotSheet {
     double leastHeight = 0.0;         // of the fitted y range; decades on a logarithmic scale
     std::vector<double> yIncluded{};  // always within the fitted y range
     double leastWidth = 10.0;         // of the fitted x range
-    bool isWhole = true;  // x is whole numbers; else its values are read off where a curve has points
-    double xStep = 0.0;   // between points that farther apart miss data between them; 0: they never do
+    bool isWhole = true;   // x is whole numbers; else its values are read off where a curve has points
+    double xStep = 0.0;    // between points that farther apart miss data between them; 0: they never do
     bool byPoint = false;  // points of scattered curves are read off and picked one by one, none by its x
     std::optional<XMark> mark{};
     std::vector<Curve> curves;

@@ -92,31 +92,30 @@ void DriveCard::show(const study::Settings& settings) {
     const double gravity = settings.simulation.gravity;
     const double slope = settings.track.shape.slope;
     task_.start([this, drive, contact, gravity, slope]() -> session::NewestTask::Deliver {
-        const verify::ConveyingPrediction prediction =
-            verify::predictConveying(drive, contact, gravity, slope);
+        const trial::ConveyingPrediction prediction = trial::predictConveying(drive, contact, gravity, slope);
         return [this, prediction] { tell(prediction); };
     });
 }
 
-void DriveCard::tell(const verify::ConveyingPrediction& prediction) {
+void DriveCard::tell(const trial::ConveyingPrediction& prediction) {
     const QString number = look::numberText(prediction.throwNumber);
     switch (prediction.conveyance) {
-        case verify::Conveyance::sticks:
+        case trial::Conveyance::sticks:
             throw_->setText(tr("Throw number %1: parts stay where they are").arg(number));
             break;
-        case verify::Conveyance::slides:
+        case trial::Conveyance::slides:
             throw_->setText(tr("Throw number %1: parts slide").arg(number));
             break;
-        case verify::Conveyance::hops:
+        case trial::Conveyance::hops:
             throw_->setText(tr("Throw number %1: parts hop").arg(number));
             break;
-        case verify::Conveyance::slidesAway:
+        case trial::Conveyance::slidesAway:
             throw_->setText(tr("Throw number %1: parts slide down the track").arg(number));
             break;
     }
     gauge_->show(prediction.throwNumber);
     const QString speed = look::numberText(std::abs(prediction.speed) * 1e3, 2);
-    if (prediction.conveyance == verify::Conveyance::slidesAway) {
+    if (prediction.conveyance == trial::Conveyance::slidesAway) {
         speed_->setText(tr("Its friction does not hold a part on this slope"));
     } else if (prediction.speed < 0.0) {
         speed_->setText(tr("A flat part moves back at about %1 mm/s").arg(speed));

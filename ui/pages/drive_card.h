@@ -2,7 +2,7 @@
 
 #include <QWidget>
 
-#include "core/verify/predicted_speed.h"
+#include "core/trial/predicted_speed.h"
 #include "ui/session/work_thread.h"
 
 class QLabel;
@@ -38,7 +38,7 @@ class DriveCard : public QWidget {
     void show(const study::Settings& settings);
 
  private:
-    void tell(const verify::ConveyingPrediction& prediction);
+    void tell(const trial::ConveyingPrediction& prediction);
 
     ThrowGauge* gauge_;
     QLabel* throw_;

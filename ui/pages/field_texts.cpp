@@ -90,7 +90,7 @@ const RawText kTexts[] = {
     {"simulation.contact.kineticFriction", TEXT("Kinetic friction"), TEXT("Friction of a part that slides, over its normal force.")},
     {"simulation.contact.restitution", TEXT("Restitution"), TEXT("Speed after an impact over the speed before it.")},
     {"simulation.contact.surface", TEXT("Surface"), TEXT("What the track's surface is made of, as the library of materials names it.")},
-    {"simulation.termination.timeLimit_s", TEXT("Time limit"), TEXT("A part that is not at the finish by then counts as stuck. 0: as long as a part takes at 20 mm/s, and 10 s at least.")},
+    {"simulation.termination.timeLimit_s", TEXT("Time limit"), TEXT("A part that is not at the finish by then counts as stuck. 0: as long as a part takes at 20 mm/s, and 10 s at least; longer where the feeder climbs.")},
     {"simulation.termination.stuckTime_s", TEXT("Stuck after"), TEXT("A part that makes no progress for this long is stuck in selection and validation.")},
     {"simulation.termination.stuckProgress_mm", TEXT("Progress"), TEXT("What counts as progress along the track.")},
     {"simulation.start.nearPose", TEXT("Start pose"), TEXT("The orientation near which parts start; any, if it is not set.")},

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/verify/predicted_speed.h"
+#include "core/trial/predicted_speed.h"
 
 using namespace trapwright;
 using calibration::SpeedTable;
@@ -108,7 +108,7 @@ class HalfStrokeTest : public QObject {
             trial::Vibration one = drive;
             one.halfStroke = 0.05e-3 * row;
             predicted.halfStrokes.push_back(one.halfStroke);
-            predicted.speeds.push_back(verify::predictConveying(one, contact, base::kStandardGravity).speed);
+            predicted.speeds.push_back(trial::predictConveying(one, contact, base::kStandardGravity).speed);
         }
         const SpeedTable table = calibration::risingPart(predicted);
         QVERIFY(table.speeds.size() >= 8);
@@ -116,7 +116,7 @@ class HalfStrokeTest : public QObject {
         for (const double halfStroke : {0.25e-3, 0.4e-3, 0.6e-3}) {
             trial::Vibration one;
             one.halfStroke = halfStroke;
-            const double speed = verify::predictConveying(one, contact, base::kStandardGravity).speed;
+            const double speed = trial::predictConveying(one, contact, base::kStandardGravity).speed;
             const auto found = calibration::findHalfStroke(table, speed);
             QVERIFY(found.ok());
             QVERIFY2(std::abs(*found / halfStroke - 1.0) < 0.03, qPrintable(QString::number(*found * 1e3)));

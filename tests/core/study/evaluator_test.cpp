@@ -1,11 +1,14 @@
 #include "core/study/evaluator.h"
 
 #include <QtTest>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "core/study/runner.h"
+#include "core/study/trial_batches.h"
 #include "core/trial/orientations.h"
+#include "core/trial/predicted_speed.h"
 #include "fake_engine.h"
 
 using namespace trapwright;
@@ -168,6 +171,34 @@ class EvaluatorTest : public QObject {
             QVERIFY2(sent <= 5 && (g == 0 || sent > 0), QByteArray::number(sent));
             if (sent == 5) QVERIFY(leastSent >= bestOther);
         }
+    }
+
+    /// Unless a limit is set: as long as a part takes at 20 mm/s, and where it climbs as many times longer as
+    /// it is slower.
+    void theTimeLimitKnowsTheSlope() {
+        study::SimulationSettings simulation;
+        track::Track track;
+        track.start = 0.06;
+        track.finish = 0.56;
+        QCOMPARE(study::terminationOn(simulation, track).timeLimit, 25.0);
+        track.shape.slope = -3.0 * base::kDegree;
+        QCOMPARE(study::terminationOn(simulation, track).timeLimit, 25.0);
+        track.shape.slope = 3.0 * base::kDegree;
+        const auto speed = [&](double slope) {
+            return trial::predictConveying(simulation.drive, simulation.contact, simulation.gravity, slope)
+                .speed;
+        };
+        const double expected = 25.0 * speed(0.0) / speed(track.shape.slope);
+        QVERIFY(expected > 26.0);
+        QCOMPARE(study::terminationOn(simulation, track).timeLimit, std::ceil(expected));
+        // Nothing comes up there.
+        simulation.drive.halfStroke = 0.3e-3;
+        simulation.contact = {0.3, 0.3, 0.2};
+        track.shape.slope = 10.0 * base::kDegree;
+        QVERIFY(speed(track.shape.slope) <= 0.0);
+        QCOMPARE(study::terminationOn(simulation, track).timeLimit, 250.0);
+        simulation.termination.timeLimit = 7.0;
+        QCOMPARE(study::terminationOn(simulation, track).timeLimit, 7.0);
     }
 
     /// By F, or by the fronts of two sums that differ in what is traded.

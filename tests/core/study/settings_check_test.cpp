@@ -128,6 +128,24 @@ class SettingsCheckTest : public QObject {
         QVERIFY(study::findProblems(s).empty());
     }
 
+    void aSlopeThatNothingClimbsIsToldOf() {
+        Settings s = study::presetSettings("cuboid").value();
+        const auto isTold = [&] {
+            return std::ranges::any_of(study::findRecommendations(s), [](const std::string& one) {
+                return one.find("does not come up a slope") != std::string::npos;
+            });
+        };
+        QVERIFY(!isTold());
+        s.track.shape.slope = 3.0 * base::kDegree;
+        QVERIFY(!isTold());
+        s.simulation.drive.halfStroke = 0.3e-3;
+        s.simulation.contact = {0.3, 0.3, 0.2};
+        s.track.shape.slope = 10.0 * base::kDegree;
+        QVERIFY(isTold());
+        s.track.shape.slope = -10.0 * base::kDegree;
+        QVERIFY(!isTold());
+    }
+
     // Two of the objectives that are summed, or none.
     void whatIsTradedIsInTheSum_data() {
         QTest::addColumn<QString>("tradeOff");

@@ -114,9 +114,9 @@ class TrackFileTest : public QObject {
             << QByteArray("leadOutSegments");
         QTest::newRow("no feeder type")
             << QByteArray("\"linear\"") << QByteArray("\"spiral\"") << QByteArray("spiral");
-        QTest::newRow("a wall below nothing") << QByteArray("\"start\":")
-                                              << QByteArray("\"innerWall\": -2, \"start\":")
-                                              << QByteArray("inner wall is -2 mm high");
+        QTest::newRow("a wall below nothing")
+            << QByteArray("\"start\":") << QByteArray("\"innerWall\": -2, \"start\":")
+            << QByteArray("inner wall is -2 mm high");
         QTest::newRow("too steep") << QByteArray("\"linear\"") << QByteArray("\"linear\", \"slope_deg\": 16")
                                    << QByteArray("slope is 16 deg");
         QTest::newRow("an array") << QByteArray("{") << QByteArray("[{") << QByteArray("not JSON");

@@ -1,4 +1,4 @@
-#include "core/verify/predicted_speed.h"
+#include "core/trial/predicted_speed.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -73,8 +73,8 @@ class HoppingTest : public QObject {
         QFETCH(double, friction);
         QFETCH(double, slope);
         const trial::Vibration drive = makeDrive(halfStroke, 12.0);
-        const double expected = verify::calcStickSlipSpeed(drive, friction, kGravity, slope);
-        const double got = verify::calcHoppingSpeed(drive, friction, 0.3, kGravity, 100, slope);
+        const double expected = trial::calcStickSlipSpeed(drive, friction, kGravity, slope);
+        const double got = trial::calcHoppingSpeed(drive, friction, 0.3, kGravity, 100, slope);
         QVERIFY2(std::abs(got - expected) < 2e-3 * std::abs(expected) + (slope != 0.0 ? 2e-5 : 0.0),
                  qPrintable(QString("%1 instead of %2 m/s").arg(got).arg(expected)));
     }
@@ -95,7 +95,7 @@ class HoppingTest : public QObject {
         QFETCH(double, slope);
         const trial::Vibration drive = makeDrive(halfStroke, degrees);
         const double expected = stepPlasticHopping(drive, 0.4, 40, slope * base::kDegree);
-        const double got = verify::calcHoppingSpeed(drive, 0.4, 0.0, kGravity, 40, slope * base::kDegree);
+        const double got = trial::calcHoppingSpeed(drive, 0.4, 0.0, kGravity, 40, slope * base::kDegree);
         QVERIFY(expected > 0.02);
         QVERIFY2(std::abs(got / expected - 1.0) < 0.01,
                  qPrintable(QString("%1 instead of %2 m/s").arg(got).arg(expected)));

@@ -1,4 +1,4 @@
-#include "core/verify/predicted_speed.h"
+#include "core/trial/predicted_speed.h"
 
 #include <QtTest>
 #include <cmath>
@@ -10,10 +10,10 @@ namespace {
 constexpr double kGravity = base::kStandardGravity;
 
 /// slope [deg]
-verify::ConveyingPrediction predict(double halfStroke, double friction = 0.5, double slope = 0.0) {
+trial::ConveyingPrediction predict(double halfStroke, double friction = 0.5, double slope = 0.0) {
     trial::Vibration drive;
     drive.halfStroke = halfStroke;
-    return verify::predictConveying(drive, {friction, friction, 0.0}, kGravity, slope * base::kDegree);
+    return trial::predictConveying(drive, {friction, friction, 0.0}, kGravity, slope * base::kDegree);
 }
 
 }  // namespace
@@ -25,14 +25,14 @@ class PredictedSpeedTest : public QObject {
     // decisions.md#drive: 1.0 at a half-stroke of 0.478 mm.
     void partsLiftOffAtThrowNumberOne() {
         QVERIFY(std::abs(predict(0.478e-3).throwNumber - 1.0) < 2e-3);
-        QCOMPARE(predict(0.47e-3).conveyance, verify::Conveyance::slides);
-        QCOMPARE(predict(0.49e-3).conveyance, verify::Conveyance::hops);
+        QCOMPARE(predict(0.47e-3).conveyance, trial::Conveyance::slides);
+        QCOMPARE(predict(0.49e-3).conveyance, trial::Conveyance::hops);
     }
 
     // The peak acceleration along the plane does not reach friction x gravity.
     void aWeakDriveMovesNothing() {
-        const verify::ConveyingPrediction still = predict(0.02e-3);
-        QCOMPARE(still.conveyance, verify::Conveyance::sticks);
+        const trial::ConveyingPrediction still = predict(0.02e-3);
+        QCOMPARE(still.conveyance, trial::Conveyance::sticks);
         QVERIFY(std::abs(still.speed) < 1e-6);
     }
 
@@ -44,16 +44,16 @@ class PredictedSpeedTest : public QObject {
             before = speed;
         }
         // Steep enough, a weak drive lets everything come back.
-        const verify::ConveyingPrediction back = predict(0.3e-3, 0.3, 10.0);
+        const trial::ConveyingPrediction back = predict(0.3e-3, 0.3, 10.0);
         QVERIFY(back.speed < 0.0);
-        QCOMPARE(back.conveyance, verify::Conveyance::slides);
+        QCOMPARE(back.conveyance, trial::Conveyance::slides);
     }
 
     // Friction 0.2 holds up to 11.3 degrees.
     void nothingStaysOnTooSteepASlope() {
-        QCOMPARE(predict(0.45e-3, 0.2, 11.0).conveyance, verify::Conveyance::slides);
+        QCOMPARE(predict(0.45e-3, 0.2, 11.0).conveyance, trial::Conveyance::slides);
         for (const double slope : {12.0, -12.0})
-            QCOMPARE(predict(0.45e-3, 0.2, slope).conveyance, verify::Conveyance::slidesAway);
+            QCOMPARE(predict(0.45e-3, 0.2, slope).conveyance, trial::Conveyance::slidesAway);
     }
 
     // No part is conveyed faster than the track moves along itself at its quickest.

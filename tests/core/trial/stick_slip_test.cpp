@@ -1,4 +1,4 @@
-#include "core/verify/predicted_speed.h"
+#include "core/trial/predicted_speed.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -74,7 +74,7 @@ class StickSlipTest : public QObject {
         QFETCH(double, friction);
         QFETCH(double, slope);
         const trial::Vibration drive = makeDrive(halfStroke, degrees);
-        const double got = verify::calcStickSlipSpeed(drive, friction, kGravity, slope * base::kDegree);
+        const double got = trial::calcStickSlipSpeed(drive, friction, kGravity, slope * base::kDegree);
         QVERIFY(got > 1e-3);
         for (const double start : {-0.05, 0.2}) {
             const double expected = stepStickSlip(drive, friction, start, slope * base::kDegree);
@@ -97,7 +97,7 @@ class StickSlipTest : public QObject {
         const double angle = 12.0 * base::kDegree;
         const double limit = friction * kGravity / (w * w * (std::cos(angle) + friction * std::sin(angle)));
         const auto speed = [&](double halfStroke) {
-            return verify::calcStickSlipSpeed(makeDrive(halfStroke, 12.0), friction, kGravity);
+            return trial::calcStickSlipSpeed(makeDrive(halfStroke, 12.0), friction, kGravity);
         };
         QVERIFY(std::abs(speed(0.5 * limit)) < 1e-9);
         QVERIFY(std::abs(speed(0.999 * limit)) < 1e-9);
@@ -107,12 +107,12 @@ class StickSlipTest : public QObject {
     // Without a vertical part neither direction is better.
     void aHorizontalVibrationConveysNowhere() {
         for (const double halfStroke : {0.1e-3, 0.5e-3, 1.0e-3})
-            QVERIFY(std::abs(verify::calcStickSlipSpeed(makeDrive(halfStroke, 0.0), 0.4, kGravity)) < 2e-4);
+            QVERIFY(std::abs(trial::calcStickSlipSpeed(makeDrive(halfStroke, 0.0), 0.4, kGravity)) < 2e-4);
     }
 
     void theOppositeAngleConveysBackward() {
-        const double forward = verify::calcStickSlipSpeed(makeDrive(0.4e-3, 12.0), 0.5, kGravity);
-        const double backward = verify::calcStickSlipSpeed(makeDrive(0.4e-3, 168.0), 0.5, kGravity);
+        const double forward = trial::calcStickSlipSpeed(makeDrive(0.4e-3, 12.0), 0.5, kGravity);
+        const double backward = trial::calcStickSlipSpeed(makeDrive(0.4e-3, 168.0), 0.5, kGravity);
         QVERIFY(forward > 0.01);
         QVERIFY(std::abs(forward + backward) < 1e-3 * forward);
     }
@@ -122,8 +122,8 @@ class StickSlipTest : public QObject {
         trial::Vibration slow = makeDrive(0.4e-3, 12.0);
         trial::Vibration quick = makeDrive(0.1e-3, 12.0);
         quick.frequency = 2.0 * slow.frequency;
-        const double ratio = verify::calcStickSlipSpeed(slow, 0.5, kGravity) /
-                             verify::calcStickSlipSpeed(quick, 0.5, kGravity);
+        const double ratio =
+            trial::calcStickSlipSpeed(slow, 0.5, kGravity) / trial::calcStickSlipSpeed(quick, 0.5, kGravity);
         QVERIFY(std::abs(ratio - 2.0) < 1e-6);
     }
 };

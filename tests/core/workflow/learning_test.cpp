@@ -124,6 +124,33 @@ class LearningTest : public QObject {
         }
     }
 
+    // Of a study that trades two objectives tracks from one end of its front to the other are.
+    void theFrontsTracksAreCandidates() {
+        const fake::WaveStudy study("native", 6);
+        QVERIFY(workflow::learn(*study.file, study.inputs, fake::lawEngines(), {}, {}).ok());
+        study::StudyInputs inputs = study.inputs;
+        inputs.settings.evolution.objectives = "F_C, F_D, F_O, success";
+        inputs.settings.evolution.tradeOff = "F_D, F_O";
+        const auto pairs = study.file->loadScorePairs("F_D", "F_O").value();
+        const std::vector<std::size_t> front = study::findParetoFront(
+            pairs, *objectives::findObjective("F_D"), *objectives::findObjective("F_O"), 1);
+        QVERIFY(front.size() > 1);
+        for (const int count : {1, 2, 3, 100}) {
+            inputs.settings.validation.selectionWinners = count;
+            const auto candidates = workflow::findCandidates(*study.file, inputs);
+            VERIFY_OK(candidates);
+            QCOMPARE(candidates->size(), std::min(front.size(), static_cast<std::size_t>(count)));
+            QVERIFY(study::isSameIndividual(candidates->front(), pairs[front.front()]));
+            if (count > 1) QVERIFY(study::isSameIndividual(candidates->back(), pairs[front.back()]));
+            for (std::size_t k = 0; k < candidates->size(); ++k) {
+                const study::Individual& one = (*candidates)[k];
+                QVERIFY(one.record == study.file->loadIndividual(one).value());
+                for (std::size_t other = 0; other < k; ++other)
+                    QVERIFY(!study::isSameIndividual(one, (*candidates)[other]));
+            }
+        }
+    }
+
     // The final track first, then those of the last comparison, then their relatives, each once; a study that
     // begins with them has half of its first generation from there, and begins as good as the other ended.
     void aStudyBeginsWithTheTracksOfAnother() {

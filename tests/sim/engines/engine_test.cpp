@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "core/trial/batch_codec.h"
+#include "core/trial/predicted_speed.h"
 #include "core/verify/known_motions.h"
-#include "core/verify/predicted_speed.h"
 #include "tests/sim/engines/each_engine.h"
 #include "tests/sim/engines/engine_scenes.h"
 
@@ -110,8 +110,8 @@ class EngineTest : public QObject {
             const auto x = [&](std::size_t i) { return trajectory->samples[i].parts[0].room.position.x(); };
             QVERIFY(trajectory->samples.size() > 100);
             const double speed = (x(100) - x(50)) / (50.0 * period);
-            const double expected = verify::calcHoppingSpeed(scene.drive, scene.contact.kineticFriction,
-                                                             scene.contact.restitution, scene.gravity, 50);
+            const double expected = trial::calcHoppingSpeed(scene.drive, scene.contact.kineticFriction,
+                                                            scene.contact.restitution, scene.gravity, 50);
             QVERIFY2(std::abs(speed / expected - 1.0) < 0.02,
                      qPrintable(
                          QString("%1: %2 %").arg(known.name.c_str()).arg(100.0 * (speed / expected - 1.0))));
