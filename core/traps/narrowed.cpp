@@ -5,7 +5,6 @@
 #include <functional>
 #include <numeric>
 #include <optional>
-#include <ranges>
 #include <vector>
 
 namespace trapwright::traps {
@@ -147,9 +146,8 @@ Left cutAway(const track::CrossSection& whole, double inner, double outer) {
 
 /// How far from the lowest point its neighbours in this order are no more than a lip higher; a lip below 0
 /// is how far the cut goes beyond the lowest point. None: to the edge.
-template <class Points>
-std::optional<double> findLip(Points&& fromLowest, double lip, double towards) {
-    const base::Vec2 lowest = *fromLowest.begin();
+std::optional<double> findLip(std::span<const base::Vec2> fromLowest, double lip, double towards) {
+    const base::Vec2 lowest = fromLowest.front();
     if (lip < 0.0) return lowest.x() - towards * -lip;
     base::Vec2 last = lowest;
     for (const base::Vec2& point : fromLowest) {
@@ -168,7 +166,9 @@ Left cutAtLips(const track::CrossSection& whole, double innerLip, double outerLi
     const auto lowest = static_cast<std::size_t>(
         std::ranges::min_element(points, {}, [](const base::Vec2& point) { return point.y(); }) -
         points.begin());
-    const auto inner = findLip(points.first(lowest + 1) | std::views::reverse, innerLip, -1.0);
+    std::vector<base::Vec2> inward(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(lowest) + 1);
+    std::ranges::reverse(inward);
+    const auto inner = findLip(inward, innerLip, -1.0);
     const auto outer = findLip(points.subspan(lowest), outerLip, 1.0);
     return leave(whole, std::max(inner.value_or(points.front().x()), points.front().x()),
                  std::min(outer.value_or(points.back().x()), points.back().x()), !inner && !outer);
@@ -249,12 +249,10 @@ std::vector<track::CrossSection> buildNotched(const TrapParameters& parameters,
     const track::CrossSection behind = raise(parameters, entry, height(numbers[8]));
     const Left whole;
     const Left left = cutAtLips(entry, lip(numbers[2]), lip(numbers[3]));
-    double x = length;
-    std::vector<track::CrossSection> sections{cut(entry, x, whole)};
-    sections.push_back(cut(notch, x += edge(numbers[4]), left));
-    sections.push_back(cut(notch, x += within(kEdge, longest, numbers[5]), left));
-    sections.push_back(cut(behind, x += edge(numbers[6]), whole));
-    return sections;
+    const double begin = length + edge(numbers[4]);
+    const double end = begin + within(kEdge, longest, numbers[5]);
+    return {cut(entry, length, whole), cut(notch, begin, left), cut(notch, end, left),
+            cut(behind, end + edge(numbers[6]), whole)};
 }
 
 std::vector<double> layOutNotched(const TrapParameters& parameters) {
