@@ -75,6 +75,7 @@ Settings paperMode(Settings settings) {
     settings.track.shape.bowlRadius = 175e-3;
     settings.evolution.search = search::Method::genetic;
     settings.evolution.objectives = objectives::kPaperObjectives;
+    settings.evolution.tradeOff.clear();
     settings.evolution.orientationDistance = trial::OrientationDistance::plain;
     settings.evolution.smoothingLimit = 1.0;
     settings.evolution.mutationFloor = 0.0;
@@ -103,6 +104,7 @@ Settings turningMode(Settings settings, const part::Part& part) {
     settings.track.segmentHeight = inProportion(30e-3);
     settings.evolution.search = search::Method::genetic;
     settings.evolution.objectives = objectives::kPaperObjectives;
+    settings.evolution.tradeOff.clear();
     settings.evolution.firstGeneration = search::ga::FirstGeneration::graded;
     settings.evolution.racingTrials = 0;
     return settings;
@@ -126,6 +128,7 @@ Settings sortingMode(Settings settings, const part::Part& part) {
     settings.simulation.termination.timeLimit = std::max(settings.simulation.termination.timeLimit, kLongest);
     settings.evolution.search = search::Method::genetic;
     settings.evolution.objectives = objectives::kSorting;
+    settings.evolution.tradeOff.clear();
     settings.evolution.firstGeneration = search::ga::FirstGeneration::planned;
     settings.evolution.plannedTraps = 3000;
     // Hardly any generation gets further than the plan: what follows are a few chains like its best ones.
@@ -138,7 +141,7 @@ Settings sortingMode(Settings settings, const part::Part& part) {
 }
 
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track) {
-    settings.track.traps = "2 x narrowed";
+    settings.track.traps = "notched";
     auto behind = placeBehind(track, settings.track);
     if (!behind) return behind.error();
     settings.track = *std::move(behind);
@@ -146,12 +149,13 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     EvolutionSettings& evolution = settings.evolution;
     evolution.search = search::Method::genetic;
     evolution.objectives = "F_C, purity, success";
+    evolution.tradeOff.clear();
     evolution.firstGeneration = search::ga::FirstGeneration::graded;
     // Few numbers are looked for, of a hundred bits at most, and one wrong part in a hundred is to be seen.
     evolution.staticMutation = 0.02;
-    evolution.populationSize = 50;
-    evolution.trialsPerEvaluation = 400;
-    evolution.racingTrials = 50;
+    evolution.populationSize = 100;
+    evolution.trialsPerEvaluation = 300;
+    evolution.racingTrials = 30;
     evolution.tournamentSize = std::min(evolution.tournamentSize, evolution.populationSize);
     evolution.generations = 30;
     evolution.cornerShare = 0.0;

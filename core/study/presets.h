@@ -35,7 +35,7 @@ Settings turningMode(Settings settings, const part::Part& part);
 Settings sortingMode(Settings settings, const part::Part& part);
 
 /// Settings that learn traps behind a track that is there, which throw out what still lies wrong, so that it
-/// comes again: narrowed tracks, judged by how few of the parts that arrive are wrong, and how many arrive.
+/// comes again: a notched track, judged by how few of the parts that arrive are wrong, and how many arrive.
 /// Part, drive, contact, engine and seed stay. An error if other traps cannot follow that track
 /// (placeBehind).
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track);

@@ -276,7 +276,7 @@ class LearningTest : public QObject {
         const QJsonObject best = ran.json()["generations"].toArray()[1].toObject()["best"].toObject();
         QVERIFY(best.contains("purity"));
         const Ran settings = learn({"settings", "behind.trap"});
-        QCOMPARE(settings.json()["track"].toObject()["traps"].toString(), QString("2 x narrowed"));
+        QCOMPARE(settings.json()["track"].toObject()["traps"].toString(), QString("notched"));
         QCOMPARE(settings.json()["track"].toObject()["returns"].toString(), QString("anywhere"));
         QCOMPARE(settings.json()["track"].toObject()["given"].toString().count(':'), 5);
         const Ran solid = learn({"export", "behind.trap", "behind.stl", "behind.json"});
@@ -287,7 +287,7 @@ class LearningTest : public QObject {
                                few);
         QVERIFY2(file.code == 0, file.all());
         QCOMPARE(learn({"settings", "file.trap"}).json()["track"].toObject()["given"].toString().count(':'),
-                 13);
+                 9);
         const Ran both = learn({"new", "no.trap", "--behind", "first.trap", "--part", "cone"});
         QVERIFY2(both.code == 2 && both.errors.contains("part and settings are those of the study"),
                  both.all());

@@ -160,7 +160,7 @@ QWidget* TrackPage::makeHead() {
     auto* behind = new QCheckBox(tr("Add a rejecting trap"), locked_);
     behind->setObjectName("track.forkBehind");
     behind->setToolTip(
-        tr("The chosen track stays as it is, and narrowed tracks are learned behind it that throw out what "
+        tr("The chosen track stays as it is, and a notched track is learned behind it that throws out what "
            "still lies wrong, so that it comes again: fewer wrong ones, at the price of parts a minute"));
     // One or the other, or neither.
     connect(withTracks, &QCheckBox::toggled, behind, [behind](bool on) {
