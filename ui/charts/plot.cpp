@@ -131,20 +131,23 @@ void Plot::movePointTo(std::optional<PlotPoint> point) {
     viewport()->update();
 }
 
-/// The nearest one that is in reach and shown.
+/// The nearest one that is in reach and shown; one under the cursor of a curve on top goes before any of
+/// those below it.
 std::optional<PlotPoint> Plot::findPoint(const QPointF& position) const {
     constexpr double kReach = 16.0;  // pixels
+    constexpr double kUnder = 5.0;
     std::optional<PlotPoint> nearest;
     double least = kReach;
-    for (std::size_t i = 0; i < curves_.size(); ++i) {
+    for (std::size_t i = curves_.size(); i-- > 0;) {
         if (!curves_[i].shown || !isPickable(sheet_.curves[i])) continue;
         for (std::size_t at = 0; at < sheet_.curves[i].points.size(); ++at) {
             const QPointF away = toWidget(sheet_.curves[i].points[at]) - position;
             const double distance = std::hypot(away.x(), away.y());
-            if (distance > least) continue;  // of equal ones that on top
+            if (distance >= least) continue;
             least = distance;
             nearest = PlotPoint{i, at};
         }
+        if (nearest && nearest->curve == i && least < kUnder) break;
     }
     return nearest;
 }

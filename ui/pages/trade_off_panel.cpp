@@ -140,26 +140,27 @@ void TradeOffPanel::load() {
         tracks_.clear();
         return show();
     }
-    reading_.start([this, path = session_->path(), first = std::string(across->key),
-                    second = std::string(up->key)]() -> session::NewestTask::Deliver {
+    reading_.start([this, path = session_->path(), across, up]() -> session::NewestTask::Deliver {
         const auto file = store::StudyFile::openReadOnly(path);
-        const auto tracks = file ? file->loadScorePairs(first, second)
+        const auto tracks = file ? file->loadScorePairs(std::string(across->key), std::string(up->key))
                                  : base::Result<std::vector<study::ScorePair>>(file.error());
         if (!tracks) {
             return [this, message = tracks.error().message] {
                 emit failed(tr("The scores could not be read"), QString::fromStdString(message));
             };
         }
-        return [this, tracks = *tracks] {
+        return [this, across, up, tracks = *tracks] {
             tracks_ = tracks;
+            readAcross_ = across;
+            readUp_ = up;
             show();
         };
     });
 }
 
 void TradeOffPanel::show() {
-    const objectives::Objective* across = chosen(*across_);
-    const objectives::Objective* up = chosen(*up_);
+    const objectives::Objective* across = readAcross_;
+    const objectives::Objective* up = readUp_;
     const bool isKnown = session_ && across != nullptr && up != nullptr && !tracks_.empty();
     across_->parentWidget()->setVisible(across_->count() > 0);
     head_->setVisible(isKnown);

@@ -51,7 +51,10 @@ class TradeOffPanel : public QWidget {
 
     QPointer<const session::StudySession> session_;
     session::NewestTask reading_;
+    /// What was read last, which may not be what is chosen by now.
     std::vector<study::ScorePair> tracks_;
+    const objectives::Objective* readAcross_ = nullptr;
+    const objectives::Objective* readUp_ = nullptr;
     std::optional<study::IndividualId> shown_;
     QComboBox* across_;
     QComboBox* up_;
