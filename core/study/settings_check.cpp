@@ -11,8 +11,8 @@
 #include "core/study/stream.h"
 #include "core/study/target.h"
 #include "core/study/track_design.h"
+#include "core/study/trial_batches.h"
 #include "core/traps/trap_chain.h"
-#include "core/trial/predicted_speed.h"
 
 namespace trapwright::study {
 
@@ -313,18 +313,15 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
         recommendations.push_back(
             "evolution.objectives counts throughput, but evolution.streamShare is 0, so that no streams of "
             "parts are sent; 0.1 is recommended.");
-    if (const double slope = settings.track.shape.slope; slope > 0.0) {
-        const auto prediction =
-            trial::predictConveying(trial::seenFromTrack(settings.simulation.drive, settings.track.shape),
-                                    settings.simulation.contact, settings.simulation.gravity, slope);
-        if (prediction.speed <= 0.0)
-            recommendations.push_back(
-                fmt::format("A part that lies flat does not come up a slope of {:g} deg (track.slope_deg) "
-                            "with this drive "
-                            "and friction; a gentler slope, or a greater simulation.drive.halfStroke_mm or "
-                            "simulation.drive.angle_deg, is recommended.",
-                            slope / base::kDegree));
-    }
+    const track::FeederShape& shape = settings.track.shape;
+    if (shape.slope > 0.0 && findProblems(settings).empty() &&
+        predictOnFeeder(settings.simulation, shape).speed <= 0.0)
+        recommendations.push_back(
+            fmt::format("A part that lies flat does not come up a slope of {:g} deg (track.slope_deg) with "
+                        "this drive and "
+                        "friction; a gentler slope, or a greater simulation.drive.halfStroke_mm or "
+                        "simulation.drive.angle_deg, is recommended.",
+                        shape.slope / base::kDegree));
     const double fall = calcTypicalFall(settings.track);
     if (fall > 0.5 * settings.track.segmentHeight && settings.track.given.empty()) {
         recommendations.push_back(

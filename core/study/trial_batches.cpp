@@ -1,12 +1,14 @@
 #include "core/study/trial_batches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include "core/trial/goal.h"
 #include "core/trial/orientations.h"
-#include "core/trial/predicted_speed.h"
 #include "core/trial/start.h"
 
 namespace trapwright::study {
@@ -58,15 +60,29 @@ base::StreamKey keyOf(const TrialScene& scene, const IndividualId& individual, i
 double slowdownOn(const SimulationSettings& simulation, const track::FeederShape& shape) {
     constexpr double kMost = 10.0;
     if (shape.slope <= 0.0) return 1.0;
-    const auto speedOn = [&](const trial::Vibration& drive, double slope) {
-        return trial::predictConveying(drive, simulation.contact, simulation.gravity, slope).speed;
-    };
-    const double level = speedOn(simulation.drive, 0.0);
-    const double climbing = speedOn(trial::seenFromTrack(simulation.drive, shape), shape.slope);
+    const double level = predictOnFeeder(simulation, {}).speed;
+    const double climbing = predictOnFeeder(simulation, shape).speed;
     return climbing > 0.0 ? std::clamp(level / climbing, 1.0, kMost) : kMost;
 }
 
 }  // namespace
+
+trial::ConveyingPrediction predictOnFeeder(const SimulationSettings& simulation,
+                                           const track::FeederShape& shape) {
+    constexpr std::size_t kMostKnown = 100;
+    const trial::Vibration drive = trial::seenFromTrack(simulation.drive, shape);
+    const trial::ContactParameters& contact = simulation.contact;
+    const std::array<double, 7> key = {
+        drive.frequency,     drive.halfStroke,   drive.angle, contact.kineticFriction,
+        contact.restitution, simulation.gravity, shape.slope};
+    static std::mutex mutex;
+    static std::map<std::array<double, 7>, trial::ConveyingPrediction> known;
+    const std::scoped_lock lock(mutex);
+    if (known.size() > kMostKnown) known.clear();
+    const auto [at, isNew] = known.try_emplace(key);
+    if (isNew) at->second = trial::predictConveying(drive, contact, simulation.gravity, shape.slope);
+    return at->second;
+}
 
 trial::Termination terminationOn(const SimulationSettings& simulation, const track::Track& track) {
     constexpr double kSlowest = 20e-3;     // [m/s]

@@ -10,6 +10,7 @@
 #include "core/trial/batch.h"
 #include "core/trial/orientations.h"
 #include "core/trial/outcome.h"
+#include "core/trial/predicted_speed.h"
 
 namespace trapwright::study {
 
@@ -39,10 +40,16 @@ TrialScene makeScene(const Settings& settings, const Specimens& specimens,
 TrialScene makeScene(const Settings& settings, const std::shared_ptr<const part::Part>& part,
                      std::shared_ptr<const track::Track> track);
 
+/// What the drive does to a part that lies flat on this feeder, as it slopes. Up to a tenth of a second the
+/// first time; answers are remembered, as all tracks of a study ask the same. The settings must be without
+/// problems.
+trial::ConveyingPrediction predictOnFeeder(const SimulationSettings& simulation,
+                                           const track::FeederShape& shape);
+
 /// When trials on this track end: as set. A time limit of 0 is as long as a part needs to the finish at
 /// 20 mm/s, 10 s at least, so that what is slow on a long track is not called stuck (decisions.md#endings);
-/// on a feeder that climbs as many times longer as a flat part is slower than on a level one (takes
-/// milliseconds).
+/// on a feeder that climbs as many times longer as a flat part is slower than on a level one
+/// (predictOnFeeder).
 trial::Termination terminationOn(const SimulationSettings& simulation, const track::Track& track);
 
 /// Each trial's start is drawn from its own stream (seed, generation, individual, trial, purpose), so that

@@ -11,11 +11,6 @@ constexpr double kMarkerSize = 7.0;
 constexpr double kDotRadius = 2.2;
 constexpr float kDotOpacity = 0.45F;  // where many are, it is darker
 
-QColor fadeTo(QColor colour, float opacity) {
-    colour.setAlphaF(opacity);
-    return colour;
-}
-
 /// In multiples of the line's width; empty: solid.
 QList<qreal> dashesOf(const CurveStyle& style) {
     switch (style.line) {
@@ -65,7 +60,8 @@ QPen curvePen(const CurveStyle& style, const ChartTheme& theme) {
 
 void paintMarker(QPainter& painter, const QPointF& centre, const CurveStyle& style, const ChartTheme& theme) {
     if (style.marker == Marker::none) return;
-    const QColor colour = theme.series(style.colour, style.second);
+    QColor colour = theme.series(style.colour, style.second);
+    if (style.marker == Marker::dot) colour.setAlphaF(kDotOpacity);
     painter.save();
     painter.setPen(QPen(style.second ? colour : theme.background, style.second ? 1.4 : 0.8));
     painter.setBrush(style.second ? theme.background : colour);
@@ -75,7 +71,6 @@ void paintMarker(QPainter& painter, const QPointF& centre, const CurveStyle& sty
             break;
         case Marker::dot:
             painter.setPen(Qt::NoPen);
-            painter.setBrush(fadeTo(colour, kDotOpacity));
             painter.drawEllipse(centre, kDotRadius, kDotRadius);
             break;
         case Marker::circle:

@@ -45,8 +45,6 @@ class Plot : public QChartView {
 
     /// Where values are read off; none: nowhere.
     void setCursor(std::optional<double> x);
-    /// Where points are read off one by one (PlotSheet::byPoint): the point under the cursor.
-    [[nodiscard]] std::optional<PlotPoint> point() const { return point_; }
     /// So many points on along the topmost curve that has some to pick; from nowhere to its first one.
     void stepPoint(int step);
     /// As a click on it.
@@ -126,7 +124,7 @@ class Plot : public QChartView {
     bool fitted_ = true;
     bool picturing_ = false;
     std::optional<double> cursor_;
-    std::optional<PlotPoint> point_;
+    std::optional<PlotPoint> point_;  // where it is read off by point (PlotSheet::byPoint)
     std::optional<QPointF> pressed_;
     QPointF dragged_;
     bool dragging_ = false;

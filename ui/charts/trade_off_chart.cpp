@@ -74,7 +74,7 @@ ChartSheet tradeOffSheet(const TradeOff& tradeOff) {
     plot.key = "tradeOff";
     plot.xTitle = titleOf(*tradeOff.across);
     plot.yTitle = titleOf(*tradeOff.up);
-    plot.yShortTitle = QStringLiteral("[%1]").arg(textOf(tradeOff.up->unit));
+    if (!tradeOff.up->unit.empty()) plot.yShortTitle = QStringLiteral("[%1]").arg(textOf(tradeOff.up->unit));
     plot.decimals = std::max(tradeOff.across->decimals, tradeOff.up->decimals);
     plot.isWhole = false;
     plot.byPoint = true;

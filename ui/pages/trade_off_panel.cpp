@@ -30,8 +30,8 @@ const objectives::Objective* chosen(const QComboBox& box) {
 
 /// "89.7 %"
 QString shownText(const objectives::Objective& objective, double value) {
-    return QStringLiteral("%1 %2").arg(QString::fromStdString(objectives::shown(objective, value)),
-                                       textOf(objective.unit));
+    const QString number = QString::fromStdString(objectives::shown(objective, value));
+    return objective.unit.empty() ? number : QStringLiteral("%1 %2").arg(number, textOf(objective.unit));
 }
 
 /// What is asked for first: what the settings trade, or else what most want to know of such a study.
@@ -62,7 +62,7 @@ TradeOffPanel::TradeOffPanel()
     head_->setToolTip(
         tr("For these tracks no other does better in both ways, of those with all their trials. As counted "
            "while learning; Select measures anew"));
-    show();
+    showTracks();
 }
 
 QWidget* TradeOffPanel::makeChoice() {
@@ -97,6 +97,8 @@ void TradeOffPanel::setSession(const session::StudySession* session) {
     across_->clear();
     up_->clear();
     offerObjectives();
+    // Nothing of the study before may be seen, or picked, until this one is read.
+    showTracks();
     load();
     if (!session_) return;
     connect(&session_->runs(), &StudyRuns::generationSaved, this, [this] {
@@ -108,7 +110,7 @@ void TradeOffPanel::setSession(const session::StudySession* session) {
 void TradeOffPanel::setShown(const std::optional<study::IndividualId>& track) {
     if (shown_ == track) return;
     shown_ = track;
-    show();
+    showTracks();
 }
 
 void TradeOffPanel::showEvent(QShowEvent* event) {
@@ -138,7 +140,7 @@ void TradeOffPanel::load() {
     const objectives::Objective* up = chosen(*up_);
     if (!session_ || across == nullptr || up == nullptr) {
         tracks_.clear();
-        return show();
+        return showTracks();
     }
     reading_.start([this, path = session_->path(), across, up]() -> session::NewestTask::Deliver {
         const auto file = store::StudyFile::openReadOnly(path);
@@ -153,12 +155,12 @@ void TradeOffPanel::load() {
             tracks_ = tracks;
             readAcross_ = across;
             readUp_ = up;
-            show();
+            showTracks();
         };
     });
 }
 
-void TradeOffPanel::show() {
+void TradeOffPanel::showTracks() {
     const objectives::Objective* across = readAcross_;
     const objectives::Objective* up = readUp_;
     const bool isKnown = session_ && across != nullptr && up != nullptr && !tracks_.empty();

@@ -46,7 +46,7 @@ class TradeOffPanel : public QWidget {
     /// What the study measured of its tracks, with what it trades, or is likely to be asked for, chosen.
     void offerObjectives();
     void load();
-    void show();
+    void showTracks();
     void pick(const study::IndividualId& track);
 
     QPointer<const session::StudySession> session_;
