@@ -427,13 +427,20 @@ UPDATE study SET settings = json_set(settings, '$.track.innerWall_mm', 0, '$.tra
     '$.evolution.tradeOff', '');
 )sql";
 
-constexpr std::array<Migration, 24> kMigrations = {
+// Spiral and chute: none had them.
+constexpr const char* kVersion25 = R"sql(
+UPDATE study SET settings = json_set(settings, '$.track.spiralWidth_mm', 0, '$.track.spiralWall_mm', 10,
+    '$.track.spiralInclination_deg', 5, '$.track.chuteLength_mm', 0, '$.track.chuteAngle_deg', 20);
+)sql";
+
+constexpr std::array<Migration, 25> kMigrations = {
     {{1, kVersion1},   {2, kVersion2},   {3, kVersion3},   {4, kVersion4},
      {5, kVersion5},   {6, kVersion6},   {7, kVersion7},   {8, kVersion8, &turnGenesIntoDesigns},
      {9, kVersion9},   {10, kVersion10}, {11, kVersion11}, {12, kVersion12},
      {13, kVersion13}, {14, kVersion14}, {15, kVersion15}, {16, kVersion16},
      {17, kVersion17}, {18, kVersion18}, {19, kVersion19}, {20, kVersion20},
-     {21, kVersion21}, {22, kVersion22}, {23, kVersion23}, {24, kVersion24}}};
+     {21, kVersion21}, {22, kVersion22}, {23, kVersion23}, {24, kVersion24},
+     {25, kVersion25}}};
 
 }  // namespace
 

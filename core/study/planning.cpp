@@ -253,6 +253,9 @@ class Planner {
         // Parts must be seen as they go on: they creep along a level lead-out, and lie better behind it.
         TrackSettings shortened = settings().track;
         shortened.leadOutSegments = 1;
+        // What a trap does with a part that lies in the groove before it depends on neither.
+        shortened.spiral = {};
+        shortened.chute = {};
         shortened.maxSegmentLength = 2.0 * inputs_->part->boundingRadius;
         auto track = track::buildTrack(shortened, traps::build(chain, settings().track, design));
         if (!track) return track.error();

@@ -43,7 +43,8 @@ bool operator==(const TrackSettings& a, const TrackSettings& b) {
                         s.crossSections, s.pointsPerSection, s.minSegmentLength, s.maxSegmentLength,
                         s.segmentWidth, s.segmentHeight, s.leadInLength, s.startFromLeadInEnd,
                         s.leadOutSegments, s.baseThickness, s.walls.inner, s.walls.outer, s.encoding, s.given,
-                        s.returns);
+                        s.returns, s.spiral.width, s.spiral.wall, s.spiral.inclination, s.chute.length,
+                        s.chute.angle);
     };
     return fields(a) == fields(b);
 }

@@ -87,6 +87,41 @@ class RangeCheck {
     }
 };
 
+std::vector<std::string> findSpiralProblems(const TrackSettings& track, double beside) {
+    const track::Spiral& spiral = track.spiral;
+    std::vector<std::string> problems;
+    if (!(spiral.width > 0.0)) return problems;
+    const std::string width = "track.spiralWidth_mm is " + shown(spiral.width, FileUnit::millimetre) + "; ";
+    const double most = track.segmentWidth - 2.0 * track::kSpiralWallWidth;
+    if (spiral.width > most) {
+        problems.push_back(width +
+                           "with its wall it must find room in track.segmentWidth_mm, so it must be " +
+                           millimetres(most) + " at most.");
+    }
+    if (beside > 0.5 * spiral.width) {
+        problems.push_back(width + "parts start up to " + millimetres(beside) +
+                           " beside the middle, so it must be at least " + millimetres(2.0 * beside) +
+                           ", or simulation.start.lateral_mm or box.startOffset_mm less.");
+    }
+    const auto least = static_cast<int>(track::kLeastSpiralPoints);
+    if (track.pointsPerSection < least) {
+        problems.push_back(
+            fmt::format("track.pointsPerSection is {}; a spiral's ledge and wall (track.spiralWidth_mm) need "
+                        "at least {}.",
+                        track.pointsPerSection, least));
+    }
+    const double fall = 0.5 * spiral.width * std::tan(spiral.inclination);
+    const double room = 0.5 * track.segmentHeight;
+    if (spiral.wall - fall > room || fall > room) {
+        problems.push_back(
+            "track.spiralWall_mm is " + shown(spiral.wall, FileUnit::millimetre) +
+            "; ledge and wall keep to track.segmentHeight_mm, in the middle of which the ledge "
+            "lies, so it must be " +
+            millimetres(std::max(0.0, room + fall)) + " at most, or that higher.");
+    }
+    return problems;
+}
+
 std::vector<std::string> findTrackProblems(const TrackSettings& track) {
     std::vector<std::string> problems;
     if (track.minSegmentLength > track.maxSegmentLength) {
@@ -151,6 +186,9 @@ std::vector<std::string> findProblems(const Settings& settings) {
 
     const std::vector<std::string> track = findTrackProblems(settings.track);
     problems.insert(problems.end(), track.begin(), track.end());
+    const std::vector<std::string> spiral =
+        findSpiralProblems(settings.track, settings.simulation.start.lateral + settings.box.startOffset);
+    problems.insert(problems.end(), spiral.begin(), spiral.end());
     const std::vector<std::string> target = findTargetProblems(settings);
     problems.insert(problems.end(), target.begin(), target.end());
     const EvolutionSettings& evolution = settings.evolution;

@@ -82,6 +82,11 @@ void visitFields(Visitor& v, SettingsType& s) {
     v.number({"track.baseThickness_mm", mm, 0.1, 100.0}, s.track.baseThickness);
     v.number({"track.innerWall_mm", mm, 0.0, 1000.0}, s.track.walls.inner);
     v.number({"track.outerWall_mm", mm, 0.0, 1000.0}, s.track.walls.outer);
+    v.number({"track.spiralWidth_mm", mm, 0.0, 1000.0}, s.track.spiral.width);
+    v.number({"track.spiralWall_mm", mm, 0.1, 1000.0}, s.track.spiral.wall);
+    v.number({"track.spiralInclination_deg", degree, 0.0, 45.0}, s.track.spiral.inclination);
+    v.number({"track.chuteLength_mm", mm, 0.0, 1000.0}, s.track.chute.length);
+    v.number({"track.chuteAngle_deg", degree, 1.0, 60.0}, s.track.chute.angle);
     v.choice("track.encoding", s.track.encoding,
              Choices<PointEncoding, 2>{{{"strip", PointEncoding::strip}, {"free", PointEncoding::free}}});
 

@@ -27,8 +27,9 @@ struct Given {
     [[nodiscard]] double length() const { return sections.empty() ? 0.0 : sections.back().x; }
     /// The last section of what is before the traps.
     [[nodiscard]] track::CrossSection last(const TrackSettings& settings) const {
-        return sections.empty() ? traps::levelSection(settings, 0.5 * settings.segmentHeight)
-                                : sections.back();
+        return sections.empty()
+                   ? track::makeLeadIn(settings, 0.0, static_cast<std::size_t>(settings.pointsPerSection))
+                   : sections.back();
     }
     /// With these behind it.
     [[nodiscard]] std::vector<track::CrossSection> followedBy(std::vector<track::CrossSection> behind) const {
@@ -145,6 +146,8 @@ base::Result<TrackSettings> placeBehind(const track::Track& track, TrackSettings
     settings.walls = track.walls;
     settings.leadInLength = inNanometres(begin - track.begin());
     settings.startFromLeadInEnd = inNanometres(begin - track.start);
+    settings.spiral = track::spiralOf(track);
+    settings.chute = track::chuteOf(track);
     return settings;
 }
 
@@ -152,7 +155,7 @@ double calcLongestTrack(const TrackSettings& settings) {
     const auto traps = trapsOf(settings);
     const double trap = traps ? traps::calcLongest(*traps, settings) : 0.0;
     return settings.leadInLength + givenOf(settings).length() + trap +
-           settings.leadOutSegments * settings.maxSegmentLength;
+           settings.leadOutSegments * settings.maxSegmentLength + settings.chute.length;
 }
 
 double calcTypicalFall(const TrackSettings& settings) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace trapwright::track {
 
@@ -20,6 +21,47 @@ double segmentsFromBegin(const Track& track, double x) {
 }
 
 }  // namespace
+
+Spiral spiralOf(const Track& track) {
+    const Spiral none;
+    const std::vector<base::Vec2>& points = track.sections.front().points;
+    if (track.firstTrapSection < 1 || points.size() < 4) return none;
+    const base::Vec2& inner = points.front();
+    const base::Vec2& foot = points[points.size() - 3];
+    const base::Vec2& top = points[points.size() - 2];
+    const double width = foot.x() - inner.x();
+    const double height = top.y() - foot.y();
+    if (!(width > 0.0 && height > 0.0 && points.back().y() == top.y())) return none;
+    const double fall = (inner.y() - foot.y()) / width;
+    constexpr double kRounding = 1e-9;
+    for (std::size_t j = 1; j + 3 < points.size(); ++j) {
+        const double plane = inner.y() - fall * (points[j].x() - inner.x());
+        if (std::abs(points[j].y() - plane) > kRounding) return none;
+    }
+    return {width, height, std::atan(fall)};
+}
+
+Chute chuteOf(const Track& track) {
+    const std::size_t count = track.sections.size();
+    if (track.lastTrapSection + 2 >= static_cast<int>(count)) return {};
+    const CrossSection& from = track.sections[count - 2];
+    const CrossSection& to = track.sections[count - 1];
+    const double fall = from.points.front().y() - to.points.front().y();
+    if (!(fall > 0.0)) return {};
+    return {to.x - from.x, std::atan2(fall, to.x - from.x)};
+}
+
+double chuteFall(const Track& track, double x) {
+    const Chute chute = chuteOf(track);
+    const double along = x - (track.end() - chute.length);
+    return chute.length > 0.0 && along > 0.0 ? along * std::tan(chute.angle) : 0.0;
+}
+
+base::Mat3 orientationFrame(const Track& track, double x) {
+    const base::Mat3 frame = track.shape.tangentFrame(x);
+    if (!(chuteFall(track, x) > 0.0)) return frame;
+    return frame * Eigen::AngleAxisd(chuteOf(track).angle, base::Vec3::UnitY()).toRotationMatrix();
+}
 
 double segmentsToFinish(const Track& track, double x) {
     assert(track.sections.size() >= 2);

@@ -24,6 +24,26 @@ struct Walls {
     friend bool operator==(const Walls&, const Walls&) = default;
 };
 
+/// What parts come up the bowl on instead of a lead-in that is level over the whole width: a ledge in the
+/// middle of the track beside an upright wall at its outer side, to which it is inclined, so that parts come
+/// along the wall (Boothroyd 2005, chapter 3; decisions.md#spiral).
+struct Spiral {
+    double width = 0.0;                        // of the ledge [m]; 0: none, the lead-in is level
+    double wall = 10e-3;                       // above the ledge [m]
+    double inclination = 5.0 * base::kDegree;  // the ledge falls toward the wall [rad]
+
+    friend bool operator==(const Spiral&, const Spiral&) = default;
+};
+
+/// What parts leave by, behind the lead-out: the same cross-section, falling. The finish line is in its
+/// middle, and parts are compared as they lie on it (decisions.md#chute).
+struct Chute {
+    double length = 0.0;                  // along x [m]; 0: none
+    double angle = 20.0 * base::kDegree;  // how steeply it falls [rad]
+
+    friend bool operator==(const Chute&, const Chute&) = default;
+};
+
 /// How far walls reach beyond the track's width, unless they are printed thicker (PrintOptions). [m]
 inline constexpr double kWallThickness = 2e-3;
 
@@ -45,6 +65,15 @@ struct Track {
     [[nodiscard]] double begin() const { return sections.front().x; }
     [[nodiscard]] double end() const { return sections.back().x; }
 };
+
+/// What its lead-in is: width 0 if it is not a ledge beside a wall as track_builder.h makes it.
+Spiral spiralOf(const Track& track);
+/// What its last segment is: length 0 if it is part of the lead-out or the trap.
+Chute chuteOf(const Track& track);
+/// The axes at x in which orientations are compared: FeederShape::tangentFrame, on the chute tilted with it.
+base::Mat3 orientationFrame(const Track& track, double x);
+/// How far the chute lies below the lead-out at x; 0 before it. [m]
+double chuteFall(const Track& track, double x);
 
 /// Distance from x to the finish line in segments, the first and the last one counted by the fraction that
 /// lies between (paper, Eq. 3; decisions.md#distance-and-statistics); 0 at or past the finish. x before the

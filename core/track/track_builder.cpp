@@ -39,13 +39,51 @@ base::Status checkTrap(std::span<const CrossSection> trap) {
     return base::success();
 }
 
-CrossSection makeFlatSection(double x, double width, double z, std::size_t points) {
-    CrossSection section{x, {}};
+/// Points over a width about the middle, falling outward by so much along y from a height in the middle.
+void addPlane(CrossSection& section, double width, double z, double fall, std::size_t points) {
     for (std::size_t j = 0; j < points; ++j) {
         const double t = static_cast<double>(j) / static_cast<double>(points - 1);
-        section.points.emplace_back((t - 0.5) * width, z);
+        const double y = (t - 0.5) * width;
+        section.points.emplace_back(y, fall == 0.0 ? z : z - fall * y);
     }
-    return section;
+}
+
+base::Status checkSpiral(const TrackParameters& parameters) {
+    const Spiral& spiral = parameters.spiral;
+    if (spiral.width == 0.0) return base::success();
+    const double most = parameters.segmentWidth - 2.0 * kSpiralWallWidth;
+    if (!(spiral.width > 0.0 && spiral.width <= most)) {
+        return base::Error{fmt::format(
+            "The spiral is {:g} mm wide; it must be more than 0 and, with room for its wall on the segments, "
+            "at most {:g} mm.",
+            inMillimetres(spiral.width), inMillimetres(most))};
+    }
+    if (!(spiral.inclination >= 0.0 && spiral.inclination <= kSteepestSpiral * (1.0 + 1e-12))) {
+        return base::Error{fmt::format("The spiral's inclination is {:g} deg; it must be from 0 to {:g} deg.",
+                                       spiral.inclination / base::kDegree, kSteepestSpiral / base::kDegree)};
+    }
+    const double fall = 0.5 * spiral.width * std::tan(spiral.inclination);
+    const double room = 0.5 * parameters.segmentHeight;
+    if (!(spiral.wall > 0.0 && spiral.wall - fall <= room && fall <= room)) {
+        return base::Error{fmt::format(
+            "The spiral's wall is {:g} mm high; it must be more than 0, and ledge and wall must keep to the "
+            "segment height ({:g} mm), in the middle of which the ledge lies.",
+            inMillimetres(spiral.wall), inMillimetres(parameters.segmentHeight))};
+    }
+    return base::success();
+}
+
+base::Status checkChute(const Chute& chute) {
+    if (!(chute.length >= 0.0 && std::isfinite(chute.length))) {
+        return base::Error{fmt::format("The chute is {:g} mm long; it must be 0 (none) or more.",
+                                       inMillimetres(chute.length))};
+    }
+    if (!(chute.angle > 0.0 && chute.angle <= kSteepestChute * (1.0 + 1e-12))) {
+        return base::Error{
+            fmt::format("The chute falls by {:g} deg; it must be more than 0 and at most {:g}.",
+                        chute.angle / base::kDegree, kSteepestChute / base::kDegree)};
+    }
+    return base::success();
 }
 
 }  // namespace
@@ -77,7 +115,25 @@ base::Status checkParameters(const TrackParameters& parameters) {
             fmt::format("The number of lead-out segments is {}; the finish line needs at least 1.",
                         parameters.leadOutSegments)};
     }
+    if (auto status = checkSpiral(parameters); !status) return status.error();
+    if (auto status = checkChute(parameters.chute); !status) return status.error();
     return checkWalls(parameters.walls);
+}
+
+CrossSection makeLeadIn(const TrackParameters& parameters, double x, std::size_t points) {
+    CrossSection section{x, {}};
+    const double middle = 0.5 * parameters.segmentHeight;
+    const Spiral& spiral = parameters.spiral;
+    if (spiral.width == 0.0) {
+        addPlane(section, parameters.segmentWidth, middle, 0.0, points);
+        return section;
+    }
+    constexpr double kWallRun = 0.2e-3;  // so much the wall leans out, so that the surface stays one over y
+    addPlane(section, spiral.width, middle, std::tan(spiral.inclination), points - 2);
+    const double top = section.points.back().y() + spiral.wall;
+    section.points.emplace_back(0.5 * spiral.width + kWallRun, top);
+    section.points.emplace_back(0.5 * spiral.width + kSpiralWallWidth, top);
+    return section;
 }
 
 base::Status checkWalls(const Walls& walls) {
@@ -140,8 +196,14 @@ void addSolid(Track& track) {
 base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap) {
     if (auto status = checkParameters(parameters); !status) return status.error();
     if (auto status = checkTrap(trap); !status) return status.error();
-    const double length =
-        parameters.leadInLength + trap.back().x + parameters.leadOutSegments * parameters.maxSegmentLength;
+    const std::size_t points = trap.front().points.size();
+    if (parameters.spiral.width > 0.0 && points < kLeastSpiralPoints) {
+        return base::Error{fmt::format(
+            "The number of points per cross-section is {}; a spiral with its wall needs at least {}.", points,
+            kLeastSpiralPoints)};
+    }
+    const double length = parameters.leadInLength + trap.back().x +
+                          parameters.leadOutSegments * parameters.maxSegmentLength + parameters.chute.length;
     if (auto status =
             checkShape(parameters.shape, length, widthWithWalls(parameters.segmentWidth, parameters.walls));
         !status)
@@ -152,11 +214,8 @@ base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<cons
     track.width = parameters.segmentWidth;
     track.height = parameters.segmentHeight;
     track.baseThickness = parameters.baseThickness;
-    const std::size_t points = trap.front().points.size();
-    for (const double x : {0.0, parameters.leadInLength}) {
-        track.sections.push_back(
-            makeFlatSection(x, parameters.segmentWidth, 0.5 * parameters.segmentHeight, points));
-    }
+    for (const double x : {0.0, parameters.leadInLength})
+        track.sections.push_back(makeLeadIn(parameters, x, points));
     track.firstTrapSection = 1;
     for (const CrossSection& section : trap) {
         track.sections.push_back({parameters.leadInLength + section.x, section.points});
@@ -168,6 +227,14 @@ base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<cons
     }
     track.start = parameters.leadInLength - parameters.startFromLeadInEnd;
     track.finish = track.end() - 0.5 * parameters.maxSegmentLength;
+    if (const Chute& chute = parameters.chute; chute.length > 0.0) {
+        CrossSection section = track.sections.back();
+        section.x += chute.length;
+        for (base::Vec2& point : section.points)
+            point.y() -= chute.length * std::tan(chute.angle);
+        track.sections.push_back(std::move(section));
+        track.finish = track.end() - 0.5 * chute.length;
+    }
 
     track.walls = parameters.walls;
     addSolid(track);

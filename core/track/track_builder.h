@@ -21,7 +21,12 @@ struct TrackParameters {
     int leadOutSegments = 2;      // duplicates of the last functional section
     double baseThickness = 3e-3;  // of the solid below the lowest place of z = 0 [m]
     Walls walls;
+    Spiral spiral;
+    Chute chute;
 };
+
+inline constexpr double kSteepestSpiral = 45.0 * base::kDegree;
+inline constexpr double kSteepestChute = 60.0 * base::kDegree;
 
 /// An error that names the first parameter that is out of its range.
 base::Status checkParameters(const TrackParameters& parameters);
@@ -30,9 +35,16 @@ base::Status checkWalls(const Walls& walls);
 /// From the outer face of the inner wall to that of the outer one, as if there were both or none. [m]
 double widthWithWalls(double width, const Walls& walls);
 
-/// Flat lead-in from x = 0, the functional sections (x measured from the lead-in's end, at least one), and
-/// the lead-out; finish in the middle of the last duplicate. An error that names the parameter that is out of
-/// range, or tells that the track does not fit on the bowl.
+/// The lead-in's cross-section at x: level over the whole width, or the spiral's. [m]
+CrossSection makeLeadIn(const TrackParameters& parameters, double x, std::size_t points);
+/// The points that a section with a spiral's ledge and wall has at least.
+inline constexpr std::size_t kLeastSpiralPoints = 4;
+/// How much the wall of a spiral takes beside its ledge. [m]
+inline constexpr double kSpiralWallWidth = 2.2e-3;
+
+/// Lead-in from x = 0, the functional sections (x measured from the lead-in's end, at least one), the
+/// lead-out and the chute; finish in the middle of the last duplicate or the chute. An error that names the
+/// parameter that is out of range, or tells that the track does not fit on the bowl.
 base::Result<Track> buildTrack(const TrackParameters& parameters, std::span<const CrossSection> trap);
 
 /// Gives a track its solid, of which all else is known.

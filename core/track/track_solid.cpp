@@ -49,7 +49,10 @@ std::vector<double> placeBase(const CrossSection& row) {
 }
 
 double findBase(const FeederShape& shape, std::span<const CrossSection> sections, double baseThickness) {
-    return std::min(shape.rise(sections.front().x), shape.rise(sections.back().x)) - baseThickness;
+    double lowest = std::min(shape.rise(sections.front().x), shape.rise(sections.back().x));
+    for (const base::Vec2& point : sections.back().points)
+        lowest = std::min(lowest, shape.rise(sections.back().x) + point.y());
+    return lowest - baseThickness;
 }
 
 TrackSolid buildTrackSolid(const FeederShape& shape, std::span<const CrossSection> sections,

@@ -19,7 +19,8 @@ std::vector<CrossSection> subdivideSections(const FeederShape& shape, std::span<
 /// ends and sides are upright and cross nothing; where it overhangs, evenly from border to border. [m]
 std::vector<double> placeBase(const CrossSection& row);
 
-/// z of a solid's flat base in the room: so thick below the lowest place of the track's plane z = 0. [m]
+/// z of a solid's flat base in the room: so thick below the lowest place of the track's plane z = 0, and of a
+/// chute that falls below it. [m]
 double findBase(const FeederShape& shape, std::span<const CrossSection> sections, double baseThickness);
 
 /// A track's solid and how many of its first triangles are its surface.

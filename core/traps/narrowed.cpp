@@ -17,9 +17,9 @@ constexpr double kDeepest = 2.0 / 3.0;                  // of the track's width,
 constexpr double kNarrowest = 0.05;                     // what is left of it at least, as a share
 constexpr double kSteepestRise = 6.0 * base::kDegree;   // along the track, before a notch
 constexpr double kSteepestFall = 15.0 * base::kDegree;
-constexpr double kHighestStep = 1.0 / 3.0;  // of the box's height, behind a notch
+constexpr double kHighestStep = 1.0 / 3.0;  // of the longest segment or the box's height, behind a notch
 constexpr double kFarthestBeyond = 0.1;     // of the track's width, a notch cuts beyond the lowest point
-constexpr double kHighestLip = 0.5;         // of the box's height
+constexpr double kHighestLip = 0.5;         // of the same
 constexpr double kLongestSlant = 0.5;       // of the longest segment: a notch's ends
 constexpr double kLeastStretch = 10e-6;     // between points of a section [m]
 constexpr int kBits = 7;
@@ -174,6 +174,11 @@ Left cutAtLips(const track::CrossSection& whole, double innerLip, double outerLi
                  std::min(outer.value_or(points.back().x()), points.back().x()), !inner && !outer);
 }
 
+/// What heights are told by: a chain of many traps has a box that is far higher than any of them. [m]
+double scaleOf(const TrapParameters& parameters) {
+    return std::min(parameters.segmentHeight, parameters.maxSegmentLength);
+}
+
 double slopeOf(double inclination) {
     return -std::tan(within(-kMostInclined, kMostInclined, inclination));
 }
@@ -207,8 +212,8 @@ double longestNarrowed(const TrapParameters& parameters) {
 std::vector<search::Dimension> dimensionsOfNotched(const TrapParameters& parameters) {
     constexpr double kMillimetres = 1.0 / base::kMillimetre;
     const double deepest = kMillimetres * kFarthestBeyond * parameters.segmentWidth;
-    const double lip = kMillimetres * kHighestLip * parameters.segmentHeight;
-    const double highest = kMillimetres * kHighestStep * parameters.segmentHeight;
+    const double lip = kMillimetres * kHighestLip * scaleOf(parameters);
+    const double highest = kMillimetres * kHighestStep * scaleOf(parameters);
     const double shortest = kMillimetres * kEdge;
     const double longest = kMillimetres * parameters.maxSegmentLength;
     const double steepest = kMostInclined / base::kDegree;
@@ -235,12 +240,11 @@ std::vector<track::CrossSection> buildNotched(const TrapParameters& parameters,
     const double length = within(parameters.minSegmentLength, longest, numbers[0]);
     const double fall = length * std::tan(within(-kSteepestRise, kSteepestFall, numbers[1]));
     const auto lip = [&](double number) {
-        return within(-kFarthestBeyond * parameters.segmentWidth, kHighestLip * parameters.segmentHeight,
-                      number);
+        return within(-kFarthestBeyond * parameters.segmentWidth, kHighestLip * scaleOf(parameters), number);
     };
     const auto edge = [&](double number) { return within(kEdge, kLongestSlant * longest, number); };
     const auto height = [&](double number) {
-        return kHighestStep * parameters.segmentHeight * within(-1.0, 1.0, number);
+        return kHighestStep * scaleOf(parameters) * within(-1.0, 1.0, number);
     };
 
     const track::CrossSection entry =

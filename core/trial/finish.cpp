@@ -51,16 +51,18 @@ void cross(const Vec2& a, const Vec2& b, Use use) {
     }
 }
 
-/// How much shorter heights are along the tangent frame's upward axis than upright.
-double leanOf(const track::FeederShape& shape) {
-    return shape.type == track::FeederType::bowl ? std::cos(shape.slope) : 1.0;
+/// How much shorter heights are along the upward axis of the frame at the finish than upright.
+double leanOf(const track::Track& track) {
+    const track::Chute chute = track::chuteOf(track);
+    const double slope = track.shape.type == track::FeederType::bowl ? track.shape.slope : 0.0;
+    return std::cos(chute.length > 0.0 ? slope - chute.angle : slope);
 }
 
-/// The last functional section, which the lead-out repeats, in the tangent frame.
+/// The last functional section, which the lead-out and the chute repeat, in the frame at the finish.
 Profile surfaceOf(const track::Track& track) {
     std::vector<Vec2> points = track.sections[static_cast<std::size_t>(track.lastTrapSection)].points;
     for (Vec2& point : points)
-        point.y() *= leanOf(track.shape);
+        point.y() *= leanOf(track);
     const auto [low, high] = std::minmax_element(points.begin(), points.end(),
                                                  [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
     Profile profile = emptyProfile(low->x(), high->x(), -kNothing);
@@ -113,7 +115,7 @@ double findHeight(const Profile& surface, const Profile& underside, int shift) {
 base::Pose findFinishPose(const track::Track& track, const part::Part& part,
                           const base::Quaternion& orientation) {
     assert(!part.mesh.vertices.empty());
-    const base::Mat3 frame = track.shape.tangentFrame(track.finish);
+    const base::Mat3 frame = track::orientationFrame(track, track.finish);
     base::Mat3 toTrack = orientation.normalized().toRotationMatrix();
     // Track coordinates are left-handed on an anticlockwise bowl: y is outward, the frame's axis inward.
     const bool inward = track.shape.type == track::FeederType::bowl &&
@@ -141,7 +143,8 @@ base::Pose findFinishPose(const track::Track& track, const part::Part& part,
     }
     return {(base::Quaternion(frame) * orientation).normalized(),
             track.shape.toRoom(
-                {track.finish, best * kStep, findHeight(surface, underside, best) / leanOf(track.shape)})};
+                {track.finish, best * kStep,
+                 findHeight(surface, underside, best) / leanOf(track) - chuteFall(track, track.finish)})};
 }
 
 }  // namespace trapwright::trial

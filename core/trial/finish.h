@@ -5,9 +5,9 @@
 
 namespace trapwright::trial {
 
-/// How a part that ends in this orientation (part frame to the tangent frame, decisions.md#track-frame) lies
-/// at the finish: turned as told and touching the surface where its centre of mass is lowest, of equally low
-/// places the one nearest to the middle. Nothing is simulated: for pictures. Part frame to room.
+/// How a part that ends in this orientation (part frame to track::orientationFrame, decisions.md#track-frame)
+/// lies at the finish: turned as told and touching the surface where its centre of mass is lowest, of equally
+/// low places the one nearest to the middle. Nothing is simulated: for pictures. Part frame to room.
 base::Pose findFinishPose(const track::Track& track, const part::Part& part,
                           const base::Quaternion& orientation);
 

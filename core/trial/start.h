@@ -18,7 +18,7 @@ struct StartPolicy {
 /// Draws a trial of one part from `stream`: the drive's phase, and the part at rest, its lowest point 10
 /// micrometres above the lead-in at track.start, as close above the surface as it can. On a bowl that climbs
 /// it is above what of the mesh's facets stands out of the helix, too: 17 micrometres at 3 degrees and points
-/// 15 mm apart.
+/// 15 mm apart. On a spiral it is turned with the ledge, and moved inward as far as it would be in the wall.
 TrialSpec drawTrial(const track::Track& track, const part::Part& part, const StartPolicy& policy,
                     const base::StreamKey& stream);
 

@@ -7,8 +7,8 @@ namespace trapwright::trial {
 base::Pose TerminationMonitor::toTrackCoordinates(std::size_t part, const base::Pose& pose) const {
     base::Pose result;
     result.position = track_->shape.toTrack(pose.position, parts_[part].lastX);
-    result.rotation =
-        base::Quaternion(track_->shape.tangentFrame(result.position.x()).transpose()) * pose.rotation;
+    const base::Mat3 frame = track::orientationFrame(*track_, result.position.x());
+    result.rotation = base::Quaternion(frame.transpose()) * pose.rotation;
     return result;
 }
 
@@ -64,10 +64,10 @@ void TerminationMonitor::noteStop(std::size_t part, const Progress& progress, do
 std::optional<Ending> TerminationMonitor::findEnding(const Progress& progress, double time,
                                                      const base::Vec3& position) const {
     if (position.x() >= track_->finish) return Ending::finished;
-    // The surface lies at z >= 0: a centre of mass below that has left it.
+    // The surface lies at z >= 0, but for the chute's: a centre of mass below that has left it.
     const bool aside =
         std::abs(position.y()) > track_->width || position.x() < track_->begin() - track_->width;
-    if (position.z() < 0.0 || aside) return Ending::fellOff;
+    if (position.z() < -track::chuteFall(*track_, position.x()) || aside) return Ending::fellOff;
     if (termination_.until > 0.0)
         return time >= termination_.until ? std::optional(Ending::timedOut) : std::nullopt;
     if (time - progress.markedTime >= termination_.stuckTime) return Ending::stuck;

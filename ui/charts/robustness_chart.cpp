@@ -34,15 +34,12 @@ const trial::ConditionText& textOf(Condition condition) {
     return trial::conditionTexts()[static_cast<std::size_t>(condition)];
 }
 
-QString fromText(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
-
 /// "Half-stroke [mm]".
 QString titleOf(Condition condition) {
     const trial::ConditionText& text = textOf(condition);
-    const QString unit = text.unit == "deg" ? QStringLiteral("°") : fromText(text.unit);
-    return unit.isEmpty() ? fromText(text.name) : QStringLiteral("%1 [%2]").arg(fromText(text.name), unit);
+    const QString unit = text.unit == "deg" ? QStringLiteral("°") : look::fromUtf8(text.unit);
+    return unit.isEmpty() ? look::fromUtf8(text.name)
+                          : QStringLiteral("%1 [%2]").arg(look::fromUtf8(text.name), unit);
 }
 
 double shareOf(const PlaceResult& result) {
@@ -187,7 +184,7 @@ void RobustnessChart::showMap() {
         shares.push_back(shareOf(place));
         const stats::Interval bounds = boundsOf(place);
         help.append(tr("%1: %2 % of %3 (%4 … %5)")
-                        .arg(fromText(study::describePlace(settings_, *place.trials.place)))
+                        .arg(look::fromUtf8(study::describePlace(settings_, *place.trials.place)))
                         .arg(shares.back(), 0, 'f', 1)
                         .arg(place.tally.trials())
                         .arg(bounds.low, 0, 'f', 1)
@@ -237,7 +234,7 @@ QString RobustnessChart::csv() const {
     add(tr("over the box"), robustness_->overBox);
     for (const study::ConditionSweep& sweep : robustness_->sweeps)
         for (const PlaceResult& point : sweep.points)
-            add(fromText(textOf(sweep.condition).name), point);
+            add(look::fromUtf8(textOf(sweep.condition).name), point);
     for (const PlaceResult& corner : robustness_->corners)
         add(tr("worst corner"), corner);
     if (robustness_->worstPair)

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/search/methods.h"
+#include "ui/look/text.h"
 
 namespace trapwright::charts {
 
@@ -111,10 +112,6 @@ std::vector<std::string> curveKeys(const std::vector<StudyCurves>& studies) {
     return keys;
 }
 
-QString textOf(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
-
 /// How an objective is called beside axes: "Distance F<sub>D</sub> [segments]", and where there is little
 /// room "F<sub>D</sub> [segments]".
 struct AxisNames {
@@ -123,13 +120,13 @@ struct AxisNames {
 };
 
 AxisNames axisNames(const objectives::Objective& objective) {
-    const QString symbol = textOf(objective.symbol);
+    const QString symbol = look::fromUtf8(objective.symbol);
     const QString unit =
-        objective.unit.empty() ? QString() : QStringLiteral(" [%1]").arg(textOf(objective.unit));
+        objective.unit.empty() ? QString() : QStringLiteral(" [%1]").arg(look::fromUtf8(objective.unit));
     const int low = symbol.indexOf('_');
-    if (low < 0) return {textOf(objective.name) + unit, symbol + unit};
+    if (low < 0) return {look::fromUtf8(objective.name) + unit, symbol + unit};
     const QString html = QStringLiteral("%1<sub>%2</sub>").arg(symbol.left(low), symbol.mid(low + 1));
-    return {textOf(objective.name) + ' ' + html + unit, html + unit};
+    return {look::fromUtf8(objective.name) + ' ' + html + unit, html + unit};
 }
 
 /// In people's unit; NaN where it was not measured.
@@ -186,8 +183,8 @@ void addAttainable(PlotSheet& plot, const objectives::Objective& objective,
         if (!level || *level == 0.0 || (i > 0 && level == first)) continue;
         CurveStyle style = kAttainable;
         style.second = i > 0;
-        const QString column =
-            Text::tr("%1 best attainable [%2]").arg(textOf(objective.symbol), textOf(objective.unit));
+        const QString column = Text::tr("%1 best attainable [%2]")
+                                   .arg(look::fromUtf8(objective.symbol), look::fromUtf8(objective.unit));
         plot.curves.push_back(
             {shared ? Text::tr("best attainable") : withStudy(Text::tr("best attainable"), studies, i),
              withStudy(column, studies, i),
@@ -285,11 +282,12 @@ ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
     for (const objectives::Objective* objective : plottedObjectives(false)) {
         if (!isMeasured(*objective, studies)) continue;
-        const QString key = textOf(objective->key);
+        const QString key = look::fromUtf8(objective->key);
         // What everybody reads is a choice here, and a column of the tables. Where no surface ever
         // overlapped, a line at 0 would only take room.
         const bool on = objective->isDetail && isWorthPlotting(*objective, studies);
-        sheet.legend.push_back({key, textOf(objective->name), textOf(objective->help), std::nullopt, on});
+        sheet.legend.push_back(
+            {key, look::fromUtf8(objective->name), look::fromUtf8(objective->help), std::nullopt, on});
         const AxisNames names = axisNames(*objective);
         const QString column = QString::fromStdString(objective->title());
         PlotSheet plot = makePlot(key, names.axis, names.lowAxis);
@@ -392,12 +390,12 @@ ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
     sheet.plots.push_back(std::move(success));
     for (const objectives::Objective* objective : plottedObjectives(true)) {
         if (!isMeasured(*objective, studies)) continue;
-        const QString key = textOf(objective->key);
+        const QString key = look::fromUtf8(objective->key);
         const AxisNames names = axisNames(*objective);
         sheet.legend.push_back(
             {key,
-             textOf(objective->name),
-             Text::tr("The same of the winner on these trials: %1").arg(textOf(objective->help)),
+             look::fromUtf8(objective->name),
+             Text::tr("The same of the winner on these trials: %1").arg(look::fromUtf8(objective->help)),
              {},
              false});
         PlotSheet plot = makePlot(key, Text::tr("Winner's %1").arg(names.lowAxis), names.lowAxis);
@@ -405,7 +403,8 @@ ChartSheet engineSheet(const std::vector<StudyCurves>& studies) {
         plot.leastHeight = 0.1;
         addEngineCurves(
             plot, studies,
-            Text::tr("%1 by %2 [%3]").arg(textOf(objective->symbol), "%1", textOf(objective->unit)),
+            Text::tr("%1 by %2 [%3]")
+                .arg(look::fromUtf8(objective->symbol), "%1", look::fromUtf8(objective->unit)),
             [&](const auto&, const auto& score) { return shownValue(score.fitness, *objective); });
         sheet.plots.push_back(std::move(plot));
     }

@@ -17,19 +17,18 @@ struct Text {
 const CurveStyle kFront{SeriesColour::first, Qt::NoPen, Marker::circle};
 const CurveStyle kBorder{SeriesColour::first, Qt::SolidLine, Marker::none};
 const CurveStyle kAll{SeriesColour::neutral, Qt::NoPen, Marker::dot};
+const CurveStyle kMeasured{SeriesColour::third, Qt::NoPen, Marker::square};
 const CurveStyle kShown{SeriesColour::second, Qt::NoPen, Marker::diamond};
 
-constexpr std::size_t kFrontCurve = 2;  // of the sheet
-
-QString textOf(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
+// Places in the sheet.
+constexpr std::size_t kFrontCurve = 2;
+constexpr std::size_t kMeasuredCurve = 3;
 
 /// "Purity [nines]"
 QString titleOf(const objectives::Objective& objective) {
-    const QString unit = textOf(objective.unit);
-    return unit.isEmpty() ? textOf(objective.name)
-                          : QStringLiteral("%1 [%2]").arg(textOf(objective.name), unit);
+    const QString unit = look::fromUtf8(objective.unit);
+    return unit.isEmpty() ? look::fromUtf8(objective.name)
+                          : QStringLiteral("%1 [%2]").arg(look::fromUtf8(objective.name), unit);
 }
 
 QString nameOf(const study::IndividualId& track) {
@@ -74,7 +73,8 @@ ChartSheet tradeOffSheet(const TradeOff& tradeOff) {
     plot.key = "tradeOff";
     plot.xTitle = titleOf(*tradeOff.across);
     plot.yTitle = titleOf(*tradeOff.up);
-    if (!tradeOff.up->unit.empty()) plot.yShortTitle = QStringLiteral("[%1]").arg(textOf(tradeOff.up->unit));
+    if (!tradeOff.up->unit.empty())
+        plot.yShortTitle = QStringLiteral("[%1]").arg(look::fromUtf8(tradeOff.up->unit));
     plot.decimals = std::max(tradeOff.across->decimals, tradeOff.up->decimals);
     plot.isWhole = false;
     plot.byPoint = true;
@@ -98,8 +98,14 @@ ChartSheet tradeOffSheet(const TradeOff& tradeOff) {
         if (tradeOff.shown && study::isSameIndividual(track, *tradeOff.shown))
             shown.points.push_back(all.points.back());
     }
+    Curve measured = scattered(Text::tr("measured anew"), "measured", kMeasured);
+    for (const study::ScorePair& track : tradeOff.measured) {
+        measured.points.push_back(placeOf(tradeOff, track));
+        measured.pointNames.append(Text::tr("%1, %2 trials anew").arg(nameOf(track)).arg(track.trials));
+    }
     // Painted one over the other, what matters last.
-    plot.curves = {std::move(all), std::move(border), std::move(front), std::move(shown)};
+    plot.curves = {std::move(all), std::move(border), std::move(front), std::move(measured),
+                   std::move(shown)};
 
     ChartSheet sheet;
     sheet.xColumn = plot.xTitle;
@@ -110,6 +116,13 @@ ChartSheet tradeOffSheet(const TradeOff& tradeOff) {
          kFront},
         {"all", Text::tr("all tracks"), Text::tr("Every track that was simulated while learning."), kAll},
         {"shown", Text::tr("in the scene"), Text::tr("The track that the scene shows."), kShown}};
+    if (!tradeOff.measured.empty()) {
+        sheet.legend.insert(sheet.legend.end() - 1,
+                            {"measured", Text::tr("measured anew"),
+                             Text::tr("The same tracks by the many fresh trials of the last selection, which "
+                                      "no luck of learning is in. A click shows one."),
+                             kMeasured});
+    }
     sheet.plots = {std::move(plot)};
     return sheet;
 }
@@ -119,6 +132,10 @@ TradeOffChart::TradeOffChart(QWidget* parent) : CurveChart("tradeOff", tr("Trade
         tr("How two objectives trade against each other is not known before a track was simulated. "
            "Learn, and every track becomes a point."));
     connect(this, &CurveChart::pointPicked, this, [this](std::size_t curve, std::size_t index) {
+        if (curve == kMeasuredCurve) {
+            emit trackPicked(tradeOff_.measured[index]);
+            return;
+        }
         const std::size_t track = curve == kFrontCurve ? tradeOff_.front[index] : index;
         emit trackPicked(tradeOff_.tracks[track]);
     });
@@ -131,17 +148,29 @@ void TradeOffChart::setTradeOff(TradeOff tradeOff) {
 
 QString TradeOffChart::csv() const {
     if (tradeOff_.across == nullptr) return {};
-    QStringList lines{QStringList{tr("Generation"), tr("Individual"), titleOf(*tradeOff_.across),
-                                  titleOf(*tradeOff_.up), tr("Trials"), tr("On the front")}
+    QStringList lines{QStringList{
+        tr("Generation"), tr("Individual"), titleOf(*tradeOff_.across), titleOf(*tradeOff_.up), tr("Trials"),
+        tr("On the front"), look::csvField(tr("%1, anew").arg(titleOf(*tradeOff_.across))),
+        look::csvField(tr("%1, anew").arg(titleOf(*tradeOff_.up))), tr("Trials anew")}
                           .join(u',')};
     for (std::size_t i = 0; i < tradeOff_.tracks.size(); ++i) {
         const study::ScorePair& track = tradeOff_.tracks[i];
         const QPointF place = placeOf(tradeOff_, track);
         const bool isOnFront = std::ranges::find(tradeOff_.front, i) != tradeOff_.front.end();
-        lines.append(QStringList{QString::number(track.generation), QString::number(track.individual),
-                                 look::csvNumber(place.x()), look::csvNumber(place.y()),
-                                 QString::number(track.trials), QString::number(isOnFront ? 1 : 0)}
-                         .join(u','));
+        QStringList fields{QString::number(track.generation), QString::number(track.individual),
+                           look::csvNumber(place.x()),        look::csvNumber(place.y()),
+                           QString::number(track.trials),     QString::number(isOnFront ? 1 : 0)};
+        const auto anew = std::ranges::find_if(tradeOff_.measured, [&](const study::ScorePair& other) {
+            return study::isSameIndividual(track, other);
+        });
+        if (anew == tradeOff_.measured.end()) {
+            fields << QString() << QString() << QString();
+        } else {
+            const QPointF fresh = placeOf(tradeOff_, *anew);
+            fields << look::csvNumber(fresh.x()) << look::csvNumber(fresh.y())
+                   << QString::number(anew->trials);
+        }
+        lines.append(fields.join(u','));
     }
     return lines.join(u'\n') + u'\n';
 }

@@ -14,11 +14,12 @@ struct TradeOff {
     const objectives::Objective* up = nullptr;      // along y
     std::vector<study::ScorePair> tracks;           // first: of `across`
     std::vector<std::size_t> front;                 // of tracks: study::findParetoFront, best across first
+    std::vector<study::ScorePair> measured{};       // by more trials than while learning (a selection)
     std::optional<study::IndividualId> shown{};     // in the scene
 };
 
-/// A point for each track, those of the Pareto front with the border of what can be had, and the one that is
-/// in the scene.
+/// A point for each track, those of the Pareto front with the border of what can be had, those that were
+/// measured anew as well, and the one that is in the scene.
 ChartSheet tradeOffSheet(const TradeOff& tradeOff);
 
 class TradeOffChart : public CurveChart {
@@ -28,7 +29,8 @@ class TradeOffChart : public CurveChart {
 
     void setTradeOff(TradeOff tradeOff);
 
-    /// A line for each track: generation, individual, both values, trials, whether it is on the front.
+    /// A line for each track: generation, individual, both values, trials, whether it is on the front, both
+    /// values and trials measured anew.
     [[nodiscard]] QString csv() const override;
 
  signals:

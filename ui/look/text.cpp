@@ -19,6 +19,10 @@ QString tr(const char* text) {
 
 }  // namespace
 
+QString fromUtf8(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
 QString durationText(double seconds) {
     constexpr qint64 kMinute = 60;
     constexpr qint64 kHour = 60 * kMinute;

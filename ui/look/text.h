@@ -2,6 +2,7 @@
 
 #include <QString>
 #include <filesystem>
+#include <string_view>
 
 namespace trapwright::look {
 
@@ -17,6 +18,9 @@ QString numberText(double value, int digits = 3);
 /// A field of a CSV line, with quotes if it needs them (RFC 4180), and a number in full with a decimal point.
 QString csvField(const QString& text);
 QString csvNumber(double value);
+
+/// What the layers below write: UTF-8.
+QString fromUtf8(std::string_view text);
 
 /// A path for people: the home folder is "~".
 QString pathText(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include "core/stats/binomial.h"
 #include "core/workflow/study_trials.h"
 #include "ui/look/icon.h"
+#include "ui/look/text.h"
 #include "ui/models/numbers.h"
 
 namespace trapwright::models {
@@ -192,7 +193,7 @@ void ValidationModel::addConditions(std::vector<Row>& rows) const {
     for (const study::SlicedCondition& sliced : conditions_) {
         const std::string_view title =
             trial::conditionTexts()[static_cast<std::size_t>(sliced.condition)].name;
-        const QString name = QString::fromUtf8(title.data(), static_cast<qsizetype>(title.size()));
+        const QString name = look::fromUtf8(title);
         const auto makeSlice = [&](Row::Kind kind, const study::ConditionSlice& slice) {
             Row row = makeRow(kind, {}, {-1, slice.tally});
             row.condition = name;

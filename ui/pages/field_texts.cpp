@@ -8,6 +8,7 @@
 
 #include "core/study/field_text.h"
 #include "core/traps/trap_chain.h"
+#include "ui/look/text.h"
 
 namespace trapwright::pages {
 
@@ -41,6 +42,11 @@ const RawText kTexts[] = {
     {"track.slope_deg", TEXT("Slope"), TEXT("How steeply the track climbs; below 0 it falls. A linear feeder is tilted as a whole, and the vibration with it; a bowl's track climbs around an upright bowl.")},
     {"track.innerWall_mm", TEXT("Inner wall"), TEXT("How far a wall at the inner side rises above the surface's highest point, to keep parts on the track; 0: an edge. It closes cut-outs and gaps at its side.")},
     {"track.outerWall_mm", TEXT("Outer wall"), TEXT("The same at the outer side, where a bowl has its wall.")},
+    {"track.spiralWidth_mm", TEXT("Spiral"), TEXT("Width of the ledge that parts come up the bowl on, beside a wall at its outer side; it takes the place of the level lead-in. 0: level over the whole width.")},
+    {"track.spiralWall_mm", TEXT("Wall of the spiral"), TEXT("How far it rises above the ledge.")},
+    {"track.spiralInclination_deg", TEXT("Spiral leans out"), TEXT("How steeply the ledge falls toward its wall, so that parts come along the wall.")},
+    {"track.chuteLength_mm", TEXT("Chute"), TEXT("How long a chute behind the lead-out is, along the track: the last cross-section, falling. The finish line is then in its middle, and parts count as they lie on it. 0: none.")},
+    {"track.chuteAngle_deg", TEXT("Chute falls by"), TEXT("How steeply. Parts slide by themselves where its tangent is more than the friction; vibration helps them.")},
     {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
     {"track.given", TEXT("Given trap"), TEXT("Cross-sections that the traps follow: those of a track that was learned before and stays as it is. Change in a new study, Add a rejecting trap, sets them.")},
     {"track.returns", TEXT("What falls off"), TEXT("Where parts that fall off the track come again because they fall back into the bowl or a tray: nowhere, at one side, anywhere. What falls elsewhere is lost."), {TEXT("Is lost"), TEXT("Returns inside"), TEXT("Returns outside"), TEXT("Returns")}},
@@ -50,9 +56,9 @@ const RawText kTexts[] = {
     {"track.maxSegmentLength_mm", TEXT("Longest segment"), TEXT("Largest distance between two cross-sections, and the length of each segment after the trap.")},
     {"track.segmentWidth_mm", TEXT("Width"), TEXT("Of the track, from the inner to the outer edge.")},
     {"track.segmentHeight_mm", TEXT("Height"), TEXT("Of the hills above the deepest valleys; the lead-in lies in the middle.")},
-    {"track.leadInLength_mm", TEXT("Lead-in"), TEXT("Length of the flat part of the track before the trap.")},
+    {"track.leadInLength_mm", TEXT("Lead-in"), TEXT("Length of the track before the trap, level or the spiral.")},
     {"track.startFromLeadInEnd_mm", TEXT("Start before trap"), TEXT("Where parts are put, measured back from the trap; leave 60 mm of lead-in behind it.")},
-    {"track.leadOutSegments", TEXT("Lead-out segments"), TEXT("How often the last cross-section is repeated; the finish line is in the last one.")},
+    {"track.leadOutSegments", TEXT("Lead-out segments"), TEXT("How often the last cross-section is repeated; the finish line is in the last one, or in the chute.")},
     {"track.baseThickness_mm", TEXT("Base thickness"), TEXT("Of the solid below the deepest point.")},
     {"track.encoding", TEXT("Points may lie"), TEXT("In strips a surface never crosses itself; anywhere is the paper's way, and allows overhangs."), {TEXT("In strips"), TEXT("Anywhere")}},
 
@@ -141,10 +147,6 @@ const RawText kTexts[] = {
 
 QString translated(const char* text) {
     return QCoreApplication::translate("trapwright::pages::FieldTexts", text);
-}
-
-QString toText(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 /// What may be typed there, and what stands there at first.
@@ -266,8 +268,9 @@ std::vector<FieldGroup> trackGroups() {
           "track.segmentHeight_mm", "track.encoding"}},
         {"ends",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Lead-in and lead-out")),
-         {"track.leadInLength_mm", "track.startFromLeadInEnd_mm", "track.leadOutSegments",
-          "track.baseThickness_mm"}},
+         {"track.leadInLength_mm", "track.startFromLeadInEnd_mm", "track.spiralWidth_mm",
+          "track.spiralWall_mm", "track.spiralInclination_deg", "track.leadOutSegments",
+          "track.chuteLength_mm", "track.chuteAngle_deg", "track.baseThickness_mm"}},
         {"contact",
          tr(QT_TRANSLATE_NOOP("trapwright::pages::FieldTexts", "Contact")),
          {"simulation.contact.staticFriction", "simulation.contact.kineticFriction",
@@ -312,7 +315,7 @@ std::vector<FieldGroup> trackGroups() {
 }
 
 QString settingHeading(std::string_view key) {
-    return QString("%1 (`%2`)").arg(findFieldText(key).label, toText(key));
+    return QString("%1 (`%2`)").arg(findFieldText(key).label, look::fromUtf8(key));
 }
 
 QString settingsReference() {

@@ -20,10 +20,6 @@ QString fixed(double value, int decimals) {
     return QLocale().toString(value, 'f', decimals);
 }
 
-QString textOf(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
-
 }  // namespace
 
 IndividualCard::IndividualCard(QWidget* parent)
@@ -81,8 +77,8 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
     for (const objectives::Objective* objective : models::scoredObjectives(false)) {
         const objectives::Score* score = objectives::findScore(record.fitness, objective->key);
         if (score == nullptr || record.trials == 0) continue;
-        facts.emplace_back(textOf(objective->name),
-                           models::scoreText(*objective, score) + ' ' + textOf(objective->unit));
+        facts.emplace_back(look::fromUtf8(objective->name),
+                           models::scoreText(*objective, score) + ' ' + look::fromUtf8(objective->unit));
     }
     success_->show(facts);
     success_->setToolTip(models::successHelp(record.success()));
@@ -92,8 +88,8 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
         if (!objective.isDetail ||
             (score == nullptr && (objective.applies != nullptr || objective.needsWanted)))
             continue;
-        scores.emplace_back(textOf(objective.name) + ' ' + textOf(objective.symbol),
-                            models::scoreText(objective, score) + ' ' + textOf(objective.unit));
+        scores.emplace_back(look::fromUtf8(objective.name) + ' ' + look::fromUtf8(objective.symbol),
+                            models::scoreText(objective, score) + ' ' + look::fromUtf8(objective.unit));
     }
     scores_->show(scores);
     Facts traits;

@@ -9,6 +9,7 @@
 #include "core/store/study_file.h"
 #include "core/study/evaluator.h"
 #include "ui/charts/trade_off_chart.h"
+#include "ui/look/text.h"
 #include "ui/pages/panel_head.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
@@ -20,10 +21,6 @@ using session::StudyRuns;
 
 namespace {
 
-QString textOf(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
-
 const objectives::Objective* chosen(const QComboBox& box) {
     return objectives::findObjective(box.currentData().toString().toStdString());
 }
@@ -31,7 +28,8 @@ const objectives::Objective* chosen(const QComboBox& box) {
 /// "89.7 %"
 QString shownText(const objectives::Objective& objective, double value) {
     const QString number = QString::fromStdString(objectives::shown(objective, value));
-    return objective.unit.empty() ? number : QStringLiteral("%1 %2").arg(number, textOf(objective.unit));
+    return objective.unit.empty() ? number
+                                  : QStringLiteral("%1 %2").arg(number, look::fromUtf8(objective.unit));
 }
 
 /// What is asked for first: what the settings trade, or else what most want to know of such a study.
@@ -42,6 +40,21 @@ std::pair<std::string_view, std::string_view> proposePair(const study::Evolution
     if (objectives::findScore(measured, objectives::kPurity) != nullptr)
         return {objectives::kPurity, objectives::kSuccess};
     return {"conveying_speed", objectives::kSuccess};
+}
+
+/// What the last selection made of its candidates.
+std::vector<study::ScorePair> measuredAnew(const StudyRuns& runs, const objectives::Objective& across,
+                                           const objectives::Objective& up) {
+    std::vector<study::ScorePair> measured;
+    if (runs.selections().empty()) return measured;
+    for (const study::SelectionEntry& entry : runs.selections().back().entries) {
+        const objectives::Score* first = objectives::findScore(entry.fitness, across.key);
+        const objectives::Score* second = objectives::findScore(entry.fitness, up.key);
+        if (first != nullptr && second != nullptr)
+            measured.push_back(
+                {{entry.generation, entry.individual}, entry.trials, first->value, second->value});
+    }
+    return measured;
 }
 
 }  // namespace
@@ -61,7 +74,7 @@ TradeOffPanel::TradeOffPanel()
     connect(chart_, &charts::ChartPanel::failed, this, &TradeOffPanel::failed);
     head_->setToolTip(
         tr("For these tracks no other does better in both ways, of those with all their trials. As counted "
-           "while learning; Select measures anew"));
+           "while learning; what Select measured anew is in the chart, too"));
     showTracks();
 }
 
@@ -105,6 +118,7 @@ void TradeOffPanel::setSession(const session::StudySession* session) {
         offerObjectives();
         load();
     });
+    connect(&session_->runs(), &StudyRuns::selectionSaved, this, &TradeOffPanel::showTracks);
 }
 
 void TradeOffPanel::setShown(const std::optional<study::IndividualId>& track) {
@@ -126,8 +140,8 @@ void TradeOffPanel::offerObjectives() {
         const QSignalBlocker quiet(box);
         for (const objectives::Objective& objective : objectives::allObjectives())
             if (objectives::findScore(measured, objective.key) != nullptr)
-                box->addItem(textOf(objective.name), textOf(objective.key));
-        box->setCurrentIndex(std::max(0, box->findData(textOf(key))));
+                box->addItem(look::fromUtf8(objective.name), look::fromUtf8(objective.key));
+        box->setCurrentIndex(std::max(0, box->findData(look::fromUtf8(key))));
     }
 }
 
@@ -168,7 +182,11 @@ void TradeOffPanel::showTracks() {
     head_->setVisible(isKnown);
     if (!isKnown) return chart_->setTradeOff({});
     const int least = session_->design().settings().evolution.trialsPerEvaluation;
-    charts::TradeOff tradeOff{across, up, tracks_, study::findParetoFront(tracks_, *across, *up, least),
+    charts::TradeOff tradeOff{across,
+                              up,
+                              tracks_,
+                              study::findParetoFront(tracks_, *across, *up, least),
+                              measuredAnew(session_->runs(), *across, *up),
                               shown_};
     QStringList links;
     for (const std::size_t i : tradeOff.front) {

@@ -61,9 +61,8 @@ void MainWindow::addFileMenu() {
     QMenu& examples = *menu.addMenu(look::icon("example"), tr("Start with an &example part"));
     examples.setObjectName("menu.examples");
     for (const part::BundledPart& part : part::listBundledParts()) {
-        const QString name = QString::fromUtf8(part.name.data(), static_cast<qsizetype>(part.name.size()));
-        const QString text =
-            QString::fromUtf8(part.description.data(), static_cast<qsizetype>(part.description.size()));
+        const QString name = look::fromUtf8(part.name);
+        const QString text = look::fromUtf8(part.description);
         addItem(examples, "example." + name, {}, text, {}, this, [this, name] { openExample(name, false); });
     }
     QMenu& learned = *menu.addMenu(look::icon("review"), tr("Open a &learned example"));

@@ -289,6 +289,32 @@ class SettingsCheckTest : public QObject {
             "track.startFromLeadInEnd_mm is 80; the start must lie on the lead-in, so it must be less than "
             "track.leadInLength_mm, which is 80.");
         row(
+            "spiral", [](Settings& s) { s.track.spiral.width = 56e-3; },
+            "track.spiralWidth_mm is 56; with its wall it must find room in track.segmentWidth_mm, so it "
+            "must be 55.6 mm at most.");
+        row(
+            "spiral, start", [](Settings& s) { s.track.spiral.width = 3e-3; },
+            "track.spiralWidth_mm is 3; parts start up to 2 mm beside the middle, so it must be at least 4 "
+            "mm, or simulation.start.lateral_mm or box.startOffset_mm less.");
+        row(
+            "spiral, points",
+            [](Settings& s) {
+                s.track.spiral.width = 20e-3;
+                s.track.pointsPerSection = 3;
+            },
+            "track.pointsPerSection is 3; a spiral's ledge and wall (track.spiralWidth_mm) need at least 4.");
+        row(
+            "spiral, wall",
+            [](Settings& s) {
+                s.track.spiral = {20e-3, 16e-3, 0.0};
+            },
+            "track.spiralWall_mm is 16; ledge and wall keep to track.segmentHeight_mm, in the middle of "
+            "which "
+            "the ledge lies, so it must be 15 mm at most, or that higher.");
+        row(
+            "chute", [](Settings& s) { s.track.chute.angle = 61 * base::kDegree; },
+            "track.chuteAngle_deg is 61; it must be from 1 to 60.");
+        row(
             "tournament", [](Settings& s) { s.evolution.populationSize = 4; },
             "evolution.tournamentSize is 6; it must not be more than evolution.populationSize, which is 4.");
         row(

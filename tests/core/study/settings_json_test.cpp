@@ -27,6 +27,8 @@ Settings unusualSettings() {
               "129, 48, 23"};
     s.track.shape = {track::FeederType::bowl, 0.1 + 0.2, track::Conveying::anticlockwise, 0.05};
     s.track.walls = {1.0 / 300.0, 0.0123};
+    s.track.spiral = {0.02 / 3.0, 0.01 / 3.0, 7.7 * base::kDegree};
+    s.track.chute = {0.1 / 3.0, 22.2 * base::kDegree};
     s.track.traps = "step, free-form";
     s.track.given = "10.5: -30 1, 30 2";
     s.track.returns = trial::Returns::outerSide;

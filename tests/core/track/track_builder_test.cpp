@@ -337,6 +337,62 @@ class TrackBuilderTest : public QObject {
         QVERIFY(std::abs(calcVolume(clockwise.solid) / calcVolume(anticlockwise.solid) - 1.0) < 1e-12);
     }
 
+    // decisions.md#spiral: a ledge in the middle that falls toward an upright wall.
+    void spiralIsALedgeBesideAWall() {
+        TrackParameters parameters;
+        parameters.spiral = {20e-3, 8e-3, 5.0 * base::kDegree};
+        const auto trap = testing::drawTrap({}, 7);
+        const auto track = build(parameters, trap);
+        const double fall = 10e-3 * std::tan(5.0 * base::kDegree);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const std::vector<base::Vec2>& points = track.sections[i].points;
+            QCOMPARE(points.size(), trap.front().points.size());
+            QVERIFY((points.front() - base::Vec2(-10e-3, 15e-3 + fall)).norm() < 1e-15);
+            QVERIFY((points[points.size() - 3] - base::Vec2(10e-3, 15e-3 - fall)).norm() < 1e-15);
+            QVERIFY((points[points.size() - 2] - base::Vec2(10.2e-3, 23e-3 - fall)).norm() < 1e-15);
+            QVERIFY((points.back() - base::Vec2(12.2e-3, 23e-3 - fall)).norm() < 1e-15);
+        }
+        QCOMPARE(track.sections[2].points, trap.front().points);
+        const track::Spiral found = track::spiralOf(track);
+        QVERIFY(std::abs(found.width - 20e-3) < 1e-15 && std::abs(found.wall - 8e-3) < 1e-15);
+        QVERIFY(std::abs(found.inclination - 5.0 * base::kDegree) < 1e-12);
+        QCOMPARE(track::spiralOf(build({}, trap)).width, 0.0);
+    }
+
+    // decisions.md#chute: the last cross-section goes on, falling, with the finish line in the middle.
+    void chuteFallsBehindTheLeadOut() {
+        TrackParameters parameters;
+        const auto trap = testing::drawTrap({}, 7);
+        const auto without = build(parameters, trap);
+        parameters.chute = {50e-3, 30.0 * base::kDegree};
+        const auto track = build(parameters, trap);
+        QCOMPARE(track.sections.size(), without.sections.size() + 1);
+        QCOMPARE(track.lastTrapSection, without.lastTrapSection);
+        const double fall = 50e-3 * std::tan(30.0 * base::kDegree);
+        for (std::size_t j = 0; j < trap.back().points.size(); ++j) {
+            const base::Vec2 point = track.sections.back().points[j] + base::Vec2(0.0, fall);
+            QVERIFY((point - trap.back().points[j]).norm() < 1e-15);
+        }
+        QVERIFY(std::abs(track.end() - without.end() - 50e-3) < 1e-15);
+        QVERIFY(std::abs(track.finish - without.end() - 25e-3) < 1e-15);
+        const track::Chute found = track::chuteOf(track);
+        QVERIFY(std::abs(found.length - 50e-3) < 1e-15);
+        QVERIFY(std::abs(found.angle - 30.0 * base::kDegree) < 1e-12);
+        QCOMPARE(track::chuteOf(without).length, 0.0);
+        QCOMPARE(track::chuteFall(track, without.end()), 0.0);
+        QVERIFY(std::abs(track::chuteFall(track, track.finish) - 0.5 * fall) < 1e-12);
+        // The axes in which orientations are compared go with it, and only on it.
+        QCOMPARE(track::orientationFrame(track, track.start), track.shape.tangentFrame(track.start));
+        const base::Vec3 ahead = track::orientationFrame(track, track.finish).col(0);
+        QVERIFY(std::abs(ahead.z() + 0.5) < 1e-12);
+        // The base lies below its lowest place.
+        double lowest = 0.0;
+        for (const base::Vec2& point : track.sections.back().points)
+            lowest = std::min(lowest, point.y());
+        QVERIFY(lowest < -5e-3);
+        QVERIFY(std::abs(geometry::calcBoundingBox(track.solid).low.z() - (lowest - 3e-3)) < 1e-15);
+    }
+
     void refusesNamingTheParameter_data() {
         QTest::addColumn<TrackParameters>("parameters");
         QTest::addColumn<QString>("named");
@@ -353,6 +409,20 @@ class TrackBuilderTest : public QObject {
         QTest::newRow("inner wall") << p << "inner wall is -1 mm high";
         p.walls = {0.0, 1.5};
         QTest::newRow("outer wall") << p << "outer wall is 1500 mm high";
+        p = {};
+        p.spiral.width = 56e-3;
+        QTest::newRow("spiral too wide") << p << "spiral is 56 mm wide";
+        p.spiral.width = -1e-3;
+        QTest::newRow("spiral") << p << "spiral is -1 mm wide";
+        p.spiral = {20e-3, 17e-3};
+        QTest::newRow("spiral's wall") << p << "spiral's wall is 17 mm high";
+        p.spiral = {20e-3, 8e-3, 50.0 * base::kDegree};
+        QTest::newRow("spiral's inclination") << p << "inclination is 50 deg";
+        p = {};
+        p.chute.length = -1e-3;
+        QTest::newRow("chute") << p << "chute is -1 mm long";
+        p.chute = {10e-3, 61.0 * base::kDegree};
+        QTest::newRow("chute's angle") << p << "chute falls by 61 deg";
         p = {};
         p.leadInLength = 0.0;
         QTest::newRow("lead-in") << p << "lead-in length";

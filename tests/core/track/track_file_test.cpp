@@ -60,6 +60,8 @@ class TrackFileTest : public QObject {
         if (shape == 4) parameters.shape = testing::makeBowl(track::Conveying::anticlockwise, -0.05);
         if (shape == 2) parameters.walls = {0.0, 12.5e-3};
         if (shape == 4) parameters.walls = {3e-3, 20e-3};
+        if (shape == 0) parameters.spiral.width = 20e-3;
+        if (shape == 1) parameters.chute.length = 40e-3;
         auto built = track::buildTrack(parameters, testing::drawTrap({}, 4));
         QVERIFY(built.ok());
         const track::TrackFile file{"drawn at random", *built, std::nullopt};
@@ -79,6 +81,8 @@ class TrackFileTest : public QObject {
         QVERIFY(std::abs(again->track.walls.inner - parameters.walls.inner) < 1e-14);
         QVERIFY(std::abs(again->track.walls.outer - parameters.walls.outer) < 1e-14);
         QCOMPARE(track::trackToJson(file).find("Wall") != std::string::npos, parameters.walls.any());
+        QVERIFY(std::abs(track::spiralOf(again->track).width - parameters.spiral.width) < 1e-14);
+        QVERIFY(std::abs(track::chuteOf(again->track).length - parameters.chute.length) < 1e-14);
         for (std::size_t i = 0; i < built->solid.vertices.size(); ++i) {
             QVERIFY((again->track.solid.vertices[i] - built->solid.vertices[i]).norm() < 1e-14);
         }

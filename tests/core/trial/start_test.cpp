@@ -136,6 +136,44 @@ class StartTest : public QObject {
         }
     }
 
+    // Turned with the ledge, above it and beside the wall, whichever way it was drawn.
+    void liesOnASpiral_data() { addShapes(); }
+    void liesOnASpiral() {
+        QFETCH(int, shape);
+        track::TrackParameters parameters;
+        parameters.shape = shapeOf(shape);
+        parameters.spiral = {14e-3, 10e-3, 8.0 * base::kDegree};
+        const track::CrossSection section{
+            20e-3, {{-30e-3, 30e-3}, {-10e-3, 20e-3}, {0.0, 10e-3}, {10e-3, 10e-3}, {30e-3, 0.0}}};
+        const track::Track track = track::buildTrack(parameters, std::vector{section}).value();
+        const part::Part part = makeCuboid();
+        const double fall = std::tan(8.0 * base::kDegree);
+        trial::StartPolicy policy;
+        policy.nearPose = base::Quaternion::Identity();
+        policy.tilt = 0.0;
+        int moved = 0;
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const auto start = trial::drawTrial(track, part, policy, keyOf(i)).parts[0];
+            // Its lower side lies on the ledge: upright across it, but for the bend of a climbing bowl.
+            const base::Vec3 up = track.shape.tangentFrame(track.start).transpose() *
+                                  (start.pose.rotation * base::Vec3::UnitZ());
+            const bool isInward = shape == 2 || shape == 5;
+            QVERIFY(std::abs(up.y() - (isInward ? -1.0 : 1.0) * std::sin(8.0 * base::kDegree)) < 1e-12);
+            double least = 1.0;
+            double outermost = -1.0;
+            for (const auto& vertex : part.hull.vertices) {
+                const base::Vec3 corner = track.shape.toTrack(start.pose.apply(vertex), track.start);
+                least = std::min(least, corner.z() - (15e-3 - fall * corner.y()));
+                outermost = std::max(outermost, corner.y());
+            }
+            QVERIFY2(least > 0.0 && least < 0.1e-3, qPrintable(QString::number(least)));
+            QVERIFY2(outermost < 7e-3, qPrintable(QString::number(outermost)));
+            if (outermost > 7e-3 - 1.1e-5) ++moved;
+        }
+        // A cuboid that reaches 4.5 mm to the side, 2 mm beside the middle, would stand on the wall's foot.
+        QVERIFY(moved > 0 && moved < 100);
+    }
+
     void dependsOnTheStreamAlone() {
         const track::Track track = makeTrack({});
         const part::Part part = makeCuboid();

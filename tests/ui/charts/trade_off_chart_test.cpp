@@ -11,6 +11,8 @@ using charts::TradeOffChart;
 
 namespace {
 
+using Points = std::vector<QPointF>;
+
 /// Of six tracks three are on the front; of the last there were too few trials.
 charts::TradeOff someTracks() {
     charts::TradeOff tradeOff;
@@ -40,7 +42,6 @@ class TradeOffChartTest : public QObject {
         const charts::PlotSheet plot = charts::tradeOffSheet(someTracks()).plots[0];
         QCOMPARE(plot.xTitle, QString("Purity [nines]"));
         QCOMPARE(plot.yTitle, QString("Success [%]"));
-        using Points = std::vector<QPointF>;
         QVERIFY(
             (curveOf(plot, charts::Marker::circle).points == Points{{3.0, 20.0}, {2.0, 60.0}, {1.0, 90.0}}));
         // With less purity than the second as much success as it has, and no more.
@@ -93,15 +94,38 @@ class TradeOffChartTest : public QObject {
         QVERIFY((last() == study::IndividualId{1, 0}));
     }
 
+    // What a selection measured is beside what learning counted, and opens the same track.
+    void whatWasMeasuredAnewIsThereToo() {
+        TradeOffChart chart;
+        chart.resize(640, 400);
+        QCOMPARE(charts::tradeOffSheet(someTracks()).legend.size(), std::size_t{3});
+        charts::TradeOff tradeOff = someTracks();
+        tradeOff.measured = {{{1, 1}, 1000, 1.2, 0.3}};
+        const charts::ChartSheet sheet = charts::tradeOffSheet(tradeOff);
+        QCOMPARE(sheet.legend.size(), std::size_t{4});
+        QVERIFY((curveOf(sheet.plots[0], charts::Marker::square).points == Points{{1.2, 30.0}}));
+        chart.setTradeOff(tradeOff);
+        chart.show();
+        QVERIFY(QTest::qWaitForWindowExposed(&chart));
+        Plot* plot = chart.shownPlots().front();
+        QSignalSpy picked(&chart, &TradeOffChart::trackPicked);
+        QTest::mouseClick(plot->viewport(), Qt::LeftButton, {}, plot->toWidget({1.2, 30.0}).toPoint());
+        QCOMPARE(picked.count(), 1);
+        QVERIFY((picked.back()[0].value<study::IndividualId>() == study::IndividualId{1, 1}));
+        QCOMPARE(plot->readOff()[0], QString("Generation 1, individual 1, 1000 trials anew"));
+        QVERIFY(chart.csv().split(u'\n')[4].endsWith("1.2,30,1000"));
+    }
+
     void csvHasALineForEachTrack() {
         TradeOffChart chart;
         QVERIFY(chart.csv().isEmpty());
         chart.setTradeOff(someTracks());
         const QStringList lines = chart.csv().split(u'\n');
         QCOMPARE(lines.size(), 8);  // the last is empty
-        QCOMPARE(lines[0], QString("Generation,Individual,Purity [nines],Success [%],Trials,On the front"));
-        QCOMPARE(lines[1], QString("0,0,1,90,20,1"));
-        QCOMPARE(lines[6], QString("2,5,3,100,5,0"));
+        QCOMPARE(lines[0], QString("Generation,Individual,Purity [nines],Success [%],Trials,On the front,"
+                                   "\"Purity [nines], anew\",\"Success [%], anew\",Trials anew"));
+        QCOMPARE(lines[1], QString("0,0,1,90,20,1,,,"));
+        QCOMPARE(lines[6], QString("2,5,3,100,5,0,,,"));
     }
 };
 

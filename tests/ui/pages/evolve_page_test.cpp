@@ -314,7 +314,7 @@ class EvolvePageTest : public QObject {
         emit user.find<QLabel>("evolve.tradeOff.head")->linkActivated("4/3");
         QCOMPARE(generation(), QString("Generation 4"));
         QVERIFY(waitUntil([&] { return user.track() != before; }));
-        QCOMPARE(chart->sheet().plots[0].curves[3].points.size(), std::size_t{1});
+        QCOMPARE(chart->sheet().plots[0].curves[4].points.size(), std::size_t{1});
     }
 
     void winnersInViewGetPictures() {
