@@ -17,6 +17,8 @@
 
 #include "core/study/planning.h"
 #include "core/study/presets.h"
+#include "core/track/track_builder.h"
+#include "core/track/track_solid.h"
 #include "core/workflow/estimate.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
@@ -477,9 +479,12 @@ void TrackPage::showTitle() {
     title_->setText(bowl ? tr("Bowl track") : tr("Linear track"));
     size_->clear();
     if (!track_) return;
-    const double climb = std::abs(track_->shape.rise(track_->end()) - track_->shape.rise(track_->begin()));
-    const double height = track_->height + track_->baseThickness + climb;
-    size_->setText(sizeText({track_->end() - track_->begin(), track_->width, height}));
+    // As high as traps may be at the track's higher end, from below its lowest place; walls rise above it.
+    const double highest =
+        track_->height + std::max(track_->shape.rise(track_->begin()), track_->shape.rise(track_->end()));
+    const double base = track::findBase(track_->shape, track_->sections, track_->baseThickness);
+    size_->setText(sizeText({track_->end() - track_->begin(),
+                             track::widthWithWalls(track_->width, track_->walls), highest - base}));
 }
 
 void TrackPage::showTrack() {

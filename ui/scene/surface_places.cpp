@@ -108,9 +108,18 @@ std::vector<SectionSpan> sectionSpans(const track::Track& track, const Camera& c
         }
         return span;
     };
-    return {makeSpan(QCoreApplication::translate("scene", "Lead-in"), track.begin(), trapBegin),
-            makeSpan(QCoreApplication::translate("scene", "Trap"), trapBegin, trapEnd),
-            makeSpan(QCoreApplication::translate("scene", "Lead-out"), trapEnd, track.end())};
+    const bool isSpiral = track::spiralOf(track).width > 0.0;
+    const double chute = track::chuteOf(track).length;
+    std::vector<SectionSpan> spans{
+        makeSpan(isSpiral ? QCoreApplication::translate("scene", "Spiral")
+                          : QCoreApplication::translate("scene", "Lead-in"),
+                 track.begin(), trapBegin),
+        makeSpan(QCoreApplication::translate("scene", "Trap"), trapBegin, trapEnd),
+        makeSpan(QCoreApplication::translate("scene", "Lead-out"), trapEnd, track.end() - chute)};
+    if (chute > 0.0)
+        spans.push_back(
+            makeSpan(QCoreApplication::translate("scene", "Chute"), track.end() - chute, track.end()));
+    return spans;
 }
 
 }  // namespace trapwright::scene

@@ -6,6 +6,7 @@
 #include <QTest>
 #include <algorithm>
 
+#include "core/track/track_builder.h"
 #include "tests/ui/scene/scene_samples.h"
 #include "ui/scene/orbit_cube.h"
 #include "ui/scene/overlay.h"
@@ -46,6 +47,24 @@ class SceneViewTest : public QObject {
     }
 
     void cleanup() { view_.reset(); }
+
+    // What parts come by and leave by has its own name and length where it is there.
+    void spansNameSpiralAndChute() {
+        const auto names = [&](const track::Track& track) {
+            QStringList told;
+            for (const scene::SectionSpan& span : scene::sectionSpans(track, view_->camera()))
+                told << QString("%1 %2").arg(span.name).arg(qRound(span.length * 1e3));
+            return told;
+        };
+        track::TrackParameters parameters;
+        const track::CrossSection section{50e-3, {{-0.03, 0.0}, {-0.01, 0.0}, {0.01, 0.0}, {0.03, 0.0}}};
+        QCOMPARE(names(track::buildTrack(parameters, {{section}}).value()),
+                 QStringList({"Lead-in 80", "Trap 50", "Lead-out 72"}));
+        parameters.spiral.width = 20e-3;
+        parameters.chute.length = 40e-3;
+        QCOMPARE(names(track::buildTrack(parameters, {{section}}).value()),
+                 QStringList({"Spiral 80", "Trap 50", "Lead-out 72", "Chute 40"}));
+    }
 
     void trackIsDrawn() {
         const QImage empty = grab();
