@@ -12,6 +12,7 @@ std::vector<Row> runBounce(const trial::EngineKind& kind, const base::RunControl
 
 std::vector<Row> runSlope(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runTiltedFeeder(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runLedgeSlide(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runSliding(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runToppling(const trial::EngineKind& kind, const base::RunControl& control);
 

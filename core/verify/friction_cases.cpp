@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/track/track_builder.h"
 #include "core/verify/cases.h"
 #include "core/verify/scenes.h"
 
@@ -115,6 +116,51 @@ std::vector<Row> runTiltedFeeder(const trial::EngineKind& kind, const base::RunC
              fmt::format("{:.2g} mm/s", creep * 1e3), creep < 1e-4},
             {"slide on a feeder tilted by 14 deg, friction 0.2", "g (sin - mu cos) within 1 %",
              fmt::format("off by {:+.3f} %", worst * 100), std::abs(worst) < 0.01}};
+}
+
+std::vector<Row> runLedgeSlide(const trial::EngineKind& kind, const base::RunControl& control) {
+    constexpr double kSlippery = 0.3;
+    track::TrackParameters parameters;
+    parameters.spiral = {24.0 * kMillimetre, 10.0 * kMillimetre, 20.0 * kDegree};
+    const track::CrossSection section = track::makeLeadIn(parameters, 0.2, 8);
+    const auto track =
+        std::make_shared<const track::Track>(track::buildTrack(parameters, {{section}}).value());
+    // Normal forces of ledge and wall carry the weight, and nothing moves across: N1 n1 + N2 n2 = -m g.
+    const std::vector<base::Vec2>& points = section.points;
+    const base::Vec2 foot = points[points.size() - 3];
+    const auto upFrom = [](const base::Vec2& along) {
+        return base::Vec2(-along.y(), along.x()).normalized();
+    };
+    Eigen::Matrix2d normals;
+    normals.col(0) = upFrom(foot - points.front());
+    normals.col(1) = upFrom(points[points.size() - 2] - foot);
+    const base::Vec2 forces = normals.inverse() * base::Vec2(0.0, base::kStandardGravity);
+    const double expected = kSlippery * forces.sum();
+
+    // Flat on the ledge, the upper edge of its outer side on the wall.
+    const Quaternion leaning(Eigen::AngleAxisd(-parameters.spiral.inclination, Vec3::UnitX()));
+    const Vec3 corner = leaning * (Vec3(0.0, 6.0, 2.0) * kMillimetre);
+    const Vec3 below = leaning * (Vec3(0.0, 0.0, -2.0) * kMillimetre);
+    constexpr double kGap = 1e-6;
+    double y = foot.x() - corner.y();
+    // The wall leans out as it rises.
+    const double fall = std::tan(parameters.spiral.inclination);
+    double z = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        z = 0.5 * parameters.segmentHeight - fall * (y + below.y()) - below.z() + kGap;
+        const double lean = -normals(1, 1) / normals(0, 1);  // dy / dz of the wall
+        y = foot.x() + lean * (z + corner.z() - foot.y()) - corner.y() - kGap;
+    }
+    trial::TrialBatch scene = makeStillScene(track, makeFlatBlock(), {leaning, Vec3(0.06, y, z)}, 0.2);
+    scene.contact = {kSlippery, kSlippery, 0.0};
+    scene.trials[0].parts[0].velocity = Vec3(0.5, 0.0, 0.0);
+    const trial::Trajectory slide = replayScene(*kind.make({}), scene, 1e-3, control);
+    const trial::TrajectorySample& from = sampleAt(slide, 0.02);
+    const trial::TrajectorySample& to = sampleAt(slide, 0.08);
+    const double loss = (from.parts[0].velocity - to.parts[0].velocity).x();
+    const double error = loss / (to.time - from.time) / expected - 1.0;
+    return {{"slide on a 20 deg ledge along its wall, mu 0.3", "mu (N1 + N2) / m within 1 %",
+             fmt::format("off by {:+.3f} %", error * 100), std::abs(error) < 0.01}};
 }
 
 std::vector<Row> runSliding(const trial::EngineKind& kind, const base::RunControl& control) {

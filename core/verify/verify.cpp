@@ -11,6 +11,7 @@ std::vector<Case> allCases() {
             {"bounce", runBounce},
             {"slope", runSlope},
             {"tilted-feeder", runTiltedFeeder},
+            {"ledge-slide", runLedgeSlide},
             {"sliding", runSliding},
             {"toppling", runToppling},
             {"stick-slip", runStickSlip},
