@@ -58,7 +58,7 @@ double chuteFall(const Track& track, double x) {
 }
 
 base::Mat3 orientationFrame(const Track& track, double x) {
-    const base::Mat3 frame = track.shape.tangentFrame(x);
+    base::Mat3 frame = track.shape.tangentFrame(x);
     if (!(chuteFall(track, x) > 0.0)) return frame;
     return frame * Eigen::AngleAxisd(chuteOf(track).angle, base::Vec3::UnitY()).toRotationMatrix();
 }
