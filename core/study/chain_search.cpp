@@ -71,6 +71,11 @@ double ChainSearch::worthOf(const WayShares& parts) const {
     const double staying = 1.0 - parts[problem_.fallen()];
     if (staying < kLeast) return std::log2(kLeast);
     const double most = problem_.wanted.empty() ? *std::max_element(ways.begin(), ways.end()) : wanted;
+    if (problem_.seeksPurity) {
+        constexpr double kLeastWrong = 1e-4;  // four nines are more than a plan can tell
+        const double nines = -std::log10(std::max(0.0, 1.0 - most / staying) + kLeastWrong);
+        return nines + problem_.rightAsNines * bitsOfHalving_ / objectives::kBitsOfHalving * most;
+    }
     return std::log2(most / staying + kLeast) + bitsOfHalving_ * std::log2(staying);
 }
 

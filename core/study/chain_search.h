@@ -31,7 +31,7 @@ struct KnownTrap {
 struct Chain {
     std::vector<std::size_t> traps;
     WayShares parts;
-    double worth = 0.0;  // minus bits
+    double worth = 0.0;  // minus bits, or nines (ChainSearch::worthOf)
     double fall = 0.0;   // of the track [m]
 };
 
@@ -43,6 +43,8 @@ struct ChainProblem {
     std::vector<std::size_t> places;    // the kind of each trap, along the track
     double mostFall = 0.0;              // of a chain, so that it stays within the track's height [m]
     bool forgivesFalls = false;         // what falls off comes again
+    bool seeksPurity = false;           // then: few wrong ones count by their nines, not by bits
+    double rightAsNines = 1.0;          // then: what all right is worth besides
     std::vector<std::size_t> wanted{};  // ways in which parts shall lie; none: in any one
 
     [[nodiscard]] std::size_t stuck() const { return ways + 1; }
@@ -57,7 +59,8 @@ class ChainSearch {
     explicit ChainSearch(ChainProblem problem) : problem_(std::move(problem)) {}
 
     [[nodiscard]] const ChainProblem& problem() const { return problem_; }
-    /// What halving the parts costs from now on; in bits, as objectives::kBitsOfHalving.
+    /// What halving the parts costs from now on; in bits, as objectives::kBitsOfHalving. Where purity is
+    /// sought right parts count by as much more.
     void setBitsOfHalving(double bits) { bitsOfHalving_ = bits; }
 
     std::vector<KnownTrap>& traps() { return traps_; }
@@ -77,7 +80,8 @@ class ChainSearch {
     [[nodiscard]] WayMatrix calcChances(const WayMatrix& counts) const;
     [[nodiscard]] WayShares pass(const WayShares& parts, const WayMatrix& chances) const;
     /// Minus the bits of objectives::sorting() where falls are forgiven, else of objectives::disorder();
-    /// where ways are wanted, of the share that lies so.
+    /// where ways are wanted, of the share that lies so. Where purity is sought as nines,
+    /// objectives::purity() and the share of right ones of all.
     [[nodiscard]] double worthOf(const WayShares& parts) const;
     /// Where parts are behind as many of these as there are places of their kind.
     [[nodiscard]] WayShares repeat(const KnownTrap& trap) const;

@@ -175,6 +175,10 @@ class Planner {
         problem.ways = ways_.size();
         problem.places = places_;
         problem.forgivesFalls = forgivesFalls(settings().evolution);
+        const objectives::ObjectiveList summed = summedObjectives(settings().evolution);
+        problem.seeksPurity = objectives::contains(summed, objectives::kPurity);
+        // Where right parts are not in the sum they decide between chains that are as pure.
+        if (!objectives::contains(summed, objectives::kSuccess)) problem.rightAsNines = 0.1;
         problem.wanted = listWantedWays();
         problem.arriving.assign(problem.columns(), 0.0);
         search_ = ChainSearch(problem);  // findColumn() asks it

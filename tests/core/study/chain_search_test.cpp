@@ -106,6 +106,26 @@ class ChainSearchTest : public QObject {
         }
     }
 
+    // A tenth of the wrong ones is worth one more nine, whatever it costs but most of the right ones.
+    void purityCountsInNines() {
+        ChainProblem problem = makeProblem({0}, true);
+        problem.seeksPurity = true;
+        ChainSearch search(problem);
+        const double onlyOrder = search.worthOf({0.9, 0.1, 0, 0, 0, 0});
+        QVERIFY(std::abs(onlyOrder - (1.0 + 0.9)) < 1e-3);
+        const double sieved = search.worthOf({0.45, 0.005, 0, 0, 0, 0.545});
+        QVERIFY(std::abs(sieved - (1.955 + 0.45)) < 0.01);
+        problem.rightAsNines = 0.1;
+        QVERIFY(std::abs(ChainSearch(problem).worthOf({0.9, 0.1, 0, 0, 0, 0}) - (1.0 + 0.09)) < 1e-3);
+        // Bits have it the other way round where half of the parts go for a tenth of the wrong ones.
+        problem.seeksPurity = false;
+        const ChainSearch bits(problem);
+        QVERIFY(bits.worthOf({0.9, 0.1, 0, 0, 0, 0}) > bits.worthOf({0.45, 0.005, 0, 0, 0, 0.545}));
+        // What never arrives is right in no way.
+        problem.seeksPurity = true;
+        QVERIFY(ChainSearch(problem).worthOf({0, 0, 0, 0, 0, 1.0}) < 0.0);
+    }
+
     // A sieve for the second way and one for the third, behind each other; what turns everything into chaos
     // is known, too.
     void findsTheTwoThatLeaveOneWay() {
