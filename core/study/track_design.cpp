@@ -128,6 +128,9 @@ base::Result<TrackSettings> placeBehind(const track::Track& track, TrackSettings
     const double begin = track.sections[static_cast<std::size_t>(track.firstTrapSection)].x;
     // What people read, without the rounding of a difference.
     const auto inNanometres = [](double length) { return std::round(1e9 * length) / 1e9; };
+    const auto inNanodegrees = [](double angle) {
+        return std::round(1e9 * (angle / base::kDegree)) / 1e9 * base::kDegree;
+    };
     // In whole millimetres.
     const double raised = std::ceil(1e3 * calcTypicalFall(settings) - 1e-6) * 1e-3;
     for (track::CrossSection& section : given) {
@@ -146,8 +149,11 @@ base::Result<TrackSettings> placeBehind(const track::Track& track, TrackSettings
     settings.walls = track.walls;
     settings.leadInLength = inNanometres(begin - track.begin());
     settings.startFromLeadInEnd = inNanometres(begin - track.start);
-    settings.spiral = track::spiralOf(track);
-    settings.chute = track::chuteOf(track);
+    const track::Spiral spiral = track::spiralOf(track);
+    settings.spiral = {inNanometres(spiral.width), inNanometres(spiral.wall),
+                       inNanodegrees(spiral.inclination)};
+    const track::Chute chute = track::chuteOf(track);
+    settings.chute = {inNanometres(chute.length), inNanodegrees(chute.angle)};
     return settings;
 }
 

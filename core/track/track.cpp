@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/track/track_builder.h"
+
 namespace trapwright::track {
 
 namespace {
@@ -25,7 +27,7 @@ double segmentsFromBegin(const Track& track, double x) {
 Spiral spiralOf(const Track& track) {
     const Spiral none;
     const std::vector<base::Vec2>& points = track.sections.front().points;
-    if (track.firstTrapSection < 1 || points.size() < 4) return none;
+    if (track.firstTrapSection < 1 || points.size() < kLeastSpiralPoints) return none;
     const base::Vec2& inner = points.front();
     const base::Vec2& foot = points[points.size() - 3];
     const base::Vec2& top = points[points.size() - 2];
@@ -60,7 +62,10 @@ double chuteFall(const Track& track, double x) {
 base::Mat3 orientationFrame(const Track& track, double x) {
     base::Mat3 frame = track.shape.tangentFrame(x);
     if (!(chuteFall(track, x) > 0.0)) return frame;
-    return frame * Eigen::AngleAxisd(chuteOf(track).angle, base::Vec3::UnitY()).toRotationMatrix();
+    // A linear feeder is tilted as a whole; in a bowl the chute falls from a track that climbs in the room.
+    const double slope = track.shape.type == FeederType::bowl ? track.shape.slope : 0.0;
+    const double turn = slope - std::atan(std::tan(slope) - std::tan(chuteOf(track).angle));
+    return frame * Eigen::AngleAxisd(turn, base::Vec3::UnitY()).toRotationMatrix();
 }
 
 double segmentsToFinish(const Track& track, double x) {

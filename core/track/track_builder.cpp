@@ -44,7 +44,7 @@ void addPlane(CrossSection& section, double width, double z, double fall, std::s
     for (std::size_t j = 0; j < points; ++j) {
         const double t = static_cast<double>(j) / static_cast<double>(points - 1);
         const double y = (t - 0.5) * width;
-        section.points.emplace_back(y, fall == 0.0 ? z : z - fall * y);
+        section.points.emplace_back(y, z - fall * y);
     }
 }
 

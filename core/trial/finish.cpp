@@ -53,9 +53,7 @@ void cross(const Vec2& a, const Vec2& b, Use use) {
 
 /// How much shorter heights are along the upward axis of the frame at the finish than upright.
 double leanOf(const track::Track& track) {
-    const track::Chute chute = track::chuteOf(track);
-    const double slope = track.shape.type == track::FeederType::bowl ? track.shape.slope : 0.0;
-    return std::cos(chute.length > 0.0 ? slope - chute.angle : slope);
+    return track::orientationFrame(track, track.finish).col(2).z();
 }
 
 /// The last functional section, which the lead-out and the chute repeat, in the frame at the finish.

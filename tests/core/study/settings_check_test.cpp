@@ -309,8 +309,7 @@ class SettingsCheckTest : public QObject {
                 s.track.spiral = {20e-3, 16e-3, 0.0};
             },
             "track.spiralWall_mm is 16; ledge and wall keep to track.segmentHeight_mm, in the middle of "
-            "which "
-            "the ledge lies, so it must be 15 mm at most, or that higher.");
+            "which the ledge lies, so it must be 15 mm at most, or that higher.");
         row(
             "chute", [](Settings& s) { s.track.chute.angle = 61 * base::kDegree; },
             "track.chuteAngle_deg is 61; it must be from 1 to 60.");

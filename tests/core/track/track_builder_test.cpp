@@ -385,6 +385,14 @@ class TrackBuilderTest : public QObject {
         QCOMPARE(track::orientationFrame(track, track.start), track.shape.tangentFrame(track.start));
         const base::Vec3 ahead = track::orientationFrame(track, track.finish).col(0);
         QVERIFY(std::abs(ahead.z() + 0.5) < 1e-12);
+        // From a bowl's track that climbs it falls by as much less: tan 10 - tan 30 deg.
+        TrackParameters climbing = parameters;
+        climbing.shape = testing::makeBowl(Conveying::clockwise, 10.0 * base::kDegree);
+        const auto bowl = build(climbing, trap);
+        const base::Vec3 down = track::orientationFrame(bowl, bowl.finish).col(0);
+        const double along = std::hypot(down.x(), down.y());
+        const double expected = std::tan(10.0 * base::kDegree) - std::tan(30.0 * base::kDegree);
+        QVERIFY(std::abs(down.z() / along - expected) < 1e-12);
         // The base lies below its lowest place.
         double lowest = 0.0;
         for (const base::Vec2& point : track.sections.back().points)
