@@ -27,6 +27,7 @@ core/traps      core/base core/search core/track core/traps
 core/trial      core/base core/part core/track core/trial
 core/verify     core/base core/calibration core/geometry core/part core/stats core/study core/track core/trial core/verify
 core/workflow   core/base core/geometry core/part core/search core/store core/study core/track core/trial core/workflow
+sim/cluster     core/base core/part core/track core/trial sim/cluster
 sim/contact     core/base core/geometry core/part core/track core/trial sim/contact
 sim/engines     core/base core/trial sim/engines sim/native sim/simbody
 sim/native      core/base core/geometry core/part core/track core/trial sim/contact sim/native
@@ -56,6 +57,7 @@ SQLite       core/store     ^(SQLiteCpp/|sqlite3)
 Simbody      sim/simbody    ^(Simbody[.]h|SimTK|simbody/|simmath/)
 VTK          ui/scene       ^vtk
 Highway      sim/native     ^hwy/
+MPI          sim/cluster    ^mpi[.]h$
 SerialBus    app/transports  ^(QtSerialBus|QModbus)
 SerialPort   app/transports  ^(QtSerialPort|QSerialPort)
 ODE          tests/peers    ^ode/

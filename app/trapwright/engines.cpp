@@ -6,6 +6,12 @@
 
 namespace trapwright::app {
 
+namespace {
+
+constexpr const char* kVariable = "TRAPWRIGHT_INSTRUCTION_SET";
+
+}  // namespace
+
 Attempt<trial::EngineKind> findEngine(const std::string& name) {
     const trial::EngineKind* kind = engines::registry().find(name);
     if (kind == nullptr) return Failure{ExitCode::usage, engines::registry().describeUnknown(name).message};
@@ -25,12 +31,17 @@ Attempt<std::shared_ptr<const trial::Engine>> makeJudge(const std::string& setti
 }
 
 Attempt<ExitCode> obeyEnvironment() {
-    constexpr const char* kVariable = "TRAPWRIGHT_INSTRUCTION_SET";
-    const char* set = std::getenv(kVariable);
-    if (set == nullptr || *set == '\0') return ExitCode::ok;
-    const base::Status used = engines::useInstructionSet(set);
+    const std::optional<std::string> set = askedInstructionSet();
+    if (!set) return ExitCode::ok;
+    const base::Status used = engines::useInstructionSet(*set);
     if (!used) return Failure{ExitCode::usage, std::string(kVariable) + ": " + used.error().message};
     return ExitCode::ok;
+}
+
+std::optional<std::string> askedInstructionSet() {
+    const char* set = std::getenv(kVariable);
+    if (set == nullptr || *set == '\0') return std::nullopt;
+    return set;
 }
 
 }  // namespace trapwright::app

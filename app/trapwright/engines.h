@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/trapwright/exit_codes.h"
@@ -22,5 +23,7 @@ Attempt<std::shared_ptr<const trial::Engine>> makeJudge(const std::string& setti
 /// The environment's TRAPWRIGHT_INSTRUCTION_SET, where it is set: what the native engine shall take, so that
 /// a machine gives the bits of a lesser one. A failure if this machine has no such instructions.
 Attempt<ExitCode> obeyEnvironment();
+/// What it says; none if it is not set.
+std::optional<std::string> askedInstructionSet();
 
 }  // namespace trapwright::app

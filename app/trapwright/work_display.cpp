@@ -22,6 +22,12 @@ std::atomic<int> signalCount{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 void countSignal(int signal) {
+    // It may come twice: to the launcher, which passes it on, and to all that it started.
+    if (signal == SIGUSR1) {
+        int none = 0;
+        signalCount.compare_exchange_strong(none, 1);
+        return;
+    }
     const int count = signalCount.fetch_add(signal == SIGINT ? 1 : 2);
     if (count >= 2) ::_exit(static_cast<int>(ExitCode::interrupted));
 }
@@ -51,6 +57,7 @@ InterruptCounter::InterruptCounter() {
     action.sa_flags = SA_RESTART;
     ::sigaction(SIGINT, &action, &interruptBefore_);
     ::sigaction(SIGTERM, &action, &terminateBefore_);
+    ::sigaction(SIGUSR1, &action, &soonOverBefore_);
     // The terminal is gone; under nohup nobody minds.
     ::sigaction(SIGHUP, nullptr, &hangUpBefore_);
     if (hangUpBefore_.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
@@ -59,6 +66,7 @@ InterruptCounter::InterruptCounter() {
 InterruptCounter::~InterruptCounter() {
     ::sigaction(SIGINT, &interruptBefore_, nullptr);
     ::sigaction(SIGTERM, &terminateBefore_, nullptr);
+    ::sigaction(SIGUSR1, &soonOverBefore_, nullptr);
     ::sigaction(SIGHUP, &hangUpBefore_, nullptr);
 }
 

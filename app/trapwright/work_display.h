@@ -15,7 +15,8 @@
 namespace trapwright::app {
 
 /// While this lives, Ctrl-C (SIGINT) is counted instead of ending the process, up to the second time; a third
-/// ends it at once. SIGTERM and SIGHUP count as two; SIGHUP under nohup not at all. One at a time in a
+/// ends it at once. SIGTERM and SIGHUP count as two; SIGHUP under nohup not at all. SIGUSR1, which batch
+/// systems send some time before they end a job, is a first one, however often it comes. One at a time in a
 /// process.
 class InterruptCounter {
  public:
@@ -30,6 +31,7 @@ class InterruptCounter {
  private:
     struct sigaction interruptBefore_ {};
     struct sigaction terminateBefore_ {};
+    struct sigaction soonOverBefore_ {};
     struct sigaction hangUpBefore_ {};
 };
 

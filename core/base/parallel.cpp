@@ -51,4 +51,8 @@ void lowerPriority(int steps) {
     (void)::setpriority(PRIO_PROCESS, 0, std::min(present + steps, kLowestPriority));
 }
 
+bool hasLowestPriority() {
+    return ::getpriority(PRIO_PROCESS, 0) >= kLowestPriority;
+}
+
 }  // namespace trapwright::base

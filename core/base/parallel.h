@@ -23,5 +23,7 @@ inline constexpr int kLowestPriority = 19;
 /// hundredth; what nobody else wants it has as before. For good: the system lets no ordinary user take that
 /// back. Where it cannot be done, nothing happens.
 void lowerPriority(int steps = kLowestPriority);
+/// Whether the calling thread has the lowest one.
+bool hasLowestPriority();
 
 }  // namespace trapwright::base

@@ -1,5 +1,7 @@
 #include "sim/engines/registry.h"
 
+#include <utility>
+
 #include "sim/native/kernel.h"
 #include "sim/native/native_engine.h"
 #include "sim/simbody/certifying_engine.h"
@@ -21,10 +23,8 @@ trial::EngineKind describe(std::string title, EngineRole role, double freeMotion
             freeMotionTolerance, takesStreams, std::move(about)};
 }
 
-}  // namespace
-
-const trial::EngineRegistry& registry() {
-    static const trial::EngineRegistry engines({
+trial::EngineRegistry& ownRegistry() {
+    static trial::EngineRegistry engines({
         describe<simbody::SimbodyEngine>("Simbody", EngineRole::reference, 1e-6),
         describe<native::NativeEngine>("Native", EngineRole::quick, 1e-3),
         describe<simbody::CertifyingEngine>(
@@ -32,6 +32,20 @@ const trial::EngineRegistry& registry() {
             "the continuous contact law under an error-controlled integrator, some hundred times slower"),
     });
     return engines;
+}
+
+}  // namespace
+
+const trial::EngineRegistry& registry() {
+    return ownRegistry();
+}
+
+void replaceRegistry(trial::EngineRegistry engines) {
+    ownRegistry() = std::move(engines);
+}
+
+std::vector<std::string> listInstructionSets() {
+    return native::instructionSets();
 }
 
 base::Status useInstructionSet(const std::string& name) {
