@@ -20,11 +20,9 @@ using Clock = std::chrono::steady_clock;
 using Outcomes = std::vector<std::vector<trial::Outcome>>;
 
 /// How long the serving thread sleeps when nothing happens.
-constexpr auto kNap = std::chrono::microseconds(300);
+constexpr auto kNap = std::chrono::milliseconds(1);
 /// How often a run looks whether it is cancelled.
 constexpr auto kLook = std::chrono::milliseconds(20);
-/// How many tasks of a kind another rank has: one that it makes and one that waits, so that it is never idle.
-constexpr int kTasksEach = 2;
 /// Of that many parts all are forgotten: they were those of other studies or generations.
 constexpr std::size_t kMostParts = 256;
 /// The weight of a new speed beside what was measured before.
@@ -383,20 +381,21 @@ void Coordinator::tell(Run& run, RunState state) {
 
 bool Coordinator::grantAll() {
     bool any = false;
-    // Each rank in its turn, so that none waits for another's second task.
-    for (int round = 1; round <= kTasksEach; ++round) {
-        for (int rank = 0; rank < channel_->count(); ++rank) {
-            if (rank == 0 && round > 1) continue;  // what is done here is seen at once
-            for (const bool isAside : {false, true}) {
-                const auto has = std::ranges::count(ranks_[rank].tasks, isAside,
-                                                    &std::pair<const std::uint64_t, bool>::second);
-                if (has >= round) continue;
-                const auto run = std::ranges::find_if(runs_, [&](const Run* one) {
-                    return one->isAside == isAside && one->next < one->order.size() && one->problem.empty() &&
-                           one->told == RunState::running && !one->control.cancelled();
-                });
-                if (run != runs_.end()) any = grant(rank, **run) || any;
-            }
+    for (int rank = 0; rank < channel_->count(); ++rank) {
+        for (const bool isAside : {false, true}) {
+            // A second task that waits would spare a millisecond between tasks of a hundred, and be late at
+            // the end of a run.
+            const auto& tasks = ranks_[rank].tasks;
+            if (std::ranges::find(tasks, isAside, &std::pair<const std::uint64_t, bool>::second) !=
+                tasks.end())
+                continue;
+            const auto run = std::ranges::find_if(runs_, [&](const Run* one) {
+                return one->isAside == isAside && one->next < one->order.size() && one->problem.empty() &&
+                       one->told == RunState::running && !one->control.cancelled();
+            });
+            if (run == runs_.end()) continue;
+            grant(rank, **run);
+            any = true;
         }
     }
     return any;
@@ -418,7 +417,7 @@ std::pair<double, bool> Coordinator::speedOf(int rank, const Run& run) const {
     return {perThread * members_[rank].threads, threads > 0.0};
 }
 
-bool Coordinator::grant(int rank, Run& run) {
+void Coordinator::grant(int rank, Run& run) {
     double all = 0.0;
     for (int other = 0; other < channel_->count(); ++other)
         all += speedOf(other, run).first;
@@ -447,7 +446,6 @@ bool Coordinator::grant(int rank, Run& run) {
         sent.pieces = pack(rank, run, batches);
         send(rank, sent);
     }
-    return true;
 }
 
 std::vector<Piece> Coordinator::pack(int rank, Run& run, const std::vector<trial::TrialBatch>& batches) {

@@ -77,7 +77,7 @@ class Coordinator {
     bool takeOwnWork();
     void steerRuns();
     bool grantAll();
-    bool grant(int rank, Run& run);
+    void grant(int rank, Run& run);
     std::vector<Piece> pack(int rank, Run& run, const std::vector<trial::TrialBatch>& batches);
     std::uint64_t idOfPart(Run& run, const std::shared_ptr<const part::Part>& part);
     void lookAfterRanks();

@@ -8,9 +8,10 @@
 namespace trapwright::cluster {
 
 /// Into how many shares each rank's part of what is left is cut.
-inline constexpr double kShares = 3.0;
-/// How long a share lasts at least, so that messages and the beginning and end of a share do not matter. [s]
-inline constexpr double kLeastTime = 0.03;
+inline constexpr double kShares = 2.0;
+/// How long a share lasts at least, so that messages and its last trials, which wide instructions make with
+/// few lanes, do not matter. [s]
+inline constexpr double kLeastTime = 0.15;
 
 /// `left`: trials that nobody has yet; `speed`, `allSpeeds`: of this rank and of all together [trials/s], or
 /// threads where no speed is known. Between 1 and `left`, which is not 0.

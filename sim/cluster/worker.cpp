@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// How long a rank sleeps that has heard nothing new.
-constexpr auto kNap = std::chrono::microseconds(300);
+constexpr auto kNap = std::chrono::milliseconds(1);
 
 double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
