@@ -16,6 +16,8 @@ packages=(
     libtbb-dev libzip-dev
     # simulation
     libhwy-dev libsimbody-dev
+    # one job on many machines
+    libopenmpi-dev openmpi-bin
     # studies and the command line
     libcli11-dev libfmt-dev libsqlite3-dev libsqlitecpp-dev libzstd-dev nlohmann-json3-dev
     # the studio: window, charts, icons, 3D scene, films

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the Debian packages trapwright and trapwright-studio.
+# Builds the Debian packages trapwright, trapwright-mpi and trapwright-studio.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -114,6 +114,11 @@ trapwright part cuboid | tee part.txt
 grep -q '4 x 8 x 12 mm' part.txt && grep -q 'Symmetry      D2' part.txt
 trapwright track "$(dirname "$(dpkg -L trapwright | grep cuboid_track.json)")/cuboid_track.json" --trials 20 --engine native
 trapwright new /root/tried.trap --preset cuboid
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+mpirun --oversubscribe -n 2 trapwright evolve /root/job.trap --preset cuboid --population 4 --trials 4 --generations 1 \
+    --engine native 2>&1 | tee job.txt
+grep -q '2 ranks on one machine' job.txt
+rm /root/job.trap
 echo "> $(trapwright --version), $(sed -n 's/^Size *//p' part.txt)"
 INSIDE
 }
@@ -193,7 +198,7 @@ INSIDE
 
 purge() {
     inside << 'INSIDE'
-apt-get --quiet --yes purge trapwright trapwright-studio
+apt-get --quiet --yes purge trapwright trapwright-mpi trapwright-studio
 apt-get --quiet --yes autoremove --purge
 ! dpkg --list 'trapwright*' 2> /dev/null | grep -q '^[^ ]*  trapwright'
 INSIDE

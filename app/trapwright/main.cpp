@@ -18,7 +18,11 @@ using namespace trapwright::app;
 ExitCode becomeRank(char** arguments) {
     const Console console(false);
     const auto program = base::findOwnProgram("trapwright-mpi");
-    if (!program) return console.fail({ExitCode::fault, program.error().message});
+    if (!program)
+        return console.fail({ExitCode::fault,
+                             "This was started as a job of several ranks, for which the package "
+                             "trapwright-mpi is needed. " +
+                                 program.error().message});
     ::execv(program->c_str(), arguments);
     return console.fail({ExitCode::fault, program->string() + " cannot be started: " + std::strerror(errno)});
 }

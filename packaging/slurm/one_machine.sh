@@ -134,8 +134,8 @@ CONF
 # its environment; a shell that only uses Slurm has no such number.
 listProcesses() {
     local pid line
-    for pid in $(pgrep '^(munged|slurmctld|slurmd)$'); do
-        line=$(tr '\0' ' ' < "/proc/$pid/cmdline" 2> /dev/null) || continue
+    for pid in $(pgrep -x munged; pgrep -x slurmctld; pgrep -x slurmd); do
+        line=$({ tr '\0' ' ' < "/proc/$pid/cmdline"; } 2> /dev/null) || continue
         [[ $line != *"$dir/"* ]] || echo "$pid"
     done
     for pid in $(grep -l -z -s -F -x "SLURM_CONF=$SLURM_CONF" /proc/[0-9]*/environ | grep -o '[0-9]*'); do
@@ -202,7 +202,8 @@ killController() {
     # The number may be of another process by now.
     listProcesses | grep -q -x "$pid" || fail "the controller of $dir does not run."
     kill -KILL "$pid"
-    waitFor 10 test ! -e "/proc/$pid"
+    # Where nobody asks how it ended something of it stays, but no command line.
+    waitFor 10 eval '! grep -q . "/proc/'"$pid"'/cmdline" 2> /dev/null'
 }
 
 stop() {
