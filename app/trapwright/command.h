@@ -42,6 +42,7 @@ void addSweepCommand(CLI::App& program, Invocation& invocation);
 void addVerifyCommand(CLI::App& program, Invocation& invocation);
 void addBenchCommand(CLI::App& program, Invocation& invocation);
 void addDemoCommand(CLI::App& program, Invocation& invocation);
+void addCompareCommand(CLI::App& program, Invocation& invocation);
 void addDumpCommand(CLI::App& program, Invocation& invocation);
 void addCompletionCommand(CLI::App& program, Invocation& invocation);
 

@@ -62,6 +62,18 @@ double calcReachProbability(std::int64_t nx, std::int64_t ny, std::int64_t stati
 
 }  // namespace
 
+Quartiles calcQuartiles(std::span<const double> values) {
+    assert(!values.empty());
+    const std::vector<double> ordered = sorted(values);
+    const auto at = [&](double share) {
+        const double place = share * static_cast<double>(ordered.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const std::size_t above = std::min(below + 1, ordered.size() - 1);
+        return ordered[below] + (place - static_cast<double>(below)) * (ordered[above] - ordered[below]);
+    };
+    return {at(0.25), at(0.5), at(0.75)};
+}
+
 double medianOf(std::span<const double> values) {
     assert(!values.empty());
     const auto order = sorted(values);

@@ -134,7 +134,7 @@ unsigned MpiSession::chooseThreads() const {
     int processors = 0;
     for (const std::uint64_t word : own)
         processors += std::popcount(word);
-    const auto sharers = static_cast<int>(std::ranges::count(all, own));
+    const auto sharers = std::max<int>(static_cast<int>(std::ranges::count(all, own)), 1);
     return static_cast<unsigned>(std::max(processors / sharers, 1));
 }
 

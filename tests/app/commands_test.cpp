@@ -25,7 +25,7 @@ class CommandsTest : public QObject {
         QTest::addColumn<QString>("command");
         for (const char* name :
              {"part", "new", "settings", "evolve", "select", "validate", "robustness", "stream", "physical",
-              "mend", "export", "replay", "track", "sweep", "verify", "bench", "demo", "dump"}) {
+              "mend", "export", "replay", "track", "sweep", "verify", "bench", "compare", "demo", "dump"}) {
             QTest::newRow(name) << name;
         }
     }
@@ -523,6 +523,32 @@ class CommandsTest : public QObject {
         const QByteArray least = known.split(',').last().trimmed();
         const Ran ran = askWith(least.constData());
         QVERIFY2(ran.code == 0, ran.all());
+    }
+
+    // Two studies of one task and a study that was only made.
+    void compare() {
+        QCOMPARE(ask(quickStudy("two.trap", 3) + QStringList{"--seed", "2"}).code, 0);
+        QCOMPARE(ask({"new", "empty.trap", "--preset", "cuboid"}).code, 0);
+        const Ran ran =
+            ask({"compare", "study.trap", "two.trap", "empty.trap", "--json", "--curves", "c.csv"});
+        QVERIFY2(ran.code == 0, ran.all());
+        const QJsonArray studies = ran.json()["studies"].toArray();
+        QCOMPARE(studies.size(), 3);
+        QCOMPARE(studies[0]["generations"].toInt(), 2);
+        QCOMPARE(studies[1]["seed"].toInt(), 2);
+        QVERIFY(studies[1]["learning"]["of"].toInt() > 0);
+        QVERIFY(studies[2]["learning"].isNull());
+        const QJsonArray curves = ran.json()["curves"].toArray();
+        QCOMPARE(curves.size(), 3);
+        QCOMPARE(curves[0]["studies"].toInt(), 2);
+        QCOMPARE(curves[2]["studies"].toInt(), 1);
+        QFile file(folder_.filePath("c.csv"));
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        QCOMPARE(file.readAll().count('\n'), 4);
+        const Ran table = ask({"compare", "study.trap", "two.trap"});
+        QVERIFY2(table.output.contains("Learning counted: median"), table.all());
+        QCOMPARE(ask({"compare", "study.trap", "gone.trap"}).code, 3);
+        QCOMPARE(ask({"compare", "study.trap", "--curves", "/nowhere/c.csv"}).code, 4);
     }
 
     void sweep() {

@@ -35,6 +35,19 @@ class SamplesTest : public QObject {
         QCOMPARE(stats::medianOf(std::vector<double>(values.begin(), values.end())), median);
     }
 
+    void quartiles() {
+        const auto quartiles = [](const std::vector<double>& values) { return stats::calcQuartiles(values); };
+        QCOMPARE(quartiles({7}).lower, 7.0);
+        QCOMPARE(quartiles({7}).upper, 7.0);
+        QCOMPARE(quartiles({5, 1, 4, 2, 3}).lower, 2.0);
+        QCOMPARE(quartiles({5, 1, 4, 2, 3}).median, 3.0);
+        QCOMPARE(quartiles({5, 1, 4, 2, 3}).upper, 4.0);
+        // As R's and numpy's default: 1.75, 2.5, 3.25.
+        QCOMPARE(quartiles({1, 2, 3, 4}).lower, 1.75);
+        QCOMPARE(quartiles({1, 2, 3, 4}).median, 2.5);
+        QCOMPARE(quartiles({1, 2, 3, 4}).upper, 3.25);
+    }
+
     void kolmogorovSmirnov_data() {
         QTest::addColumn<int>("shift");
         QTest::addColumn<int>("count");

@@ -168,7 +168,8 @@ class ClusterTest : public QObject {
         QTest::addColumn<int>("ranks");
         for (const QString engine : {"native", "simbody"})
             for (const int ranks : {1, 2, 5})
-                QTest::newRow(qPrintable(QString("%1 on %2 ranks").arg(engine).arg(ranks))) << engine << ranks;
+                QTest::newRow(qPrintable(QString("%1 on %2 ranks").arg(engine).arg(ranks)))
+                    << engine << ranks;
     }
     void sameBits() {
         QFETCH(QString, engine);
@@ -210,6 +211,7 @@ class ClusterTest : public QObject {
         const trial::EngineRegistry slow = makeSlow();
         Job job(3, slow);
         std::vector<std::future<bool>> runs;
+        runs.reserve(4);
         for (int i = 0; i < 4; ++i) {
             runs.push_back(std::async(std::launch::async, [&job, i] {
                 if (i % 2 == 1) base::lowerPriority();
