@@ -10,8 +10,8 @@ Usage: packaging/slurm/one_machine.sh start DIR [--nodes N] [--cpus N]
        packaging/slurm/one_machine.sh controller DIR start|kill
        packaging/slurm/one_machine.sh stop DIR
 
-Starts Slurm with virtual nodes v1, v2 ... on this machine's loopback and prints the line that makes Slurm's commands use
-it. As root; installs what is missing of ${packages[*]}. What it writes is in DIR.
+Starts Slurm with virtual nodes v1, v2 ... on this machine's loopback and prints the line that makes Slurm's commands
+use it. As root; installs what is missing of ${packages[*]}. What it writes is in DIR.
 
   --nodes N    so many nodes (default: 3)
   --cpus N     each with so many processors, whatever the machine has (default: 2)
@@ -75,17 +75,18 @@ waitFor() {
 # A port that nobody listens on, from the given one up.
 freePort() {
     local port=$1
-    while ss --tcp --listening --numeric --no-header "sport = :$port" | grep -q .; do
+    while [[ -n $(ss --tcp --listening --numeric --no-header "sport = :$port") ]]; do
         port=$((port + 1))
     done
     echo "$port"
 }
 
-# Debian builds Slurm with --enable-multiple-slurmd: a slurmd for each node, all on this machine, told apart by their ports.
+# Debian builds Slurm with --enable-multiple-slurmd: a slurmd for each node, all on this machine, each with its port.
 writeConfiguration() {
     local nodes=$1 cpus=$2 port node host
     host=$(hostname --short)
-    port=$(freePort 16817)
+    # Another that starts at the same moment, in another folder, looks elsewhere.
+    port=$(freePort $((16817 + $(cksum <<< "$dir" | cut -d ' ' -f 1) % 500 * 20)))
     cat > "$SLURM_CONF" << CONF
 ClusterName=one_machine
 SlurmctldHost=$host(127.0.0.1)
@@ -125,19 +126,21 @@ CONF
     port=$((port + 1))
     for ((node = 1; node <= nodes; node++)); do
         port=$(freePort "$port")
-        echo "NodeName=v$node NodeHostname=v$node NodeAddr=127.0.0.1 Port=$port CPUs=$cpus RealMemory=1000" >> "$SLURM_CONF"
+        echo "NodeName=v$node NodeHostname=v$node NodeAddr=127.0.0.1 Port=$port CPUs=$cpus RealMemory=1000" \
+            >> "$SLURM_CONF"
         port=$((port + 1))
     done
 }
 
-# The daemons have this folder in their command line. What belongs to a job has the configuration and the job's number in
-# its environment; a shell that only uses Slurm has no such number.
+# The daemons have this folder in their command line. What belongs to a job has the configuration and the job's number
+# in its environment; a shell that only uses Slurm has no such number.
 listProcesses() {
     local pid line
     for pid in $(pgrep -x munged; pgrep -x slurmctld; pgrep -x slurmd); do
         line=$({ tr '\0' ' ' < "/proc/$pid/cmdline"; } 2> /dev/null) || continue
         [[ $line != *"$dir/"* ]] || echo "$pid"
     done
+    # shellcheck disable=SC2013
     for pid in $(grep -l -z -s -F -x "SLURM_CONF=$SLURM_CONF" /proc/[0-9]*/environ | grep -o '[0-9]*'); do
         ! grep -q -z -s '^SLURM_JOB_ID=' "/proc/$pid/environ" || echo "$pid"
     done
@@ -148,12 +151,13 @@ startController() {
     waitFor 20 scontrol ping
 }
 
-# Each node has a host name of its own, and shared memory of its own: Open MPI names what it shares by the host and the
-# number of the rank on it, so that two nodes would write into each other's.
+# Each node has a host name and shared memory of its own: Open MPI names what it shares by the host and the number of
+# the rank on it, so that two nodes of one name would write into each other's, and crash.
 startNode() {
     # shellcheck disable=SC2016
-    unshare --uts --mount sh -e -c 'hostname "$1"; mount -t tmpfs tmpfs /dev/shm; exec slurmd -f "$SLURM_CONF" -N "$1"' \
-        sh "$1" < /dev/null > "$dir/slurmd-$1.out" 2>&1 || fail "node $1 did not start: see $dir/slurmd-$1.out and .log."
+    local commands='hostname "$1"; mount -t tmpfs tmpfs /dev/shm; exec slurmd -f "$SLURM_CONF" -N "$1"'
+    unshare --uts --mount sh -e -c "$commands" sh "$1" < /dev/null > "$dir/slurmd-$1.out" 2>&1 ||
+        fail "node $1 did not start: see $dir/slurmd-$1.out and .log."
 }
 
 start() {
@@ -178,17 +182,17 @@ start() {
     done
     writeConfiguration "$nodes" "$cpus"
     # The logs stay.
-    trap 'stop > /dev/null' ERR
+    trap 'stop > /dev/null' EXIT
     (umask 077 && head -c 1024 /dev/urandom > "$dir/munge.key")
     munged --force --key-file="$dir/munge.key" --socket="$dir/munge.socket" --pid-file="$dir/munged.pid" \
         --log-file="$dir/munged.log" --seed-file="$dir/munge.seed" --num-threads=2 > "$dir/munged.out" 2>&1
-    waitFor 10 munge --socket="$dir/munge.socket" --no-input
-    startController -c
+    waitFor 10 munge --socket="$dir/munge.socket" --no-input || fail "munged does not answer: see $dir/munged.log."
+    startController -c || fail "the controller did not start: see $dir/slurmctld.log."
     for ((node = 1; node <= nodes; node++)); do
         startNode "v$node"
     done
-    waitFor 30 nodesAreIdle "$nodes"
-    trap - ERR
+    waitFor 30 nodesAreIdle "$nodes" || fail "not all nodes came up: see $dir/slurmd-*.log."
+    trap - EXIT
     echo "export SLURM_CONF=$SLURM_CONF"
 }
 
@@ -196,23 +200,27 @@ nodesAreIdle() {
     (($(sinfo --noheader --Node --states=idle --format=%N | sort -u | wc -l) == $1))
 }
 
+hasGone() { ! grep -q . "/proc/$1/cmdline" 2> /dev/null; }
+allHaveGone() { [[ -z $(listProcesses) ]]; }
+noJobs() { [[ -z $(timeout 5 squeue --noheader) ]]; }
+
 killController() {
     local pid
     pid=$(cat "$dir/slurmctld.pid" 2> /dev/null) || fail "no controller was started in $dir."
     # The number may be of another process by now.
-    listProcesses | grep -q -x "$pid" || fail "the controller of $dir does not run."
+    [[ $'\n'$(listProcesses)$'\n' == *$'\n'$pid$'\n'* ]] || fail "the controller of $dir does not run."
     kill -KILL "$pid"
     # Where nobody asks how it ended something of it stays, but no command line.
-    waitFor 10 eval '! grep -q . "/proc/'"$pid"'/cmdline" 2> /dev/null'
+    waitFor 10 hasGone "$pid"
 }
 
 stop() {
-    trap - ERR
+    trap - EXIT
     if timeout 5 scontrol ping > /dev/null 2>&1; then
         timeout 10 scancel --state=PENDING --user=root || true
         timeout 10 scancel --signal=KILL --full --state=RUNNING --user=root || true
         timeout 10 scancel --user=root || true
-        waitFor 15 eval '[[ -z $(timeout 5 squeue --noheader) ]]' || true
+        waitFor 15 noJobs || true
     fi
     local signal pids
     for signal in TERM KILL; do
@@ -221,7 +229,7 @@ stop() {
             break
         fi
         kill "-$signal" "${pids[@]}" 2> /dev/null || true
-        waitFor 10 eval '[[ -z $(listProcesses) ]]' || true
+        waitFor 10 allHaveGone || true
     done
     mapfile -t pids < <(listProcesses)
     ((${#pids[@]} == 0)) || fail "these processes do not end: ${pids[*]}"

@@ -23,7 +23,7 @@ namespace {
 using Outcomes = std::vector<std::vector<trial::Outcome>>;
 
 /// Short, so that tests are.
-constexpr cluster::Patience kPatience{0.05, 0.5, 20.0, 2.0};
+constexpr cluster::Patience kPatience{0.05, 2.0, 20.0, 2.0};
 
 Hello introduce(int rank) {
     return {"trapwright test", "machine" + std::to_string(rank), 1, "FMA", {"AVX2", "SSE4"}};
@@ -263,23 +263,23 @@ class ClusterTest : public QObject {
         Job job(3, slow);
         base::RunControl control;
         auto run = std::async(std::launch::async, [&] {
-            const trial::TrialBatch batch = makeCounted(90);
+            const trial::TrialBatch batch = makeCounted(600);
             const auto made = job.makeEngine("slow")->run({&batch, 1}, control);
             return made.ok() && isInOrder(*made);
         });
         QVERIFY(waitFor([&] { return control.done() > 0; }));
         control.pause();
-        std::this_thread::sleep_for(300ms);
+        std::this_thread::sleep_for(800ms);
         const std::int64_t done = control.done();
         std::this_thread::sleep_for(300ms);
         QCOMPARE(control.done(), done);
-        QVERIFY(done < 90);
+        QVERIFY(done < 600);
         control.resume();
         QVERIFY(run.get());
-        QCOMPARE(control.done(), std::int64_t{90});
+        QCOMPARE(control.done(), std::int64_t{600});
     }
 
-    // Within 0.2 s, and the ranks are free for what comes next.
+    // At once, not when all is done, half a minute later; and the ranks are free for what comes next.
     void cancelsEverywhere() {
         const trial::EngineRegistry slow = makeSlow();
         Job job(3, slow);
@@ -291,7 +291,7 @@ class ClusterTest : public QObject {
         const trial::TrialBatch batch = makeCounted(10000);
         const auto begin = std::chrono::steady_clock::now();
         const auto cancelled = job.makeEngine("slow")->run({&batch, 1}, control);
-        QVERIFY(std::chrono::steady_clock::now() - begin < 1s);
+        QVERIFY(std::chrono::steady_clock::now() - begin < 10s);
         canceller.join();
         QVERIFY(!cancelled.ok());
         const trial::TrialBatch next = makeCounted(6);
