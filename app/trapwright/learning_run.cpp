@@ -170,8 +170,8 @@ WorkWatch watchLearning(const Situation& situation, Clock::time_point begin, stu
     WorkWatch watch;
     watch.progress = [&situation, begin] { return situation.describe(begin); };
     watch.interrupted = [control, &console](int count) mutable {
+        control.stopAfterGeneration();
         if (count == 1) {
-            control.stopAfterGeneration();
             console.note("Stopping after this generation. Ctrl-C once more drops it and stops at once.");
         } else {
             control.run.cancel();

@@ -103,17 +103,17 @@ void WorkDisplay::run() {
     int heard = 0;
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, kLook, [this] { return over_; })) {
-        for (const int count = interrupts_.count(); heard < count;) {
+        if (const int count = interrupts_.count(); heard < count) {
             clear();
-            watch_.interrupted(++heard);
+            heard = count;
+            watch_.interrupted(heard);
         }
         if (Clock::now() < next) continue;
         next = Clock::now() + interval;
         show(watch_.progress());
     }
     // A Ctrl-C of the last moment.
-    while (heard < interrupts_.count())
-        watch_.interrupted(++heard);
+    if (const int count = interrupts_.count(); heard < count) watch_.interrupted(count);
 }
 
 void WorkDisplay::show(const std::string& line) {

@@ -38,7 +38,7 @@ class InterruptCounter {
 /// What a WorkDisplay asks and tells. Called on its own thread.
 struct WorkWatch {
     std::function<std::string()> progress;       // how far the work is, one line
-    std::function<void(int count)> interrupted;  // Ctrl-C came for the first, second time
+    std::function<void(int count)> interrupted;  // Ctrl-C came so often; of two at once the second
 };
 
 /// Looks after a piece of long work while it lives: shows how far it is, on stderr, as a line that is drawn
