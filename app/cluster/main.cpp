@@ -86,6 +86,7 @@ ExitCode coordinate(const cluster::MpiSession& session, const cluster::Hello& se
     const ExitCode code = runProgram(count, arguments);
     if (const auto failure = (*coordinator)->failure()) {
         (void)console.fail({ExitCode::fault, *failure});
+        coordinator->reset();
         // Who hangs would be waited for.
         session.abort(static_cast<int>(ExitCode::fault));
     }

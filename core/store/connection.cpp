@@ -5,10 +5,16 @@
 #include <SQLiteCpp/Exception.h>
 #include <SQLiteCpp/Statement.h>
 #include <sqlite3.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
 #include <system_error>
 
 #include "core/store/schema.h"
@@ -110,6 +116,21 @@ base::Result<DatabasePtr> openReader(const std::filesystem::path& path, bool imm
     return database;
 }
 
+/// Whether other machines may see this file, too: a write-ahead log has its index in memory that they do not
+/// share (https://www.sqlite.org/wal.html). Unknown file systems count as local ones.
+bool isOnNetwork(const std::filesystem::path& path) {
+    // For file systems that are not known here, and for tests.
+    if (const char* said = std::getenv("TRAPWRIGHT_NETWORK_DISK")) return std::string_view(said) == "1";
+    // As statfs(2) and linux/magic.h have them: NFS, SMB, CIFS, SMB2, Lustre, GPFS, Ceph, BeeGFS, AFS, Coda,
+    // FUSE (sshfs, GlusterFS).
+    constexpr std::array<std::uint32_t, 11> kNetworks = {0x6969,     0x517b,     0xff534d42, 0xfe534d42,
+                                                         0x0bd00bd0, 0x47504653, 0x00c36400, 0x19830326,
+                                                         0x5346414f, 0x73757245, 0x65735546};
+    struct statfs status {};
+    return ::statfs(path.c_str(), &status) == 0 &&
+           std::ranges::find(kNetworks, static_cast<std::uint32_t>(status.f_type)) != kNetworks.end();
+}
+
 }  // namespace
 
 base::Error describeFailure(const std::exception& failure, const std::filesystem::path& path,
@@ -207,7 +228,8 @@ base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
         migrate(*database, schemaMigrations());
         if (const auto content = checkContent(*database, path); !content) return content.error();
         // Not every file system can do this; then readers wait while a generation is written.
-        database->execAndGet("PRAGMA journal_mode = WAL");
+        database->execAndGet(isOnNetwork(path) ? "PRAGMA journal_mode = DELETE"
+                                               : "PRAGMA journal_mode = WAL");
         database->exec("PRAGMA synchronous = FULL");
         // Whoever reads first makes the log; what keeps it from that is to be told here.
         database->execAndGet("SELECT count(*) FROM study");

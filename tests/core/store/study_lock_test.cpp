@@ -96,6 +96,33 @@ class StudyLockTest : public QObject {
         VERIFY_OK(StudyFile::open(path_, sample::kProgram));
     }
 
+    // There is no log beside it, which other machines could not read; but they can read the study while it is
+    // written, and nothing is lost with the writer.
+    void onANetworkDisk() {
+        qputenv("TRAPWRIGHT_NETWORK_DISK", "1");
+        const auto restore = qScopeGuard([] { qunsetenv("TRAPWRIGHT_NETWORK_DISK"); });
+        sample::write(path_, 1);
+        OtherWriter writer(path_, 1);
+        QVERIFY(writer.opened());
+        QVERIFY(!std::filesystem::exists(path_.string() + "-wal"));
+        QVERIFY(!std::filesystem::exists(path_.string() + "-shm"));
+        {
+            const auto reader = StudyFile::openReadOnly(path_);
+            VERIFY_OK(reader);
+            QCOMPARE(reader->generationCount().value(), 2);
+        }
+        QVERIFY(!StudyFile::open(path_, sample::kProgram).ok());
+        writer.kill();
+        auto next = StudyFile::open(path_, sample::kProgram);
+        VERIFY_OK(next);
+        QCOMPARE(next->generationCount().value(), 2);
+        // A reader that is there does not keep the next generation from being saved.
+        const auto reader = StudyFile::openReadOnly(path_);
+        VERIFY_OK(reader);
+        VERIFY_OK(next->saveGeneration(sample::generation(2)));
+        QCOMPARE(reader->generationCount().value(), 3);
+    }
+
     void otherPathsToTheSameStudyAreRefused() {
         sample::write(path_, 1);
         const std::filesystem::path link = path_.parent_path() / "link.trap";
