@@ -38,6 +38,7 @@ void addMendCommand(CLI::App& program, Invocation& invocation);
 void addExportCommand(CLI::App& program, Invocation& invocation);
 void addReplayCommand(CLI::App& program, Invocation& invocation);
 void addTrackCommand(CLI::App& program, Invocation& invocation);
+void addSubmitCommand(CLI::App& program, Invocation& invocation);
 void addSweepCommand(CLI::App& program, Invocation& invocation);
 void addVerifyCommand(CLI::App& program, Invocation& invocation);
 void addBenchCommand(CLI::App& program, Invocation& invocation);

@@ -162,12 +162,12 @@ void buildCommandLine(CLI::App& program, Invocation& invocation) {
     program.set_help_flag("-h,--help", "Print this help and end");
     program.require_subcommand(1);
     program.failure_message(CLI::FailureMessage::simple);
-    for (const auto add : {addPartCommand,      addMaterialsCommand, addNewCommand,      addSettingsCommand,
-                           addEvolveCommand,    addSelectCommand,    addValidateCommand, addRobustnessCommand,
-                           addStreamCommand,    addPhysicalCommand,  addMendCommand,     addExportCommand,
-                           addReplayCommand,    addTrackCommand,     addSweepCommand,    addVerifyCommand,
-                           addBenchCommand,     addCompareCommand,   addDemoCommand,     addDumpCommand,
-                           addCompletionCommand}) {
+    for (const auto add :
+         {addPartCommand,   addMaterialsCommand, addNewCommand,        addSettingsCommand, addEvolveCommand,
+          addSelectCommand, addValidateCommand,  addRobustnessCommand, addStreamCommand,   addPhysicalCommand,
+          addMendCommand,   addExportCommand,    addReplayCommand,     addTrackCommand,    addSubmitCommand,
+          addSweepCommand,  addVerifyCommand,    addBenchCommand,      addCompareCommand,  addDemoCommand,
+          addDumpCommand,   addCompletionCommand}) {
         add(program, invocation);
     }
     nameValueTypes(program);

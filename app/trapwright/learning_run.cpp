@@ -257,4 +257,65 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
     return ran;
 }
 
+Attempt<study::LearningEnd> followLearning(store::StudyFile& file, const study::Settings& settings,
+                                           const workflow::ClusterJob& job, const Console& console) {
+    const auto nameOf = [](workflow::JobState state) {
+        switch (state) {
+            case workflow::JobState::waiting:
+                return "waits in the queue";
+            case workflow::JobState::running:
+                return "runs";
+            case workflow::JobState::over:
+                return "is over";
+            case workflow::JobState::unknown:
+                break;
+        }
+        return "is not known: the batch system does not answer";
+    };
+    std::mutex mutex;
+    std::string state = "was queued";
+    int generations = 0;
+    const auto describe = [&] {
+        const std::lock_guard lock(mutex);
+        return fmt::format("Job {} {}, {} generations", job.id, state, generations);
+    };
+    study::LearningControl control;
+    WorkWatch watch;
+    watch.progress = describe;
+    watch.interrupted = [control, &console](int count) mutable {
+        control.stopAfterGeneration();
+        if (count == 1) {
+            console.note("The job stops after its generation. Ctrl-C once more stops it at once.");
+        } else {
+            control.run.cancel();
+        }
+    };
+    const auto count = file.generationCount();
+    if (!count) return Failure{ExitCode::badInput, count.error().message};
+    generations = *count;
+    auto followed = [&] {
+        WorkDisplay display(console, std::move(watch));
+        workflow::LearnEvents events;
+        events.saved = [&](const study::GenerationRecord& record) {
+            {
+                const std::lock_guard lock(mutex);
+                generations = record.index + 1;
+            }
+            display.print(describeGeneration(settings.evolution, record));
+        };
+        events.checked = [&](const study::CheckRecord& record) {
+            display.print(describeCheck(settings.evolution, record));
+        };
+        return workflow::followJob(
+            file, job, events,
+            [&](workflow::JobState now) {
+                const std::lock_guard lock(mutex);
+                state = nameOf(now);
+            },
+            control);
+    }();
+    if (!followed) return toFailure(followed.error(), file);
+    return *followed;
+}
+
 }  // namespace trapwright::app

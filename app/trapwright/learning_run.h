@@ -4,6 +4,7 @@
 
 #include "app/trapwright/console.h"
 #include "core/store/study_file.h"
+#include "core/workflow/cluster_job.h"
 #include "core/workflow/learning.h"
 
 namespace trapwright::app {
@@ -21,6 +22,11 @@ struct LearningRun {
 /// does that.
 Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInputs& inputs,
                                  const Console& console, std::optional<double> timeLimit);
+
+/// The same of a job that learns the study elsewhere (workflow::followJob): what it learns is saved in the
+/// file as it comes. Ctrl-C once stops the job after the generation, twice at once.
+Attempt<study::LearningEnd> followLearning(store::StudyFile& file, const study::Settings& settings,
+                                           const workflow::ClusterJob& job, const Console& console);
 
 /// The heading of the lines that runLearning prints.
 std::string learningHeading(const study::EvolutionSettings& settings);

@@ -47,6 +47,12 @@ struct PackedOutcomes {
 /// Their initial poses are left out. An error if they are damaged.
 base::Result<std::vector<trial::Outcome>> unpack(const PackedOutcomes& packed);
 
+/// What takeGenerations() added.
+struct TakenGenerations {
+    std::vector<study::GenerationRecord> generations;
+    std::vector<study::CheckRecord> checks;
+};
+
 /// One design task in one SQLite file (`.trap`): settings, part, every generation and individual, selections
 /// and validations, simulated and on the real feeder.
 ///
@@ -97,6 +103,11 @@ class StudyFile {
 
     /// Adds the next generation (index = generationCount) in one transaction.
     base::Status saveGeneration(const study::GenerationRecord& record);
+    /// Adds what `from` has and this study has not: generations with their trials, in one transaction, and
+    /// checks of winners. `from` is a copy of this study that was learned on elsewhere; it may grow
+    /// meanwhile. An error if it is not: another part, settings that its scores do not belong to, or other
+    /// generations.
+    base::Result<TakenGenerations> takeGenerations(const StudyFile& from);
     [[nodiscard]] base::Result<int> generationCount() const;
     /// Where learning goes on; none if there is no generation.
     [[nodiscard]] base::Result<std::optional<study::LearningState>> loadLearningState() const;
@@ -183,6 +194,8 @@ class StudyFile {
 
  private:
     struct State;
+    /// Within the caller's transaction. Throws SQLite::Exception.
+    void writeGeneration(const study::GenerationRecord& record);
     explicit StudyFile(std::unique_ptr<State> state);
     /// For writing, with the lock beside it.
     static base::Result<StudyFile> openLocked(const std::filesystem::path& path, const std::string& program,

@@ -4,6 +4,9 @@
 #include <SQLiteCpp/Transaction.h>
 #include <SQLiteCpp/VariadicBind.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/store/packing.h"
 #include "core/store/scores.h"
 #include "core/store/study_state.h"
@@ -197,54 +200,141 @@ base::Result<std::vector<study::Individual>> readWinners(SQLite::Database& datab
 
 }  // namespace
 
+void StudyFile::writeGeneration(const study::GenerationRecord& record) {
+    SQLite::Database& database = *state_->database;
+    SQLite::Statement generation(database,
+                                 "INSERT INTO generation (number, program, winner, seconds, top_fitness, "
+                                 "top_success, mended_generation, mended_individual) "
+                                 "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    const study::GenerationStatistics& s = record.statistics;
+    SQLite::bind(generation, record.index, state_->program, record.winner, record.seconds, s.topMean.total);
+    bindOptional(generation, 6, s.topSuccess);
+    const auto& from = record.mendedFrom;
+    bindOptional(generation, 7, from ? std::optional(from->generation) : std::nullopt);
+    bindOptional(generation, 8, from ? std::optional(from->individual) : std::nullopt);
+    generation.exec();
+    ScoreWriter(database, kTopScores).write({record.index}, s.topMean.scores);
+    SQLite::Statement curve(database, "INSERT INTO curve VALUES (?, ?, ?, ?)");
+    for (std::size_t i = 0; i < s.curves.size(); ++i) {
+        curve.reset();
+        SQLite::bind(curve, record.index, static_cast<int>(i), s.curves[i].key, s.curves[i].value);
+        curve.exec();
+    }
+    if (record.index == 0 && !record.individuals.empty())
+        writeTraitKeys(database, record.individuals.front().traits);
+    SQLite::Statement individual(database, std::string("INSERT INTO individual (generation, number, ") +
+                                               kIndividualColumns +
+                                               ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    ScoreWriter scores(database, kIndividualScores);
+    for (std::size_t i = 0; i < record.individuals.size(); ++i) {
+        const int number = static_cast<int>(i);
+        insertIndividual(individual, record.index, number, record.individuals[i]);
+        scores.write({record.index, number}, record.individuals[i].fitness.scores);
+    }
+    SQLite::Statement state(database, "INSERT OR REPLACE INTO search_state VALUES (1, ?, ?)");
+    state.bind(1, record.index);
+    bindBlob(state, 2, record.searchState);
+    state.exec();
+    saveOutcomes(database, state_->program, OutcomeRun::generation, record.index, record.made);
+}
+
 base::Status StudyFile::saveGeneration(const study::GenerationRecord& record) {
     const std::string doing = "Generation " + std::to_string(record.index) + " could not be saved";
     return state_->save(doing, [&]() -> base::Status {
-        SQLite::Database& database = *state_->database;
-        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        SQLite::Transaction transaction(*state_->database, SQLite::TransactionBehavior::IMMEDIATE);
         const int count = state_->countRows("generation");
         if (record.index != count) {
             return base::Error{doing + ": the study " + path().string() + " has " + std::to_string(count) +
                                " generations, and the next one must have that number."};
         }
-        SQLite::Statement generation(database,
-                                     "INSERT INTO generation (number, program, winner, seconds, top_fitness, "
-                                     "top_success, mended_generation, mended_individual) "
-                                     "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-        const study::GenerationStatistics& s = record.statistics;
-        SQLite::bind(generation, record.index, state_->program, record.winner, record.seconds,
-                     s.topMean.total);
-        bindOptional(generation, 6, s.topSuccess);
-        const auto& from = record.mendedFrom;
-        bindOptional(generation, 7, from ? std::optional(from->generation) : std::nullopt);
-        bindOptional(generation, 8, from ? std::optional(from->individual) : std::nullopt);
-        generation.exec();
-        ScoreWriter(database, kTopScores).write({record.index}, s.topMean.scores);
-        SQLite::Statement curve(database, "INSERT INTO curve VALUES (?, ?, ?, ?)");
-        for (std::size_t i = 0; i < s.curves.size(); ++i) {
-            curve.reset();
-            SQLite::bind(curve, record.index, static_cast<int>(i), s.curves[i].key, s.curves[i].value);
-            curve.exec();
-        }
-        if (record.index == 0 && !record.individuals.empty())
-            writeTraitKeys(database, record.individuals.front().traits);
-        SQLite::Statement individual(database, std::string("INSERT INTO individual (generation, number, ") +
-                                                   kIndividualColumns +
-                                                   ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-        ScoreWriter scores(database, kIndividualScores);
-        for (std::size_t i = 0; i < record.individuals.size(); ++i) {
-            const int number = static_cast<int>(i);
-            insertIndividual(individual, record.index, number, record.individuals[i]);
-            scores.write({record.index, number}, record.individuals[i].fitness.scores);
-        }
-        SQLite::Statement state(database, "INSERT OR REPLACE INTO search_state VALUES (1, ?, ?)");
-        state.bind(1, record.index);
-        bindBlob(state, 2, record.searchState);
-        state.exec();
-        saveOutcomes(database, state_->program, OutcomeRun::generation, record.index, record.made);
+        writeGeneration(record);
         transaction.commit();
         return base::success();
     });
+}
+
+base::Result<TakenGenerations> StudyFile::takeGenerations(const StudyFile& from) {
+    const auto refuse = [&](const std::string& why) {
+        return base::Error{"What was learned in " + from.path().string() + " cannot be taken into " +
+                           path().string() + ": " + why + "."};
+    };
+    const auto settings = loadSettings();
+    const auto others = from.loadSettings();
+    const auto part = loadPart();
+    const auto otherPart = from.loadPart();
+    for (const base::Error* error :
+         {settings ? nullptr : &settings.error(), others ? nullptr : &others.error(),
+          part ? nullptr : &part.error(), otherPart ? nullptr : &otherPart.error()})
+        if (error != nullptr) return *error;
+    const auto count = generationCount();
+    if (!count) return count.error();
+    const auto otherCount = from.generationCount();
+    if (!otherCount) return otherCount.error();
+    if (part->mesh.vertices != otherPart->mesh.vertices || part->mesh.triangles != otherPart->mesh.triangles)
+        return refuse("its part is another one");
+    if (!study::keepsScores(*settings, *others, std::max(*count, 1)))
+        return refuse("it was learned with other settings");
+    if (*count > 0 && *otherCount > 0) {
+        // Of designs drawn at random: equal ones are the same.
+        const int common = std::min(*count, *otherCount) - 1;
+        const auto own = loadGeneration(common);
+        if (!own) return own.error();
+        const auto other = from.loadGeneration(common);
+        if (!other) return other.error();
+        if (own->individuals != other->individuals)
+            return refuse("its generation " + std::to_string(common) + " is another one");
+    }
+
+    TakenGenerations taken;
+    const auto load = [&](int index) -> base::Status {
+        auto record = from.loadGeneration(index);
+        if (!record) return record.error();
+        for (std::size_t i = 0; i < record->individuals.size(); ++i) {
+            const auto packed = from.loadLearningOutcomes({index, static_cast<int>(i)});
+            if (!packed) return packed.error();
+            if (!*packed) continue;
+            auto outcomes = unpack(**packed);
+            if (!outcomes) return outcomes.error();
+            record->made.maker = (*packed)->maker;
+            std::ranges::move(*outcomes, std::back_inserter(record->made.outcomes));
+        }
+        taken.generations.push_back(std::move(*record));
+        return base::success();
+    };
+    // Learning goes on from the last one alone, so up to that whose state is there; another may come
+    // meanwhile.
+    for (int last = *otherCount; *count + static_cast<int>(taken.generations.size()) < last;) {
+        while (*count + static_cast<int>(taken.generations.size()) < last)
+            if (auto loaded = load(*count + static_cast<int>(taken.generations.size())); !loaded)
+                return loaded.error();
+        auto state = from.loadLearningState();
+        if (!state) return state.error();
+        if (!*state) return refuse("it has no state to go on from");
+        last = (*state)->index + 1;
+        taken.generations.back().searchState = std::move((*state)->search);
+    }
+    if (!taken.generations.empty()) {
+        const auto saved = state_->save("The generations could not be saved", [&]() -> base::Status {
+            SQLite::Transaction transaction(*state_->database, SQLite::TransactionBehavior::IMMEDIATE);
+            for (const study::GenerationRecord& record : taken.generations)
+                writeGeneration(record);
+            transaction.commit();
+            return base::success();
+        });
+        if (!saved) return saved.error();
+    }
+    const auto known = loadChecks();
+    if (!known) return known.error();
+    const auto checks = from.loadChecks();
+    if (!checks) return checks.error();
+    for (const study::CheckRecord& check : *checks) {
+        const bool isKnown = std::ranges::any_of(
+            *known, [&](const study::CheckRecord& one) { return one.generation == check.generation; });
+        if (isKnown || check.generation >= *count + static_cast<int>(taken.generations.size())) continue;
+        if (auto saved = saveCheck(check); !saved) return saved.error();
+        taken.checks.push_back(check);
+    }
+    return taken;
 }
 
 base::Result<int> StudyFile::generationCount() const {

@@ -24,8 +24,9 @@ class CommandsTest : public QObject {
     void help_data() {
         QTest::addColumn<QString>("command");
         for (const char* name :
-             {"part", "new", "settings", "evolve", "select", "validate", "robustness", "stream", "physical",
-              "mend", "export", "replay", "track", "sweep", "verify", "bench", "compare", "demo", "dump"}) {
+             {"part",   "new",      "settings", "evolve",  "select", "validate", "robustness",
+              "stream", "physical", "mend",     "export",  "replay", "track",    "submit",
+              "sweep",  "verify",   "bench",    "compare", "demo",   "dump"}) {
             QTest::newRow(name) << name;
         }
     }

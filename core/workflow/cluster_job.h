@@ -1,0 +1,74 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/store/study_file.h"
+#include "core/study/runner.h"
+#include "core/workflow/learning.h"
+
+/// Learning a study as a job of a batch system (Slurm): the job works on a copy in a folder of its own, and
+/// what it learns comes home while it does.
+namespace trapwright::workflow {
+
+/// What a job is to have.
+struct JobPlan {
+    int ranks = 8;
+    double hours = 24.0;                 // until it ends its time and queues itself again
+    std::vector<std::string> options;    // more of sbatch's, as "--partition=long"
+    std::string program = "trapwright";  // where the job runs
+};
+
+/// A job as it lies in its folder.
+struct ClusterJob {
+    std::filesystem::path folder;
+    std::filesystem::path study;  // the copy that it learns
+    std::string id;               // the batch system's; empty: not submitted
+};
+
+/// Whether jobs can be submitted from here: there is an sbatch.
+bool canSubmit();
+
+/// Makes the folder: a copy of the study, the batch script, and submit.sh, which queues the job from wherever
+/// the folder is copied to. Nothing is left behind on failure. An error if the folder exists, or the plan
+/// cannot be.
+base::Result<ClusterJob> writeJob(const store::StudyFile& study, const std::filesystem::path& folder,
+                                  const JobPlan& plan);
+/// A job that was written before. An error if the folder holds none.
+base::Result<ClusterJob> readJob(const std::filesystem::path& folder);
+
+/// Queues it, by its submit.sh, and keeps its id in the folder. The error has what sbatch said.
+base::Status submitJob(ClusterJob& job);
+
+enum class JobState {
+    waiting,  // in the queue, or between two
+    running,
+    over,    // ended, whether well or not
+    unknown  // the batch system does not answer
+};
+JobState askJob(const ClusterJob& job);
+
+enum class JobStop { afterGeneration, atOnce };
+/// What the batch system says if it cannot.
+base::Status stopJob(const ClusterJob& job, JobStop stop);
+
+/// How long it follows; from tests shorter.
+struct FollowIntervals {
+    std::chrono::milliseconds study{2000};  // between two looks at the job's study
+    std::chrono::milliseconds state{5000};  // and at the queue
+};
+
+/// Takes what the job learns into the study, until it is over: events.saved and events.checked tell each,
+/// `changed` each state. The control's stop and its cancel stop the job, after the generation or at once.
+/// Errors: the job's study is none of this one, cannot be read for a minute, or cannot be saved.
+Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& job, const LearnEvents& events,
+                                     const std::function<void(JobState)>& changed,
+                                     const study::LearningControl& control,
+                                     const FollowIntervals& intervals = {});
+
+}  // namespace trapwright::workflow

@@ -1,0 +1,186 @@
+// Jobs of a batch system, with the real batch script and commands that stand for Slurm's: one job, started at
+// once.
+
+#include <signal.h>
+
+#include <QDir>
+#include <QElapsedTimer>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "tests/app/program.h"
+
+using namespace trapwright::test;
+
+namespace {
+
+constexpr const char* kSbatch = R"sh(#!/bin/bash
+# As Slurm: a script with the options in front of it left out, in the background, in a session of its own.
+options=()
+while [[ $1 == --* ]]; do options+=("$1"); shift; done
+echo "${options[@]}" > "$SLURM_STANDIN/options"
+SLURM_JOB_ID=7 SLURM_NTASKS=2 setsid bash "$@" > slurm-7.out 2>&1 < /dev/null &
+echo $! > "$SLURM_STANDIN/process"
+echo "a word of the site"
+echo 7
+)sh";
+constexpr const char* kSqueue = R"sh(#!/bin/bash
+if kill -0 "$(cat "$SLURM_STANDIN/process")" 2> /dev/null; then
+    echo RUNNING
+else
+    echo "slurm_load_jobs error: Invalid job id specified" >&2
+    exit 1
+fi
+)sh";
+constexpr const char* kScancel = R"sh(#!/bin/bash
+signal=TERM
+for argument; do [[ $argument == --signal=* ]] && signal=${argument#--signal=}; done
+echo "$@" >> "$SLURM_STANDIN/cancelled"
+kill "-$signal" "$(cat "$SLURM_STANDIN/process")"
+)sh";
+
+const QStringList kQuick = {"--preset", "cuboid", "--population", "6", "--trials", "4", "--engine", "native"};
+
+}  // namespace
+
+class SubmitTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void init() {
+        folder_ = std::make_unique<QTemporaryDir>();
+        QVERIFY(folder_->isValid());
+        environment_ = QProcessEnvironment::systemEnvironment();
+        environment_.insert("SLURM_STANDIN", path());
+        // One process instead of ranks.
+        environment_.insert("TRAPWRIGHT_LAUNCH", "env");
+        environment_.insert("TRAPWRIGHT", TRAPWRIGHT_PROGRAM);
+    }
+
+    void learnsWhatEvolveLearns() {
+        standInForSlurm();
+        QCOMPARE(run(path(), QStringList{"evolve", "alone.trap", "--generations", "5"} + kQuick).code, 0);
+        QCOMPARE(run(path(), QStringList{"evolve", "home.trap", "--generations", "2"} + kQuick).code, 0);
+        const Ran ran = submit({"home.trap", "--generations", "5", "--ranks", "2", "--hours", "1.5",
+                                "--sbatch=--partition=long one"});
+        QVERIFY2(ran.code == 0, ran.all());
+        QVERIFY2(ran.output.contains("Job 7 of 2 ranks in "), ran.all());
+        // A line for each generation that came.
+        QVERIFY2(ran.output.contains("\n         4 ") && !ran.output.contains("\n         1 "), ran.all());
+        QCOMPARE(read("options"), QByteArray("--parsable --ntasks=2 --time=1:30:00 --job-name=home "
+                                             "--partition=long one\n"));
+        QCOMPARE(dump("home.trap"), dump("alone.trap"));
+        // It is over; the next one has a folder of its own.
+        const Ran more = submit({"home.trap", "--generations", "6", "--json"});
+        QVERIFY2(more.code == 0, more.all());
+        QVERIFY(more.json()["folder"].toString().endsWith("home-job-2"));
+        QCOMPARE(more.json()["generations"].toInt(), 6);
+    }
+
+    // The job ends with its generation; what it has is at home, and another goes on.
+    void ctrlCStopsTheJob() {
+        standInForSlurm();
+        QCOMPARE(run(path(), QStringList{"new", "home.trap", "--preset", "cuboid", "--population", "6",
+                                         "--trials", "4", "--engine", "native", "--generations", "100000"})
+                     .code,
+                 0);
+        const auto process = startSubmit({"home.trap"});
+        QElapsedTimer timer;
+        timer.start();
+        QByteArray said;
+        while (!said.contains("\n         1 ") && timer.elapsed() < kPatience) {
+            process->waitForReadyRead(50);
+            said += process->readAllStandardOutput();
+        }
+        QVERIFY2(process->state() == QProcess::Running, said);
+        ::kill(static_cast<pid_t>(process->processId()), SIGINT);
+        const Ran ended = finish(*process);
+        QCOMPARE(ended.code, 130);
+        QVERIFY2(read("cancelled").contains("--batch --signal=USR2 7"), read("cancelled"));
+        QCOMPARE(dump("home.trap"), dump("home-job/home.trap"));
+        QVERIFY2(read("home-job/slurm-7.out").contains("stopped from outside"), read("home-job/slurm-7.out"));
+    }
+
+    // Who went away while it learned finds it again.
+    void isFollowedAgain() {
+        standInForSlurm();
+        QCOMPARE(run(path(), QStringList{"new", "home.trap", "--generations", "8"} + kQuick).code, 0);
+        const Ran queued = submit({"home.trap", "--no-follow", "--json"});
+        QVERIFY2(queued.code == 0, queued.all());
+        QCOMPARE(queued.json()["job"].toString(), QString("7"));
+        const Ran followed = submit({"home.trap", "--json"});
+        QVERIFY2(followed.code == 0, followed.all());
+        QVERIFY(followed.json()["folder"].toString().endsWith("home-job"));
+        QCOMPARE(followed.json()["generations"].toInt(), 8);
+        QCOMPARE(dump("home.trap"), dump("home-job/home.trap"));
+    }
+
+    // The folder is learned elsewhere, and what comes back with it is taken.
+    void withoutABatchSystem() {
+        environment_.insert("PATH", path() + "/nothing");
+        QCOMPARE(run(path(), QStringList{"new", "home.trap", "--generations", "3"} + kQuick).code, 0);
+        const Ran written = submit({"home.trap"});
+        QVERIFY2(written.code == 0, written.all());
+        QVERIFY2(written.output.contains("There is no sbatch here"), written.all());
+        QCOMPARE(run(path() + "/home-job", {"evolve", "home.trap"}).code, 0);
+        const Ran taken = submit({"home.trap", "--folder", "home-job"});
+        QVERIFY2(taken.output.contains("3 new generations"), taken.all());
+        QCOMPARE(dump("home.trap"), dump("home-job/home.trap"));
+        // What is no job, and a study that is none of the job's.
+        QVERIFY(QDir(path()).mkdir("other"));
+        QCOMPARE(submit({"home.trap", "--folder", "other"}).code, 3);
+        QCOMPARE(run(path(), QStringList{"new", "seed.trap", "--seed", "9"} + kQuick).code, 0);
+        const Ran refused = submit({"seed.trap", "--folder", "home-job"});
+        QVERIFY2(refused.code == 3 && refused.errors.contains("other settings"), refused.all());
+    }
+
+    void saysWhatSbatchSays() {
+        standInForSlurm();
+        write("bin/sbatch",
+              "#!/bin/sh\necho 'sbatch: error: invalid partition specified: long' >&2\nexit 1\n");
+        QCOMPARE(run(path(), QStringList{"new", "home.trap"} + kQuick).code, 0);
+        const Ran ran = submit({"home.trap"});
+        QCOMPARE(ran.code, 6);
+        QVERIFY2(ran.errors.contains("invalid partition specified: long"), ran.all());
+    }
+
+ private:
+    [[nodiscard]] QString path() const { return folder_->path(); }
+    [[nodiscard]] QByteArray read(const QString& name) const {
+        QFile file(path() + "/" + name);
+        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    }
+    [[nodiscard]] QByteArray dump(const QString& study) const {
+        const Ran ran = run(path(), {"dump", study});
+        return ran.code == 0 ? ran.output : "failed: " + ran.all();
+    }
+    void write(const QString& name, const char* text) const {
+        QFile file(path() + "/" + name);
+        QVERIFY(file.open(QIODevice::WriteOnly | QIODevice::Truncate));
+        file.write(text);
+        file.close();
+        file.setPermissions(file.permissions() | QFileDevice::ExeOwner);
+    }
+    void standInForSlurm() {
+        QVERIFY(QDir(path()).mkdir("bin"));
+        write("bin/sbatch", kSbatch);
+        write("bin/squeue", kSqueue);
+        write("bin/scancel", kScancel);
+        environment_.insert("PATH", path() + "/bin:" + environment_.value("PATH"));
+    }
+    [[nodiscard]] std::unique_ptr<QProcess> startSubmit(const QStringList& arguments) const {
+        auto process = std::make_unique<QProcess>();
+        process->setWorkingDirectory(path());
+        process->setProcessEnvironment(environment_);
+        process->start(TRAPWRIGHT_PROGRAM, QStringList{"submit"} + arguments);
+        process->waitForStarted(kPatience);
+        return process;
+    }
+    [[nodiscard]] Ran submit(const QStringList& arguments) const { return finish(*startSubmit(arguments)); }
+
+    std::unique_ptr<QTemporaryDir> folder_;
+    QProcessEnvironment environment_;
+};
+
+QTEST_GUILESS_MAIN(SubmitTest)
+#include "submit_test.moc"
