@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -19,6 +18,9 @@
 #include <cstring>
 #include <new>
 #include <system_error>
+#include <utility>
+
+#include "core/base/spawn.h"
 
 namespace trapwright::base {
 
@@ -33,90 +35,15 @@ constexpr char kStage = 's';      // first byte of a message
 constexpr char kResult = 'r';
 constexpr std::size_t kHead = 9;  // that byte and the length of the rest, 64 bits
 
-class Descriptor {
- public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() { close(); }
-    [[nodiscard]] int get() const { return number_; }
-    void close() {
-        if (number_ >= 0) ::close(number_);
-        number_ = -1;
-    }
-
- private:
-    int number_;
-};
-
-/// The same file under a number that is none of those that the child gets, also where this program was
-/// started without input or output.
-Descriptor lift(int number) {
-    const Descriptor low(number);
-    return Descriptor(number < 0 ? -1 : ::fcntl(number, F_DUPFD_CLOEXEC, kMessages + 1));
-}
-
-Error cannotStart(const std::filesystem::path& program, int reason) {
-    return {
-        fmt::format("{} cannot be started: {}.", program.string(), std::generic_category().message(reason))};
-}
-
-/// Kills and reaps a child that is still there when its parent is done with it.
-class Child {
- public:
-    explicit Child(pid_t process) : process_(process) {}
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
-    ~Child() {
-        if (process_ <= 0) return;
-        ::kill(process_, SIGKILL);
-        (void)wait();
-    }
-    int wait() {
-        int status = 0;
-        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-        }
-        process_ = 0;
-        return status;
-    }
-
- private:
-    pid_t process_;
-};
-
-Result<pid_t> spawn(const std::filesystem::path& program, std::vector<std::string> arguments, int input,
-                    int messages) {
-    arguments.insert(arguments.begin(), program.string());
-    std::vector<char*> list;
-    list.reserve(arguments.size() + 1);
-    for (std::string& argument : arguments)
-        list.push_back(argument.data());
-    list.push_back(nullptr);
-
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawnattr_init(&attributes);
-    ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&actions, messages, kMessages);
-    ::posix_spawn_file_actions_addclosefrom_np(&actions, kMessages + 1);
-    // A group of its own, so that Ctrl-C is the parent's to answer; signals as in a new program.
-    sigset_t none;
-    sigset_t all;
-    ::sigemptyset(&none);
-    ::sigfillset(&all);
-    ::posix_spawnattr_setsigmask(&attributes, &none);
-    ::posix_spawnattr_setsigdefault(&attributes, &all);
-    ::posix_spawnattr_setflags(&attributes,
-                               POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    pid_t process = 0;
-    const int failure = ::posix_spawn(&process, program.c_str(), &actions, &attributes, list.data(), environ);
-    ::posix_spawnattr_destroy(&attributes);
-    ::posix_spawn_file_actions_destroy(&actions);
-    if (failure != 0) return cannotStart(program, failure);
-    return process;
+Result<pid_t> spawnChild(const std::string& program, std::vector<std::string> arguments, int input,
+                         int messages) {
+    return spawn(program, std::move(arguments), [&](posix_spawn_file_actions_t& actions) {
+        ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+        ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+        ::posix_spawn_file_actions_adddup2(&actions, messages, kMessages);
+        ::posix_spawn_file_actions_addclosefrom_np(&actions, kMessages + 1);
+    });
 }
 
 bool writeAll(int descriptor, std::string_view bytes) {
@@ -227,18 +154,19 @@ Result<ChildOutcome> runChild(const std::filesystem::path& program, std::string_
                               const ChildLimits& limits, const RunControl& control,
                               const std::function<void(std::string_view)>& tellStage) {
     std::array<int, 2> answers{};
-    if (::pipe2(answers.data(), O_CLOEXEC) != 0) return cannotStart(program, errno);
-    const Descriptor hear = lift(answers[0]);
-    Descriptor tell = lift(answers[1]);
+    if (::pipe2(answers.data(), O_CLOEXEC) != 0) return cannotStart(program.string(), errno);
+    const Descriptor hear = lift(answers[0], kMessages + 1);
+    Descriptor tell = lift(answers[1], kMessages + 1);
     // A file in memory takes any request at once, a pipe only so much.
-    const Descriptor input = lift(::memfd_create("request", MFD_CLOEXEC));
+    const Descriptor input = lift(::memfd_create("request", MFD_CLOEXEC), kMessages + 1);
     if (hear.get() < 0 || tell.get() < 0 || input.get() < 0 || !writeAll(input.get(), request) ||
         ::lseek(input.get(), 0, SEEK_SET) != 0)
-        return cannotStart(program, errno);
+        return cannotStart(program.string(), errno);
 
-    const Result<pid_t> process = spawn(
-        program, {fmt::to_string(::getpid()), fmt::to_string(limits.memory), fmt::to_string(limits.stack)},
-        input.get(), tell.get());
+    const Result<pid_t> process =
+        spawnChild(program.string(),
+                   {fmt::to_string(::getpid()), fmt::to_string(limits.memory), fmt::to_string(limits.stack)},
+                   input.get(), tell.get());
     if (!process) return process.error();
     Child child(*process);
     tell.close();

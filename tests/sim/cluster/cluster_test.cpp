@@ -108,18 +108,24 @@ class Job {
     testing::MemoryNetwork network;
     std::unique_ptr<Coordinator> coordinator;
     std::string problem;
-    std::vector<std::string> taken;  // instruction sets
+
+    /// The instruction sets that its ranks were told to use.
+    std::vector<std::string> takenSets() {
+        const std::lock_guard lock(mutex_);
+        return taken_;
+    }
 
  private:
     cluster::UseInstructionSet use() {
         return [this](const std::string& set) {
             const std::lock_guard lock(mutex_);
-            taken.push_back(set);
+            taken_.push_back(set);
             return base::success();
         };
     }
 
     std::mutex mutex_;
+    std::vector<std::string> taken_;
     const trial::EngineRegistry& engines_;
     std::vector<std::future<base::Status>> workers_;
 };
@@ -347,8 +353,8 @@ class ClusterTest : public QObject {
             Job job(3, engines::registry(), members);
             QVERIFY2(job.coordinator, job.problem.c_str());
             QCOMPARE(job.coordinator->instructionSet(), std::string("SSE4"));
-            QVERIFY(waitFor([&] { return job.taken.size() == 3; }));
-            QVERIFY(job.taken == std::vector<std::string>(3, "SSE4"));
+            QVERIFY(waitFor([&] { return job.takenSets().size() == 3; }));
+            QVERIFY(job.takenSets() == std::vector<std::string>(3, "SSE4"));
         }
         members[2].instructionSets = {"SVE"};
         Job job(3, engines::registry(), members);
