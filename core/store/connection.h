@@ -29,8 +29,9 @@ base::Status checkStudyFile(const std::filesystem::path& path, const OpenFile& f
 base::Status checkOneLog(const std::filesystem::path& path, const OpenFile& file);
 
 /// Opens an existing study for writing, in write-ahead mode so that readers are not disturbed, and brings its
-/// schema up to date. On a network file system, where that would not be safe, with a rollback journal: readers,
-/// also on other machines, wait while a generation is written. The caller holds the study's FileLock, and its OpenFile locked.
+/// schema up to date. On a network file system, where that would not be safe, with a rollback journal:
+/// readers, also on other machines, wait while a generation is written. The caller holds the study's
+/// FileLock, and its OpenFile locked.
 base::Result<std::unique_ptr<SQLite::Database>> openForWriting(const std::filesystem::path& path);
 
 /// The same once more for a study that openForWriting has open, which needs no checks.
