@@ -183,9 +183,11 @@ void addCompareCommand(CLI::App& program, Invocation& invocation) {
         "scored, and median and quartiles of all.",
         "trapwright compare pin-1.trap pin-2.trap pin-3.trap --curves pin.csv",
         [options](const Console& console) { return run(*options, console); });
-    command.addOption("STUDY", options->studies, "The studies' files").required();
-    command.addOption("--curves", options->curves,
-                      "Also write median and quartiles of each generation's winners to this file, as CSV");
+    command.addOption("STUDY", options->studies, "The studies' files").type("FILE").required();
+    command
+        .addOption("--curves", options->curves,
+                   "Also write median and quartiles of each generation's winners to this file, as CSV")
+        .type("FILE");
 }
 
 }  // namespace trapwright::app

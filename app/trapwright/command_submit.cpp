@@ -130,7 +130,8 @@ void addSubmitCommand(CLI::App& program, Invocation& invocation) {
         "that,\n"
         "and takes home what it learns while it does. Again, it follows the job that goes on. Ctrl-C once "
         "stops\n"
-        "the job after the generation, twice at once. Without sbatch the folder is for another machine.",
+        "stops the job after the generation, twice at once. Without sbatch the folder is for another\n"
+        "machine.",
         "trapwright submit pin.trap --ranks 64 --generations 200\n"
         "  trapwright submit pin.trap --ranks 64 --sbatch=--partition=long",
         [options](const Console& console) { return run(*options, console); });
@@ -142,9 +143,12 @@ void addSubmitCommand(CLI::App& program, Invocation& invocation) {
     command.addOption("--hours", options->plan.hours, "Of one turn; then it queues itself again (24)")
         .range(kShortest, kLongest);
     command.addOption("--sbatch", options->plan.options, "Another option for sbatch; as often as you like")
+        .type("OPTION")
         .repeatable();
-    command.addOption("--program", options->plan.program, "Trapwright, where the job runs (trapwright)");
-    command.addOption("--folder", options->folder, "The job's folder (STUDY-job beside the study)");
+    command.addOption("--program", options->plan.program, "Trapwright, where the job runs (trapwright)")
+        .type("FILE");
+    command.addOption("--folder", options->folder, "The job's folder (STUDY-job beside the study)")
+        .type("DIR");
     command.addFlag("--no-follow", options->isLeft, "End when the job is queued");
     addSettingOptions(command, options->settings);
 }
