@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <deque>
+#include <cmath>
 #include <set>
 
 #include "core/base/parallel.h"
 #include "core/trial/batch_codec.h"
-#include "sim/cluster/schedule.h"
 #include "sim/cluster/workbench.h"
 
 namespace trapwright::cluster {
@@ -23,8 +22,6 @@ using Outcomes = std::vector<std::vector<trial::Outcome>>;
 constexpr auto kNap = std::chrono::milliseconds(1);
 /// How often a run looks whether it is cancelled.
 constexpr auto kLook = std::chrono::milliseconds(20);
-/// Of that many parts all are forgotten: they were those of other studies or generations.
-constexpr std::size_t kMostParts = 256;
 /// The weight of a new speed beside what was measured before.
 constexpr double kNewWeight = 0.5;
 
@@ -61,8 +58,7 @@ std::string findMismatch(const std::vector<Hello>& members) {
         if (one.mathInstructions != members[0].mathInstructions)
             return fmt::format(
                 "The mathematics of {}'s C library takes {}, that of rank 0 on {} {}: results would hang on "
-                "who makes them. Leave that machine out, or have all take the same: "
-                "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA.",
+                "who makes them. Leave that machine out.",
                 who, one.mathInstructions, members[0].host, members[0].mathInstructions);
     }
     return {};
@@ -99,6 +95,13 @@ trial::TrialBatch withoutTrials(const trial::TrialBatch& batch) {
 
 }  // namespace
 
+std::size_t chooseShare(std::size_t left, double speed, double allSpeeds, bool isSpeedKnown) {
+    const double even = static_cast<double>(left) * speed / allSpeeds / kShares;
+    const double least = isSpeedKnown ? kLeastTime * speed : 1.0;
+    const double share = std::ceil(std::max(even, least));
+    return static_cast<std::size_t>(std::clamp(share, 1.0, static_cast<double>(left)));
+}
+
 struct Coordinator::Run {
     struct GivenTask {
         int rank = 0;
@@ -131,11 +134,17 @@ struct Coordinator::Run {
 };
 
 struct Coordinator::Rank {
-    std::map<std::uint64_t, bool> tasks;   // that it has, and whether aside
-    std::map<std::string, double> speeds;  // measured, by the kind of run [trials/s]
-    std::set<std::uint64_t> parts;         // that it knows
+    std::map<std::uint64_t, bool> tasks;  // that it has, and whether aside
+    std::set<std::uint64_t> parts;        // that it knows
     std::set<std::uint64_t> tracks;
     Clock::time_point heard;
+};
+
+/// How fast the ranks make trials of one kind of run, as far as that is measured.
+struct Coordinator::Speeds {
+    std::vector<double> ofRank;  // 0: not known yet [trials/s]
+    double sum = 0.0;            // of those that are known
+    unsigned threads = 0;        // that those have
 };
 
 base::Result<std::unique_ptr<Coordinator>> Coordinator::start(std::unique_ptr<Channel> channel,
@@ -188,6 +197,8 @@ Coordinator::Coordinator(std::unique_ptr<Channel> channel, const trial::EngineRe
       bench_(std::make_unique<Workbench>(engines, members_.front().threads)) {
     for (Rank& rank : ranks_)
         rank.heard = Clock::now();
+    for (const Hello& member : members_)
+        threads_ += member.threads;
     for (int rank = 1; rank < channel_->count(); ++rank)
         send(rank, Welcome{instructionSet_});
     thread_ = std::thread([this] { serve(); });
@@ -333,11 +344,7 @@ void Coordinator::takeAnswer(std::uint64_t task, const std::string& problem,
         }
         run->left -= given.count;
         run->control.advance(static_cast<std::int64_t>(given.count) - given.counted);
-        if (seconds > 0.0) {
-            const double speed = static_cast<double>(given.count) / seconds;
-            auto [known, isNew] = ranks_[given.rank].speeds.try_emplace(run->kind(), speed);
-            if (!isNew) known->second += kNewWeight * (speed - known->second);
-        }
+        if (seconds > 0.0) noteSpeed(given.rank, *run, static_cast<double>(given.count) / seconds);
         if (run->left == 0) wake_.notify_all();
         return;
     }
@@ -401,27 +408,29 @@ bool Coordinator::grantAll() {
     return any;
 }
 
-std::pair<double, bool> Coordinator::speedOf(int rank, const Run& run) const {
-    const auto& speeds = ranks_[rank].speeds;
-    if (const auto known = speeds.find(run.kind()); known != speeds.end()) return {known->second, true};
-    // As fast by thread as those that are known.
-    double speed = 0.0;
-    double threads = 0.0;
-    for (std::size_t other = 0; other < ranks_.size(); ++other) {
-        const auto known = ranks_[other].speeds.find(run.kind());
-        if (known == ranks_[other].speeds.end()) continue;
-        speed += known->second;
-        threads += members_[other].threads;
-    }
-    const double perThread = threads > 0.0 ? speed / threads : 1.0;
-    return {perThread * members_[rank].threads, threads > 0.0};
+Coordinator::Speeds& Coordinator::speedsOf(const Run& run) {
+    Speeds& speeds = speeds_[run.kind()];
+    speeds.ofRank.resize(members_.size(), 0.0);
+    return speeds;
+}
+
+void Coordinator::noteSpeed(int rank, const Run& run, double speed) {
+    Speeds& speeds = speedsOf(run);
+    double& known = speeds.ofRank[rank];
+    if (known == 0.0) speeds.threads += members_[rank].threads;
+    const double now = known == 0.0 ? speed : known + kNewWeight * (speed - known);
+    speeds.sum += now - known;
+    known = now;
 }
 
 void Coordinator::grant(int rank, Run& run) {
-    double all = 0.0;
-    for (int other = 0; other < channel_->count(); ++other)
-        all += speedOf(other, run).first;
-    const auto [speed, isKnown] = speedOf(rank, run);
+    const Speeds& speeds = speedsOf(run);
+    const bool isKnown = speeds.threads > 0;
+    // Who is not known yet is as fast by thread as those that are.
+    const double perThread = isKnown ? speeds.sum / speeds.threads : 1.0;
+    const double own = speeds.ofRank[rank];
+    const double speed = own > 0.0 ? own : perThread * members_[rank].threads;
+    const double all = speeds.sum + perThread * (threads_ - speeds.threads);
     const std::size_t count = chooseShare(run.order.size() - run.next, speed, all, isKnown);
 
     std::vector<trial::TrialBatch> batches;
@@ -483,16 +492,7 @@ std::uint64_t Coordinator::idOfPart(Run& run, const std::shared_ptr<const part::
     return known->second;
 }
 
-void Coordinator::forgetParts() {
-    parts_.clear();
-    for (int rank = 1; rank < channel_->count(); ++rank) {
-        ranks_[rank].parts.clear();
-        send(rank, ForgetParts{});
-    }
-}
-
 void Coordinator::lookAfterRanks() {
-    if (parts_.size() > kMostParts && runs_.empty()) forgetParts();
     takeProgress(bench_->progress());
     for (int rank = 1; rank < channel_->count(); ++rank) {
         send(rank, Pulse{});

@@ -10,7 +10,6 @@
 #include <span>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -29,6 +28,20 @@ struct Traffic {
     std::int64_t tasks = 0;
     double busy = 0.0;  // that rank 0 spent on them: writing, sending, reading [s]
 };
+
+// How many trials a rank is given at a time: a share of what is left, by how fast it is, so that shares
+// shrink towards the end and all ranks end together (guided self-scheduling: Polychronopoulos and Kuck 1987;
+// by measured speeds: Hummel, Schmidt, Uma, Wein 1996).
+
+/// Into how many shares each rank's part of what is left is cut.
+inline constexpr double kShares = 2.0;
+/// How long a share lasts at least, so that messages and its last trials, which wide instructions make with
+/// few lanes, do not matter. [s]
+inline constexpr double kLeastTime = 0.15;
+
+/// `left`: trials that nobody has yet; `speed`, `allSpeeds`: of this rank and of all together [trials/s], or
+/// threads where no speed is known. Between 1 and `left`, which is not 0.
+std::size_t chooseShare(std::size_t left, double speed, double allSpeeds, bool isSpeedKnown);
 
 /// Rank 0's side of a job: hands trials to all ranks, itself among them, as they become idle, and puts the
 /// outcomes where they belong. Every outcome depends on its trial alone, so it does not matter who makes it.
@@ -63,6 +76,7 @@ class Coordinator {
  private:
     struct Run;
     struct Rank;
+    struct Speeds;
 
     Coordinator(std::unique_ptr<Channel> channel, const trial::EngineRegistry& engines,
                 std::vector<Hello> members, std::string instructionSet, const Patience& patience);
@@ -83,9 +97,9 @@ class Coordinator {
     void lookAfterRanks();
     void send(int rank, const Message& message);
     void tell(Run& run, RunState state);
-    void forgetParts();
     void fail(const std::string& why);
-    [[nodiscard]] std::pair<double, bool> speedOf(int rank, const Run& run) const;
+    Speeds& speedsOf(const Run& run);
+    void noteSpeed(int rank, const Run& run, double speed);
 
     std::unique_ptr<Channel> channel_;
     std::vector<Hello> members_;
@@ -97,15 +111,17 @@ class Coordinator {
     std::string failure_;
     Traffic traffic_;
     std::uint64_t lastId_ = 0;
+    unsigned threads_ = 0;  // of all ranks
     std::vector<Rank> ranks_;
+    std::map<std::string, Speeds> speeds_;        // by the kind of run
     std::vector<Run*> runs_;                      // in the order in which they began
     std::map<std::string, std::uint64_t> parts_;  // id by its bytes
     std::unique_ptr<class Workbench> bench_;
     std::thread thread_;
 };
 
-/// The same engines, each of which simulates on all ranks. Replays are made by rank 0. `coordinator` outlives
-/// them.
+/// The same engines, each of which simulates on all ranks. Replays are made by rank 0, and costs are not
+/// measured. `coordinator` outlives them.
 trial::EngineRegistry spread(const trial::EngineRegistry& engines, Coordinator& coordinator);
 
 }  // namespace trapwright::cluster

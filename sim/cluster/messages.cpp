@@ -72,12 +72,6 @@ void serialize(Archive& archive, T& steer) {
     archive(run, state);
 }
 
-template <class Archive, base::OrConst<ForgetParts> T>
-void serialize(Archive& archive, T& forget) {
-    auto& [unused] = forget;
-    archive(unused);
-}
-
 template <class Archive, base::OrConst<Over> T>
 void serialize(Archive& archive, T& over) {
     auto& [reason] = over;

@@ -88,18 +88,12 @@ struct Steer {
     RunState state = RunState::running;
 };
 
-/// All parts that were sent are of no use any more.
-struct ForgetParts {
-    std::uint8_t unused = 0;
-};
-
 /// The job is over; `reason` says why if that is not as it should be.
 struct Over {
     std::string reason;
 };
 
-using Message =
-    std::variant<Hello, Welcome, SentPart, SentTrack, Task, Answer, Pulse, Steer, ForgetParts, Over>;
+using Message = std::variant<Hello, Welcome, SentPart, SentTrack, Task, Answer, Pulse, Steer, Over>;
 
 std::string encode(const Message& message);
 /// An error if these are not the bytes of a message of this program.

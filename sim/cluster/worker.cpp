@@ -74,10 +74,6 @@ class Worker {
         if (steer.state == RunState::over) tracks_.erase(steer.run);
         return base::success();
     }
-    base::Status take(const ForgetParts& /*unused*/) {
-        parts_.clear();
-        return base::success();
-    }
     base::Status take(const Pulse& /*unused*/) { return base::success(); }
     base::Status take(const Over& /*unused*/) {
         isOver = true;  // rank 0 says why

@@ -8,7 +8,6 @@
 
 #include "core/base/parallel.h"
 #include "sim/cluster/coordinator.h"
-#include "sim/cluster/schedule.h"
 #include "sim/engines/registry.h"
 #include "tests/sim/cluster/memory_network.h"
 #include "tests/sim/engines/engine_scenes.h"
