@@ -139,8 +139,10 @@ base::Result<ClusterJob> readJob(const std::filesystem::path& folder) {
     const auto note = nlohmann::json::parse(*text, nullptr, false);
     if (!note.is_object() || !note.contains("study") || !note["study"].is_string() || !note.contains("job") ||
         !note["job"].is_string())
-        return base::Error{(folder / kNote).string() + " is damaged. Write the job anew.",
-                           base::ErrorKind::damaged};
+        return base::Error{
+            (folder / kNote).string() +
+                " is damaged. Choose another folder for a new job; the study in this one may be whole.",
+            base::ErrorKind::damaged};
     // A name, whatever the file says.
     const std::filesystem::path name = std::filesystem::path(note["study"].get<std::string>()).filename();
     return ClusterJob{folder, folder / name, note["job"].get<std::string>()};
@@ -210,6 +212,7 @@ Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& j
             asked = wanted;
             if (const auto told = stopJob(job, *wanted); !told)
                 return Failure{FailureKind::simulation, told.error().message};
+            nextAsk = Clock::now();
         }
         if (Clock::now() >= nextAsk) {
             const JobState now = askJob(job);
