@@ -83,7 +83,7 @@ class MpiJobTest : public QObject {
         QVERIFY2(job.code == 0, job.all());
         QVERIFY2(job.errors.contains("3 ranks on one machine"), job.errors);
         QCOMPARE(dump(path(), "job.trap"), dump(path(), "alone.trap"));
-        const QStringList select = {"--winners", "2", "--trials", "20", "--json"};
+        const QStringList select = {"--winners", "2", "--trials", "20", "--corner-trials", "8", "--json"};
         const Ran chosenAlone = run(path(), QStringList{"select", "alone.trap"} + select);
         const Ran chosen = runJob(path(), 3, QStringList{"select", "job.trap"} + select);
         QVERIFY2(chosen.code == 0, chosen.all());
