@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>

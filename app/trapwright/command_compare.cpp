@@ -9,7 +9,6 @@
 
 #include "app/trapwright/command.h"
 #include "app/trapwright/study_access.h"
-#include "core/base/csv.h"
 #include "core/base/file.h"
 #include "core/stats/binomial.h"
 #include "core/study/comparison.h"
@@ -55,14 +54,14 @@ Attempt<study::ComparedStudy> load(const std::string& path) {
 
 /// "98.4  97.4 ... 99.1"; a dash where nothing was counted.
 std::string describeRate(const std::optional<stats::Count>& rate) {
-    if (!rate || rate->trials == 0) return fmt::format("{:>5} {:>16}", "-", "");
+    if (!rate) return fmt::format("{:>5} {:>16}", "-", "");
     const stats::Interval bounds = stats::calcClopperPearson(rate->successes, rate->trials);
     return fmt::format("{:5.1f} {:>5.1f} ... {:5.1f}", kPercent * rate->share(), kPercent * bounds.low,
                        kPercent * bounds.high);
 }
 
 Json toJson(const std::optional<stats::Count>& rate) {
-    if (!rate || rate->trials == 0) return {};
+    if (!rate) return {};
     const stats::Interval bounds = stats::calcClopperPearson(rate->successes, rate->trials);
     return {{"count", rate->successes}, {"of", rate->trials}, {"low", bounds.low}, {"high", bounds.high}};
 }

@@ -16,7 +16,9 @@ std::optional<stats::Quartiles> quartilesOf(const std::vector<double>& values) {
 
 std::optional<stats::Count> bestRate(const ComparedStudy& study) {
     if (!study.best) return std::nullopt;
-    return study.fallsAreForgiven ? study.best->record.correct() : study.best->record.success();
+    const std::optional<stats::Count> rate =
+        study.fallsAreForgiven ? study.best->record.correct() : study.best->record.success();
+    return rate && rate->trials > 0 ? rate : std::nullopt;
 }
 
 std::optional<stats::Count> selectedRate(const ComparedStudy& study) {

@@ -25,6 +25,7 @@ struct ComparedStudy {
 };
 
 /// What counts of one while learning: success, or where falls are forgiven the share of those that finish.
+/// None: not counted, or of nothing.
 std::optional<stats::Count> bestRate(const ComparedStudy& study);
 /// The same of its fresh trials.
 std::optional<stats::Count> selectedRate(const ComparedStudy& study);

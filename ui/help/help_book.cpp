@@ -15,8 +15,9 @@ namespace trapwright::help {
 namespace {
 
 /// In the order of the work; pages that are not listed follow.
-constexpr std::array kContents = {"index",    "part",  "track",    "evolve",       "review",   "export",
-                                  "validate", "drive", "settings", "command-line", "glossary", "paper"};
+constexpr std::array kContents = {"index",   "part",     "track", "evolve",   "review",
+                                  "export",  "validate", "drive", "settings", "command-line",
+                                  "cluster", "glossary", "paper"};
 /// For whoever reads the sources as well, and so one folder higher.
 constexpr std::array kSharedPages = {"decisions", "bibliography"};
 

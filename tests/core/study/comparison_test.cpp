@@ -47,6 +47,8 @@ class ComparisonTest : public QObject {
         study::ComparedStudy study;
         QVERIFY(!study::bestRate(study) && !study::selectedRate(study));
         study.best.emplace();
+        study.best->record.oriented = 0;
+        QVERIFY(!study::bestRate(study));
         study.best->record.trials = 20;
         study.best->record.finished = 10;
         study.best->record.oriented = 8;
