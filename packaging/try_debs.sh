@@ -115,7 +115,7 @@ grep -q '4 x 8 x 12 mm' part.txt && grep -q 'Symmetry      D2' part.txt
 trapwright track "$(dirname "$(dpkg -L trapwright | grep cuboid_track.json)")/cuboid_track.json" --trials 20 --engine native
 trapwright new /root/tried.trap --preset cuboid
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-mpirun --oversubscribe -n 2 trapwright evolve /root/job.trap --preset cuboid --population 4 --trials 4 --generations 1 \
+mpirun --oversubscribe -n 2 trapwright evolve /root/job.trap --preset cuboid --population 8 --trials 4 --generations 1 \
     --engine native 2>&1 | tee job.txt
 grep -q '2 ranks on one machine' job.txt
 rm /root/job.trap
@@ -230,8 +230,8 @@ step "Made a bare root" makeRoot
 step "Installed what a small desktop has" installTools
 listFiles > "$before"
 step "Fetched what the packages depend on" download
-step "Installed both packages, without recommended ones" installPackages
-step "Used the command line: part, track, new" useCommandLine
+step "Installed the packages, without recommended ones" installPackages
+step "Used the command line: part, track, new, a job of two ranks" useCommandLine
 step "Read the manual pages" readManuals
 step "Completed in bash and zsh" complete
 step "Opened the studio" openStudio
