@@ -312,7 +312,7 @@ class ClusterTest : public QObject {
         QVERIFY(!made.ok());
         QCOMPARE(made.error().message, std::string("Trial 13 is unlucky."));
         QVERIFY(!job.coordinator->failure());
-        // With the reference below it, one trial is made again, and none is lost.
+        // What no engine can simulate is told before anything is sent.
         trial::TrialBatch bad = batch;
         bad.track = nullptr;
         QVERIFY(!job.makeEngine("slow")->run({&bad, 1}, {}).ok());
