@@ -12,7 +12,7 @@
 #include "core/base/file.h"
 #include "core/stats/binomial.h"
 #include "core/study/comparison.h"
-#include "core/study/selection.h"
+#include "core/workflow/compared_study.h"
 
 namespace trapwright::app {
 
@@ -30,26 +30,9 @@ struct Options {
 Attempt<study::ComparedStudy> load(const std::string& path) {
     const auto opened = openStudy(path, Access::read);
     if (!opened) return opened.error();
-    const store::StudyFile& file = opened->file;
-    const auto unreadable = [](const base::Error& error) {
-        return Failure{ExitCode::badInput, error.message};
-    };
-    study::ComparedStudy compared;
-    compared.name = path;
-    compared.part = opened->part->name;
-    compared.seed = opened->settings.evolution.seed;
-    compared.fallsAreForgiven = study::forgivesFalls(opened->settings.evolution);
-    auto generations = file.loadSummaries();
-    if (!generations) return unreadable(generations.error());
-    compared.generations = std::move(*generations);
-    const auto winners = file.loadWinners();
-    if (!winners) return unreadable(winners.error());
-    if (const auto* best = study::findBestWinner(*winners, compared.fallsAreForgiven)) compared.best = *best;
-    const auto selections = file.loadSelections();
-    if (!selections) return unreadable(selections.error());
-    if (!selections->empty() && !selections->back().entries.empty())
-        compared.selected = selections->back().entries.front();
-    return compared;
+    auto compared = workflow::loadCompared(opened->file, path);
+    if (!compared) return Failure{ExitCode::badInput, compared.error().message};
+    return std::move(*compared);
 }
 
 /// "98.4  97.4 ... 99.1"; a dash where nothing was counted.
@@ -81,16 +64,6 @@ double secondsOf(const study::ComparedStudy& study) {
     return seconds;
 }
 
-/// The rates of those studies that have one.
-template <class Rate>
-std::optional<stats::Quartiles> quartilesOf(const std::vector<study::ComparedStudy>& studies, Rate rate) {
-    std::vector<double> shares;
-    for (const study::ComparedStudy& study : studies)
-        if (const std::optional<stats::Count> count = rate(study)) shares.push_back(count->share());
-    if (shares.empty()) return std::nullopt;
-    return stats::calcQuartiles(shares);
-}
-
 std::string describeTable(const std::vector<study::ComparedStudy>& studies) {
     std::size_t width = 5;
     for (const study::ComparedStudy& study : studies)
@@ -114,8 +87,8 @@ std::string describeQuartiles(const std::vector<study::ComparedStudy>& studies) 
                                 kPercent * quartiles->median, kPercent * quartiles->lower,
                                 kPercent * quartiles->upper);
     };
-    add("Learning counted", quartilesOf(studies, study::bestRate));
-    add("Fresh trials", quartilesOf(studies, study::selectedRate));
+    add("Learning counted", study::spreadOf(studies, study::bestRate));
+    add("Fresh trials", study::spreadOf(studies, study::selectedRate));
     return text;
 }
 
@@ -166,8 +139,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
                           {"success", toJson(spread.success)},
                           {"top_success", toJson(spread.topSuccess)}});
     console.emit({{"studies", rows},
-                  {"learning", toJson(quartilesOf(studies, study::bestRate))},
-                  {"fresh_trials", toJson(quartilesOf(studies, study::selectedRate))},
+                  {"learning", toJson(study::spreadOf(studies, study::bestRate))},
+                  {"fresh_trials", toJson(study::spreadOf(studies, study::selectedRate))},
                   {"curves", curves}});
     return ExitCode::ok;
 }

@@ -39,20 +39,12 @@ Attempt<std::optional<ClusterJob>> findJob(const std::filesystem::path& folder) 
 
 /// Where the study's newest job is or, if that is over or there is none, where the next one goes.
 std::filesystem::path chooseFolder(const std::filesystem::path& study) {
-    std::filesystem::path last;
-    std::error_code failure;
-    for (int number = 1;; ++number) {
-        std::filesystem::path folder = study;
-        folder.replace_extension();
-        folder += number == 1 ? "-job" : fmt::format("-job-{}", number);
-        if (!std::filesystem::exists(folder, failure)) {
-            if (last.empty()) return folder;
-            const auto job = workflow::readJob(last);
-            const bool goesOn = !job || job->id.empty() || workflow::askJob(*job) != workflow::JobState::over;
-            return goesOn ? last : folder;
-        }
-        last = folder;
-    }
+    std::filesystem::path last = workflow::findLastFolder(study);
+    if (last.empty()) return workflow::findNextFolder(study);
+    const auto job = workflow::readJob(last);
+    const bool goesOn =
+        !job || job->id.empty() || (!job->isOver && workflow::askJob(*job) != workflow::JobState::over);
+    return goesOn ? last : workflow::findNextFolder(study);
 }
 
 /// What the job's study has and this one has not.
@@ -81,9 +73,15 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         console.print(fmt::format("{} new generations from {}.\n", *taken, folder.string()));
         document["taken"] = *taken;
     } else {
-        auto written = workflow::writeJob(study->file, folder, options.plan);
-        if (!written) return describeStudyFailure(written.error(), ExitCode::usage);
+        const bool isQueuedHere = workflow::canSubmit();
+        auto written = isQueuedHere ? workflow::writeAndSubmit(study->file, folder, options.plan)
+                                    : workflow::writeJob(study->file, folder, options.plan);
+        if (!written)
+            return describeStudyFailure(written.error(), isQueuedHere ? ExitCode::fault : ExitCode::usage);
         job = std::move(*written);
+        if (isQueuedHere)
+            console.print(
+                fmt::format("Job {} of {} ranks in {}.\n", job.id, options.plan.ranks, folder.string()));
     }
     const auto end = [&](ExitCode code) {
         document["job"] = job.id.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(job.id);
@@ -104,8 +102,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (job.id.empty()) {
         if (const auto queued = workflow::submitJob(job); !queued)
             return Failure{ExitCode::fault, queued.error().message};
-        console.print(
-            fmt::format("Job {} of {} ranks in {}.\n", job.id, options.plan.ranks, folder.string()));
+        console.print(fmt::format("Job {} in {}.\n", job.id, folder.string()));
     }
     if (options.isLeft) return end(ExitCode::ok);
     console.print(learningHeading(study->settings.evolution));
@@ -114,9 +111,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const bool isDone = *followed == study::LearningEnd::completed;
     if (!isDone)
         console.note(
-            fmt::format("The job is over before its last generation; what it said is in {}. Go on with: "
-                        "trapwright submit {}",
-                        folder.string(), options.study));
+            fmt::format("The job is over before its last generation. What it said last, in {}:\n{}\n"
+                        "Go on with: trapwright submit {}",
+                        folder.string(), workflow::readLastWords(job), options.study));
     return end(isDone ? ExitCode::ok : ExitCode::interrupted);
 }
 

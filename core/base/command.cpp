@@ -24,14 +24,15 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostOutput = 1U << 20U;
 
-/// Reads until the other side is closed. False if that takes too long.
-bool readAll(int descriptor, Clock::time_point end, std::string& output) {
+/// Reads until the other side is closed. False if that takes too long, or nobody waits any more.
+bool readAll(int descriptor, Clock::time_point end, const RunControl& control, std::string& output) {
+    constexpr long long kLook = 100;  // [ms]
     std::array<char, 4096> some{};
     while (true) {
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-        if (left <= 0) return false;
+        if (left <= 0 || control.cancelled()) return false;
         pollfd wait{descriptor, POLLIN, 0};
-        const int ready = ::poll(&wait, 1, static_cast<int>(std::min<long long>(left, 1000)));
+        const int ready = ::poll(&wait, 1, static_cast<int>(std::min<long long>(left, kLook)));
         if (ready < 0 && errno != EINTR) return false;
         if (ready <= 0) continue;
         const ssize_t count = ::read(descriptor, some.data(), some.size());
@@ -53,7 +54,7 @@ bool hasCommand(const std::string& name) {
 }
 
 Result<CommandOutcome> runCommand(std::vector<std::string> arguments, const std::string& folder,
-                                  std::chrono::milliseconds limit) {
+                                  std::chrono::milliseconds limit, const RunControl& control) {
     std::array<int, 2> ends{};
     const std::string program = arguments.front();
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return cannotStart(program, errno);
@@ -71,11 +72,12 @@ Result<CommandOutcome> runCommand(std::vector<std::string> arguments, const std:
     Child child(*process);
     tell.close();
     CommandOutcome outcome;
-    const bool ended = readAll(hear.get(), Clock::now() + limit, outcome.output);
+    const bool ended = readAll(hear.get(), Clock::now() + limit, control, outcome.output);
     if (!ended) child.killGroup();
     const int status = child.wait();
     constexpr int kSignals = 128;
     outcome.code = WIFSIGNALED(status) ? kSignals + WTERMSIG(status) : WEXITSTATUS(status);
+    if (!ended && control.cancelled()) return Error{program + " was not waited for and stopped."};
     if (!ended)
         return Error{fmt::format("{} did not end within {} s and was stopped.", program,
                                  std::chrono::duration_cast<std::chrono::seconds>(limit).count())};

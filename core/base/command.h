@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 
 /// Other people's programs, as a user calls them.
 namespace trapwright::base {
@@ -18,8 +19,8 @@ struct CommandOutcome {
 bool hasCommand(const std::string& name);
 
 /// Starts a program, which is looked for in PATH unless its name has a slash, in this folder (empty: where we
-/// are) and waits for its end. Error: it cannot be started, or took longer; then it was killed.
+/// are) and waits for its end. Error: it cannot be started, took longer or was cancelled; then it was killed.
 Result<CommandOutcome> runCommand(std::vector<std::string> arguments, const std::string& folder,
-                                  std::chrono::milliseconds limit);
+                                  std::chrono::milliseconds limit, const RunControl& control = {});
 
 }  // namespace trapwright::base

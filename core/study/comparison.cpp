@@ -28,6 +28,13 @@ std::optional<stats::Count> selectedRate(const ComparedStudy& study) {
     return stats::Count{study.selected->oriented, of};
 }
 
+std::optional<stats::Quartiles> spreadOf(std::span<const ComparedStudy> studies, RateOf rate) {
+    std::vector<double> shares;
+    for (const ComparedStudy& study : studies)
+        if (const std::optional<stats::Count> count = rate(study)) shares.push_back(count->share());
+    return quartilesOf(shares);
+}
+
 std::vector<GenerationSpread> spreadByGeneration(std::span<const ComparedStudy> studies) {
     std::size_t count = 0;
     for (const ComparedStudy& study : studies)

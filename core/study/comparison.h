@@ -30,6 +30,10 @@ std::optional<stats::Count> bestRate(const ComparedStudy& study);
 /// The same of its fresh trials.
 std::optional<stats::Count> selectedRate(const ComparedStudy& study);
 
+/// One of the two of all studies that have it; none: none has.
+using RateOf = std::optional<stats::Count> (*)(const ComparedStudy& study);
+std::optional<stats::Quartiles> spreadOf(std::span<const ComparedStudy> studies, RateOf rate);
+
 /// A generation of all studies that have it.
 struct GenerationSpread {
     int generation = 0;

@@ -57,7 +57,8 @@ std::string writeSubmit(const ClusterJob& job, const JobPlan& plan, int generati
 }
 
 base::Status writeNote(const ClusterJob& job) {
-    const nlohmann::ordered_json note = {{"study", job.study.filename().string()}, {"job", job.id}};
+    const nlohmann::ordered_json note = {
+        {"study", job.study.filename().string()}, {"job", job.id}, {"over", job.isOver}};
     return base::writeFile(job.folder / kNote, note.dump(2) + "\n");
 }
 
@@ -86,8 +87,25 @@ std::string trimmed(std::string text) {
     return text;
 }
 
-base::Result<base::CommandOutcome> ask(std::vector<std::string> arguments) {
-    return base::runCommand(std::move(arguments), "", kPatience);
+base::Result<base::CommandOutcome> ask(std::vector<std::string> arguments,
+                                       const base::RunControl& control = {}) {
+    return base::runCommand(std::move(arguments), "", kPatience, control);
+}
+
+std::filesystem::path folderName(const std::filesystem::path& study, int number) {
+    std::filesystem::path folder = study;
+    folder.replace_extension();
+    folder += number == 1 ? "-job" : fmt::format("-job-{}", number);
+    return folder;
+}
+
+/// Of the first folder that is not there.
+int findFreeNumber(const std::filesystem::path& study) {
+    std::error_code failure;
+    int number = 1;
+    while (std::filesystem::exists(folderName(study, number), failure))
+        ++number;
+    return number;
 }
 
 /// What is new in the job's study; none where nobody could look.
@@ -145,7 +163,28 @@ base::Result<ClusterJob> readJob(const std::filesystem::path& folder) {
             base::ErrorKind::damaged};
     // A name, whatever the file says.
     const std::filesystem::path name = std::filesystem::path(note["study"].get<std::string>()).filename();
-    return ClusterJob{folder, folder / name, note["job"].get<std::string>()};
+    return ClusterJob{folder, folder / name, note["job"].get<std::string>(), note.value("over", false)};
+}
+
+std::filesystem::path findLastFolder(const std::filesystem::path& study) {
+    const int free = findFreeNumber(study);
+    return free == 1 ? std::filesystem::path() : folderName(study, free - 1);
+}
+
+std::filesystem::path findNextFolder(const std::filesystem::path& study) {
+    return folderName(study, findFreeNumber(study));
+}
+
+base::Result<ClusterJob> writeAndSubmit(const store::StudyFile& study, const std::filesystem::path& folder,
+                                        const JobPlan& plan) {
+    auto job = writeJob(study, folder, plan);
+    if (!job) return job;
+    if (const auto queued = submitJob(*job); !queued) {
+        std::error_code failure;
+        std::filesystem::remove_all(folder, failure);
+        return queued.error();
+    }
+    return job;
 }
 
 base::Status submitJob(ClusterJob& job) {
@@ -166,8 +205,8 @@ base::Status submitJob(ClusterJob& job) {
     return writeNote(job);
 }
 
-JobState askJob(const ClusterJob& job) {
-    const auto asked = ask({"squeue", "--noheader", "--format=%T", "--jobs=" + job.id});
+JobState askJob(const ClusterJob& job, const base::RunControl& control) {
+    const auto asked = ask({"squeue", "--noheader", "--format=%T", "--jobs=" + job.id}, control);
     if (!asked) return JobState::unknown;
     const std::string said = trimmed(asked->output);
     if (asked->code != 0)
@@ -193,18 +232,41 @@ base::Status stopJob(const ClusterJob& job, JobStop stop) {
     return base::success();
 }
 
+std::string readLastWords(const ClusterJob& job) {
+    constexpr std::size_t kLines = 4;
+    std::error_code failure;
+    std::filesystem::path newest;
+    std::filesystem::file_time_type written;
+    for (const auto& entry : std::filesystem::directory_iterator(job.folder, failure)) {
+        const auto time = entry.last_write_time(failure);
+        if (failure || entry.path().extension() != ".out" || (!newest.empty() && time < written)) continue;
+        newest = entry.path();
+        written = time;
+    }
+    const auto text = newest.empty() ? base::Result<std::string>(std::string()) : base::readFile(newest);
+    if (!text) return {};
+    const std::string said = trimmed(*text);
+    std::size_t from = said.size();
+    for (std::size_t line = 0; line < kLines && from != std::string::npos && from > 0; ++line)
+        from = said.rfind('\n', from - 1);
+    return from == std::string::npos ? said : said.substr(from + 1);
+}
+
 Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& job, const LearnEvents& events,
                                      const std::function<void(JobState)>& changed,
-                                     const study::LearningControl& control,
+                                     const study::LearningControl& control, const base::RunControl& leave,
                                      const FollowIntervals& intervals) {
     constexpr std::chrono::milliseconds kNap{50};
+    const bool isQueued = !job.id.empty();
     std::optional<JobState> state;
+    if (!isQueued) state = JobState::over;
     std::optional<JobStop> asked;
     Clock::time_point nextLook = Clock::now();
     Clock::time_point nextAsk = nextLook;
     Clock::time_point seen = nextLook;
-    while (true) {
-        const std::optional<JobStop> wanted = control.run.cancelled() ? std::optional(JobStop::atOnce)
+    while (!leave.cancelled()) {
+        const std::optional<JobStop> wanted = !isQueued                 ? std::nullopt
+                                              : control.run.cancelled() ? std::optional(JobStop::atOnce)
                                               : control.stopRequested()
                                                   ? std::optional(JobStop::afterGeneration)
                                                   : std::nullopt;
@@ -214,8 +276,9 @@ Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& j
                 return Failure{FailureKind::simulation, told.error().message};
             nextAsk = Clock::now();
         }
-        if (Clock::now() >= nextAsk) {
-            const JobState now = askJob(job);
+        if (isQueued && Clock::now() >= nextAsk) {
+            const JobState now = askJob(job, leave);
+            if (leave.cancelled()) break;
             if (now != state && changed) changed(now);
             state = now;
             nextAsk = Clock::now() + intervals.state;
@@ -239,6 +302,13 @@ Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& j
             nextLook = Clock::now() + intervals.study;
         }
         std::this_thread::sleep_for(kNap);
+    }
+    if (leave.cancelled()) return study::LearningEnd::cancelled;
+    if (isQueued) {
+        ClusterJob over = job;
+        over.isOver = true;
+        // Who cannot note it asks the batch system again.
+        (void)writeNote(over);
     }
     if (control.run.cancelled()) return study::LearningEnd::cancelled;
     const auto settings = file.loadSettings();

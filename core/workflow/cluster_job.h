@@ -29,6 +29,7 @@ struct ClusterJob {
     std::filesystem::path folder;
     std::filesystem::path study;  // the copy that it learns
     std::string id;               // the batch system's; empty: not submitted
+    bool isOver = false;          // and all that it learned was taken
 };
 
 /// Whether jobs can be submitted from here: there is an sbatch.
@@ -42,8 +43,16 @@ base::Result<ClusterJob> writeJob(const store::StudyFile& study, const std::file
 /// A job that was written before. An error if the folder holds none.
 base::Result<ClusterJob> readJob(const std::filesystem::path& folder);
 
+/// Folders of a study's jobs are beside it: "pin-job", "pin-job-2". The newest one; empty: there is none.
+std::filesystem::path findLastFolder(const std::filesystem::path& study);
+/// Where the next one goes.
+std::filesystem::path findNextFolder(const std::filesystem::path& study);
+
 /// Queues it, by its submit.sh, and keeps its id in the folder. The error has what sbatch said.
 base::Status submitJob(ClusterJob& job);
+/// Writes a job and queues it; if it cannot be queued nothing is left behind.
+base::Result<ClusterJob> writeAndSubmit(const store::StudyFile& study, const std::filesystem::path& folder,
+                                        const JobPlan& plan);
 
 enum class JobState {
     waiting,  // in the queue, or between two
@@ -51,11 +60,13 @@ enum class JobState {
     over,    // ended, whether well or not
     unknown  // the batch system does not answer
 };
-JobState askJob(const ClusterJob& job);
+JobState askJob(const ClusterJob& job, const base::RunControl& control = {});
 
 enum class JobStop { afterGeneration, atOnce };
 /// What the batch system says if it cannot.
 base::Status stopJob(const ClusterJob& job, JobStop stop);
+/// The end of what the job wrote, a few lines; empty: nothing yet.
+std::string readLastWords(const ClusterJob& job);
 
 /// How long it follows; from tests shorter.
 struct FollowIntervals {
@@ -64,11 +75,14 @@ struct FollowIntervals {
 };
 
 /// Takes what the job learns into the study, until it is over: events.saved and events.checked tell each,
-/// `changed` each state. The control's stop and its cancel stop the job, after the generation or at once.
-/// Errors: the job's study is none of this one, cannot be read for a minute, or cannot be saved.
+/// `changed` each state. A job that was not submitted from here, but elsewhere or not at all, is taken as far
+/// as it is. The control's stop and its cancel stop the job, after the generation or at once; `leave` ends
+/// the watching, and the job goes on. Errors: the job's study is none of this one, cannot be read for a
+/// minute, or cannot be saved.
 Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& job, const LearnEvents& events,
                                      const std::function<void(JobState)>& changed,
                                      const study::LearningControl& control,
+                                     const base::RunControl& leave = {},
                                      const FollowIntervals& intervals = {});
 
 }  // namespace trapwright::workflow

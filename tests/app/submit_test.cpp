@@ -9,35 +9,11 @@
 #include <QTest>
 
 #include "tests/app/program.h"
+#include "tests/app/slurm_stand_in.h"
 
 using namespace trapwright::test;
 
 namespace {
-
-constexpr const char* kSbatch = R"sh(#!/bin/bash
-# As Slurm: a script with the options in front of it left out, in the background, in a session of its own.
-options=()
-while [[ $1 == --* ]]; do options+=("$1"); shift; done
-echo "${options[@]}" > "$SLURM_STANDIN/options"
-SLURM_JOB_ID=7 SLURM_NTASKS=2 setsid bash "$@" > slurm-7.out 2>&1 < /dev/null &
-echo $! > "$SLURM_STANDIN/process"
-echo "a word of the site"
-echo 7
-)sh";
-constexpr const char* kSqueue = R"sh(#!/bin/bash
-if kill -0 "$(cat "$SLURM_STANDIN/process")" 2> /dev/null; then
-    echo RUNNING
-else
-    echo "slurm_load_jobs error: Invalid job id specified" >&2
-    exit 1
-fi
-)sh";
-constexpr const char* kScancel = R"sh(#!/bin/bash
-signal=TERM
-for argument; do [[ $argument == --signal=* ]] && signal=${argument#--signal=}; done
-echo "$@" >> "$SLURM_STANDIN/cancelled"
-kill "-$signal" "$(cat "$SLURM_STANDIN/process")"
-)sh";
 
 const QStringList kQuick = {"--preset", "cuboid", "--population", "6", "--trials", "4", "--engine", "native"};
 
@@ -51,10 +27,6 @@ class SubmitTest : public QObject {
         folder_ = std::make_unique<QTemporaryDir>();
         QVERIFY(folder_->isValid());
         environment_ = QProcessEnvironment::systemEnvironment();
-        environment_.insert("SLURM_STANDIN", path());
-        // One process instead of ranks.
-        environment_.insert("TRAPWRIGHT_LAUNCH", "env");
-        environment_.insert("TRAPWRIGHT", TRAPWRIGHT_PROGRAM);
     }
 
     void learnsWhatEvolveLearns() {
@@ -136,37 +108,27 @@ class SubmitTest : public QObject {
 
     void saysWhatSbatchSays() {
         standInForSlurm();
-        write("bin/sbatch",
-              "#!/bin/sh\necho 'sbatch: error: invalid partition specified: long' >&2\nexit 1\n");
+        QVERIFY(SlurmStandIn(path()).write("sbatch", kRefusing));
         QCOMPARE(run(path(), QStringList{"new", "home.trap"} + kQuick).code, 0);
         const Ran ran = submit({"home.trap"});
         QCOMPARE(ran.code, 6);
         QVERIFY2(ran.errors.contains("invalid partition specified: long"), ran.all());
+        // The next one shall have other options.
+        QVERIFY(!QDir(path()).exists("home-job"));
     }
 
  private:
     [[nodiscard]] QString path() const { return folder_->path(); }
-    [[nodiscard]] QByteArray read(const QString& name) const {
-        QFile file(path() + "/" + name);
-        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-    }
+    [[nodiscard]] QByteArray read(const QString& name) const { return SlurmStandIn(path()).read(name); }
     [[nodiscard]] QByteArray dump(const QString& study) const {
         const Ran ran = run(path(), {"dump", study});
         return ran.code == 0 ? ran.output : "failed: " + ran.all();
     }
-    void write(const QString& name, const char* text) const {
-        QFile file(path() + "/" + name);
-        QVERIFY(file.open(QIODevice::WriteOnly | QIODevice::Truncate));
-        file.write(text);
-        file.close();
-        file.setPermissions(file.permissions() | QFileDevice::ExeOwner);
-    }
     void standInForSlurm() {
-        QVERIFY(QDir(path()).mkdir("bin"));
-        write("bin/sbatch", kSbatch);
-        write("bin/squeue", kSqueue);
-        write("bin/scancel", kScancel);
-        environment_.insert("PATH", path() + "/bin:" + environment_.value("PATH"));
+        const SlurmStandIn slurm(path());
+        QVERIFY(slurm.install());
+        for (const auto& [name, value] : slurm.environment(environment_.value("PATH")))
+            environment_.insert(name, value);
     }
     [[nodiscard]] std::unique_ptr<QProcess> startSubmit(const QStringList& arguments) const {
         auto process = std::make_unique<QProcess>();

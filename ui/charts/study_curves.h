@@ -8,7 +8,8 @@
 
 namespace trapwright::charts {
 
-/// What the charts show of one study.
+/// What the charts show of one study, or of several as one: then each value is the median of those that have
+/// it, between their quartiles.
 struct StudyCurves {
     QString name;                                     // of the study, for the legend of a comparison
     std::vector<study::GenerationSummary> summaries;  // in their order
@@ -16,6 +17,7 @@ struct StudyCurves {
     std::vector<double> trialsPerSecond;              // slot i for summaries[i]; NaN or missing: not known
     std::vector<objectives::Score> attainable{};      // objectives::listAttainable of the part
     std::optional<int> cornersFrom{};                 // the generation whose trials are harder from there on
+    std::vector<std::vector<study::GenerationSummary>> members{};  // of several: instead of all but the name
 };
 
 }  // namespace trapwright::charts

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/search/methods.h"
+#include "core/stats/samples.h"
 #include "ui/look/text.h"
 
 namespace trapwright::charts {
@@ -37,20 +38,49 @@ QString withStudy(const QString& text, const std::vector<StudyCurves>& studies, 
     return studies.size() < 2 ? text : QStringLiteral("%1, %2").arg(text, studies[study].name);
 }
 
-/// A curve of each study: a value of each generation, or NaN.
+/// A value of a generation, or NaN.
 using ValueOf = std::function<double(const study::GenerationSummary&)>;
+
+/// The values of a study's generations, or of several studies the medians with the quartiles as band. Of
+/// generations that one of several has alone there is nothing to tell.
+void fill(Curve& curve, const StudyCurves& study, const ValueOf& valueOf) {
+    for (const study::GenerationSummary& summary : study.summaries)
+        if (const double value = valueOf(summary); !std::isnan(value))
+            curve.points.emplace_back(summary.index, value);
+    std::map<int, std::vector<double>> values;
+    for (const std::vector<study::GenerationSummary>& member : study.members)
+        for (const study::GenerationSummary& summary : member)
+            if (const double value = valueOf(summary); !std::isnan(value))
+                values[summary.index].push_back(value);
+    for (const auto& [generation, all] : values) {
+        if (all.size() < 2) continue;
+        const stats::Quartiles quartiles = stats::calcQuartiles(all);
+        curve.points.emplace_back(generation, quartiles.median);
+        curve.band.push_back({quartiles.lower, quartiles.upper});
+    }
+    if (!study.members.empty())
+        curve.bandColumns = {Text::tr("%1, lower quartile").arg(curve.column),
+                             Text::tr("%1, upper quartile").arg(curve.column)};
+}
+
+/// Areas of several curves would hide each other.
+void dropBand(Curve& curve) {
+    curve.band.clear();
+    curve.bandColumns.clear();
+}
+
+/// A curve of each study; the first of a plot has the area of several.
 
 void addCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, const QString& key,
                const QString& name, const QString& column, CurveStyle style, const ValueOf& valueOf) {
+    const bool isFirst = plot.curves.empty();
     for (std::size_t i = 0; i < studies.size(); ++i) {
         style.second = i > 0;
         Curve curve{
             withStudy(name, studies, i), withStudy(column, studies, i), {key, studyKey(i)}, style, {}};
-        for (const study::GenerationSummary& summary : studies[i].summaries) {
-            const double value = valueOf(summary);
-            if (!std::isnan(value)) curve.points.emplace_back(summary.index, value);
-        }
-        if (curve.points.empty() && !studies[i].summaries.empty())
+        fill(curve, studies[i], valueOf);
+        if (!isFirst) dropBand(curve);
+        if (curve.points.empty() && (!studies[i].summaries.empty() || !studies[i].members.empty()))
             continue;  // a study that has no such values
         plot.curves.push_back(std::move(curve));
     }
@@ -62,8 +92,12 @@ void addStudies(ChartSheet& sheet, const std::vector<StudyCurves>& studies,
     if (studies.size() < 2) return;
     for (std::size_t i = 0; i < studies.size(); ++i) {
         const CurveStyle style{colour, Qt::SolidLine, Marker::circle, i > 0};
-        sheet.legend.push_back({studyKey(i), studies[i].name,
-                                Text::tr("The curves of the study %1.").arg(studies[i].name), style});
+        sheet.legend.push_back(
+            {studyKey(i), studies[i].name,
+             studies[i].members.empty()
+                 ? Text::tr("The curves of the study %1.").arg(studies[i].name)
+                 : Text::tr("Half of the studies lie within the area, a quarter above it."),
+             style});
     }
 }
 
@@ -228,6 +262,19 @@ void addEngineCurves(PlotSheet& plot, const std::vector<StudyCurves>& studies, c
     }
 }
 
+/// The winner's 95 % interval.
+void addBounds(Curve& winner, const std::vector<StudyCurves>& studies, std::size_t study) {
+    winner.bandColumns = {
+        withStudy(Text::tr("Winner's success, 95 % Clopper-Pearson low [%]"), studies, study),
+        withStudy(Text::tr("Winner's success, 95 % Clopper-Pearson high [%]"), studies, study)};
+    for (const study::GenerationSummary& summary : studies[study].summaries) {
+        const auto& success = summary.statistics.success;
+        if (!success || success->trials == 0) continue;
+        const stats::Interval bounds = stats::calcClopperPearson(success->successes, success->trials);
+        winner.band.push_back({kPercent * bounds.low, kPercent * bounds.high});
+    }
+}
+
 }  // namespace
 
 ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
@@ -243,9 +290,12 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
                     {"best", studyKey(i)},
                     best,
                     {}};
-        curve.bandColumns = {
-            withStudy(Text::tr("Winner's success, 95 % Clopper-Pearson low [%]"), studies, i),
-            withStudy(Text::tr("Winner's success, 95 % Clopper-Pearson high [%]"), studies, i)};
+        fill(curve, studies[i], [](const auto& summary) {
+            const auto& success = summary.statistics.success;
+            return success && success->trials > 0 ? kPercent * success->share()
+                                                  : std::numeric_limits<double>::quiet_NaN();
+        });
+        if (studies[i].members.empty()) addBounds(curve, studies, i);
         CurveStyle mean = kMean;
         mean.second = i > 0;
         Curve top{withStudy(Text::tr("mean of top 30 %"), studies, i),
@@ -253,15 +303,11 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
                   {"mean", studyKey(i)},
                   mean,
                   {}};
-        for (const study::GenerationSummary& summary : studies[i].summaries) {
-            if (const auto& success = summary.statistics.success) {
-                const stats::Interval bounds = stats::calcClopperPearson(success->successes, success->trials);
-                curve.points.emplace_back(summary.index, kPercent * success->share());
-                curve.band.push_back({kPercent * bounds.low, kPercent * bounds.high});
-            }
-            if (const auto& share = summary.statistics.topSuccess)
-                top.points.emplace_back(summary.index, kPercent * *share);
-        }
+        fill(top, studies[i], [](const auto& summary) {
+            const auto& share = summary.statistics.topSuccess;
+            return share ? kPercent * *share : std::numeric_limits<double>::quiet_NaN();
+        });
+        dropBand(top);
         plot.curves.push_back(std::move(curve));
         plot.curves.push_back(std::move(top));
     }
@@ -363,6 +409,8 @@ ChartSheet speedSheet(const std::vector<StudyCurves>& studies) {
                     {studyKey(i)},
                     style,
                     {}};
+        if (!study.members.empty())
+            fill(curve, study, [](const auto& summary) { return summary.trialsPerSecond(); });
         const std::size_t known = std::min(study.trialsPerSecond.size(), study.summaries.size());
         for (std::size_t g = 0; g < known; ++g) {
             if (!std::isnan(study.trialsPerSecond[g]))

@@ -34,20 +34,27 @@ QString firstName(const QString& study, const FileQuestion& question) {
     return name.replace('/', '-') + '.' + question.suffix;
 }
 
-void ask(QWidget* parent, const FileQuestion& question, bool isNew, const FileAnswer& answer) {
+void ask(QWidget* parent, const FileQuestion& question, QFileDialog::FileMode mode,
+         const FilesAnswer& answer) {
+    const bool isNew = mode == QFileDialog::AnyFile;
     const QString setting = "folders/" + question.name;
     const QString study = fileOfWindow(parent);
     auto* dialog = new QFileDialog(parent, question.title, firstFolder(study, setting), question.filter);
     dialog->setObjectName("dialog.file");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setFileMode(isNew ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
+    dialog->setFileMode(mode);
     dialog->setAcceptMode(isNew ? QFileDialog::AcceptSave : QFileDialog::AcceptOpen);
     dialog->setLabelText(QFileDialog::Accept, question.accept);
     dialog->setDefaultSuffix(question.suffix);
     if (isNew) dialog->selectFile(firstName(study, question));
-    QObject::connect(dialog, &QFileDialog::fileSelected, parent, [setting, answer](const QString& file) {
-        QSettings().setValue(setting, QFileInfo(file).absolutePath());
-        answer(std::filesystem::path(QFile::encodeName(file).toStdString()));
+    QObject::connect(dialog, &QFileDialog::filesSelected, parent, [setting, answer](QStringList files) {
+        if (files.isEmpty()) return;
+        files.sort();
+        QSettings().setValue(setting, QFileInfo(files.front()).absolutePath());
+        std::vector<std::filesystem::path> paths;
+        for (const QString& file : files)
+            paths.emplace_back(QFile::encodeName(file).toStdString());
+        answer(paths);
     });
     dialog->open();
 }
@@ -55,11 +62,15 @@ void ask(QWidget* parent, const FileQuestion& question, bool isNew, const FileAn
 }  // namespace
 
 void askForFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer) {
-    ask(parent, question, false, answer);
+    ask(parent, question, QFileDialog::ExistingFile, [answer](const auto& files) { answer(files.front()); });
+}
+
+void askForFiles(QWidget* parent, const FileQuestion& question, const FilesAnswer& answer) {
+    ask(parent, question, QFileDialog::ExistingFiles, answer);
 }
 
 void askForNewFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer) {
-    ask(parent, question, true, answer);
+    ask(parent, question, QFileDialog::AnyFile, [answer](const auto& files) { answer(files.front()); });
 }
 
 }  // namespace trapwright::look

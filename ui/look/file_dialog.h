@@ -3,6 +3,7 @@
 #include <QString>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 class QWidget;
 
@@ -20,11 +21,14 @@ struct FileQuestion {
     QString subject;  // what of the study is in a new file: "fitness"; empty: all of it
 };
 
+/// The files that are chosen, in the order of their names.
+using FilesAnswer = std::function<void(const std::vector<std::filesystem::path>&)>;
 using FileAnswer = std::function<void(const std::filesystem::path&)>;
 
-/// Asks for an existing file, or for the name of a new one. Does not wait: `answer` is called if one is
-/// chosen.
+/// Asks for an existing file, for several, or for the name of a new one. Does not wait: `answer` is called if
+/// one is chosen.
 void askForFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer);
+void askForFiles(QWidget* parent, const FileQuestion& question, const FilesAnswer& answer);
 void askForNewFile(QWidget* parent, const FileQuestion& question, const FileAnswer& answer);
 
 }  // namespace trapwright::look

@@ -84,6 +84,7 @@ void EventLog::setRuns(const StudyRuns* runs) {
     remade_ = runs_->remadeTrials().size();
     connect(runs_, &StudyRuns::stateChanged, this, &EventLog::tellState);
     connect(runs_, &StudyRuns::progressed, this, &EventLog::tellRemade);
+    connect(runs_, &StudyRuns::jobChanged, this, &EventLog::tellJob);
     connect(runs_, &StudyRuns::generationSaved, this, &EventLog::tellGeneration);
     connect(runs_, &StudyRuns::checkSaved, this, &EventLog::tellCheck);
     connect(runs_, &StudyRuns::selectionSaved, this, [this] { add(Kind::good, tr("Selection saved")); });
@@ -145,6 +146,9 @@ void EventLog::tellState(RunState state) {
             add(Kind::info, before == RunState::paused ? tr("Learning continued")
                                                        : tr("Learning began at generation %1").arg(next));
             break;
+        case RunState::following:
+            add(Kind::info, tr("Learning on a cluster, from generation %1").arg(next));
+            break;
         case RunState::paused:
             add(Kind::warning, tr("Paused"));
             break;
@@ -175,6 +179,22 @@ void EventLog::tellState(RunState state) {
             if (before == RunState::simulating) break;
             add(Kind::info, tr("Ended, generations saved: %1").arg(next));
             break;
+    }
+}
+
+void EventLog::tellJob(const session::FollowedJob& job) {
+    using workflow::JobState;
+    if (job.id.empty()) return;
+    const QString id = QString::fromStdString(job.id);
+    switch (job.state) {
+        case JobState::waiting:
+            return add(Kind::info, tr("Job %1 waits in the queue").arg(id));
+        case JobState::running:
+            return add(Kind::good, tr("Job %1 runs").arg(id));
+        case JobState::over:
+            return add(Kind::info, tr("Job %1 is over").arg(id));
+        case JobState::unknown:
+            return add(Kind::warning, tr("The batch system does not answer; job %1 may go on").arg(id));
     }
 }
 

@@ -36,6 +36,7 @@ class EventLog : public QWidget {
     void add(Kind kind, const QString& text);
     void colour();
     void tellState(session::RunState state);
+    void tellJob(const session::FollowedJob& job);
     void tellGeneration(int generation);
     void tellCheck(int generation);
     void tellRemade();

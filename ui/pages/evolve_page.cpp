@@ -13,6 +13,7 @@
 #include "ui/look/file_dialog.h"
 #include "ui/look/folding_group.h"
 #include "ui/look/icon.h"
+#include "ui/pages/comparison_table.h"
 #include "ui/pages/event_log.h"
 #include "ui/pages/evolve_summary.h"
 #include "ui/pages/film_strip.h"
@@ -118,7 +119,9 @@ QWidget* EvolvePage::makeComparison() {
     compared_->setWordWrap(true);
     compare_ = new QPushButton(tr("Compare with..."), group);
     compare_->setObjectName("evolve.compare");
-    compare_->setToolTip(tr("Shows the curves of another study in the same charts"));
+    compare_->setToolTip(
+        tr("Shows the curves of another study in the same charts, or of several, as of one "
+           "task with many seeds, their median and quartiles"));
     endComparison_ = new QPushButton(tr("End"), group);
     endComparison_->setObjectName("evolve.endComparison");
     endComparison_->setAccessibleName(tr("End the comparison"));
@@ -127,17 +130,13 @@ QWidget* EvolvePage::makeComparison() {
     buttons->addWidget(endComparison_);
     buttons->addWidget(compare_);
     group->body()->addWidget(compared_);
+    comparison_ = new ComparisonTable(group);
+    group->body()->addWidget(comparison_);
     group->body()->addLayout(buttons);
     connect(compare_, &QPushButton::clicked, this, &EvolvePage::askForComparison);
     connect(endComparison_, &QPushButton::clicked, charts_, &LearningCharts::endComparison);
-    const auto show = [this] {
-        const QString name = charts_->comparedName();
-        compared_->setText(name.isEmpty() ? tr("No other study is in the charts.")
-                                          : tr("The charts also show <b>%1</b>.").arg(name.toHtmlEscaped()));
-        endComparison_->setVisible(!name.isEmpty());
-    };
-    connect(charts_, &LearningCharts::comparisonChanged, this, show);
-    show();
+    connect(charts_, &LearningCharts::comparisonChanged, this, &EvolvePage::showComparison);
+    showComparison();
     return group;
 }
 
@@ -153,7 +152,7 @@ void EvolvePage::addActions() {
         QKeySequence(Qt::ALT | Qt::Key_Left), [this] { stepWinner(-1); });
     add(new QAction(tr("Winner of the next generation"), this), "evolve.next",
         QKeySequence(Qt::ALT | Qt::Key_Right), [this] { stepWinner(1); });
-    add(new QAction(look::icon("add"), tr("Compare with another study..."), this), "evolve.compareWith",
+    add(new QAction(look::icon("add"), tr("Compare with other studies..."), this), "evolve.compareWith",
         QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_K), &EvolvePage::askForComparison);
 }
 
@@ -214,7 +213,9 @@ void EvolvePage::setSession(StudySession* session) {
         connect(&session_->runs(), &StudyRuns::stateChanged, this, &EvolvePage::refresh);
         connect(&session_->runs(), &StudyRuns::generationSaved, this, [this] {
             if (!picked_) showPicked();
+            showComparison();
         });
+        connect(&session_->runs(), &StudyRuns::selectionSaved, this, &EvolvePage::showComparison);
     }
     refresh();
 }
@@ -245,9 +246,27 @@ void EvolvePage::refresh() {
 
 void EvolvePage::askForComparison() {
     if (!session_) return;
-    look::askForFile(this,
-                     {"study", tr("Compare with a study"), tr("Compare"), tr("Studies (*.trap)"), {}, {}},
-                     [this](const std::filesystem::path& study) { charts_->compareWith(study); });
+    look::askForFiles(
+        this, {"study", tr("Compare with studies"), tr("Compare"), tr("Studies (*.trap)"), {}, {}},
+        [this](const std::vector<std::filesystem::path>& studies) { charts_->compareWith(studies); });
+}
+
+void EvolvePage::showComparison() {
+    const std::vector<study::ComparedStudy> others = charts_->others();
+    const bool isOne = others.size() == 1;
+    compared_->setText(
+        others.empty() ? tr("No other study is in the charts.")
+        : isOne        ? tr("The charts also show <b>%1</b>.")
+                      .arg(QString::fromStdString(others.front().name).toHtmlEscaped())
+                : tr("The charts also show the median of these %1 studies, with the area between their "
+                     "quartiles.")
+                      .arg(others.size() + 1));
+    endComparison_->setVisible(!others.empty());
+    comparison_->setVisible(!others.empty());
+    if (others.empty()) return;
+    std::vector<study::ComparedStudy> all{charts_->own()};
+    all.insert(all.end(), others.begin(), others.end());
+    comparison_->show(all);
 }
 
 void EvolvePage::changeSettings() {

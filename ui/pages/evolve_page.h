@@ -20,6 +20,7 @@ class FoldingGroup;
 
 namespace trapwright::pages {
 
+class ComparisonTable;
 class EventLog;
 class EvolveSummary;
 class FilmStrip;
@@ -60,6 +61,7 @@ class EvolvePage : public Page {
 
     void refresh();
     void askForComparison();
+    void showComparison();
     void changeSettings();
 
     /// Shows the best winner (StudyRuns::bestWinner), now and whenever there is a better one.
@@ -88,6 +90,7 @@ class EvolvePage : public Page {
     IndividualCard* individual_;
     EvolveSummary* summary_;
     QLabel* compared_;
+    ComparisonTable* comparison_;
     QPushButton* compare_;
     QPushButton* endComparison_;
     LearningCharts* charts_;

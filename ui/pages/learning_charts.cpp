@@ -3,9 +3,9 @@
 #include <QTabWidget>
 #include <algorithm>
 
+#include "core/study/selection.h"
 #include "ui/charts/study_chart.h"
 #include "ui/look/text.h"
-#include "ui/session/study_curves.h"
 #include "ui/session/study_design.h"
 #include "ui/session/study_runs.h"
 #include "ui/session/study_session.h"
@@ -64,12 +64,14 @@ void LearningCharts::setSession(const StudySession* session) {
     if (session_) session_->leave(this);
     session_ = session;
     reading_.cancel();
-    const bool compared = std::exchange(other_, std::nullopt).has_value();
+    const bool compared = !std::exchange(others_, {}).empty();
     showStudies();
     if (compared) emit comparisonChanged();
     if (!session_) return;
     connect(&session_->runs(), &StudyRuns::generationSaved, this, [this] {
         const study::GenerationSummary& summary = session_->runs().summaries().back();
+        // The median of several has this study in it.
+        if (others_.size() > 1) return showStudies();
         for (charts::StudyChart* chart : charts_)
             chart->appendGeneration(summary, summary.trialsPerSecond());
     });
@@ -82,30 +84,33 @@ void LearningCharts::setSession(const StudySession* session) {
     connect(session_, &StudySession::pathChanged, this, &LearningCharts::showStudies);
 }
 
-void LearningCharts::compareWith(const std::filesystem::path& study) {
+void LearningCharts::compareWith(const std::vector<std::filesystem::path>& studies) {
     if (!session_) return;
-    const QString what = tr("%1 cannot be compared").arg(look::toText(study.filename()));
-    if (study == session_->path()) {
-        emit failed(what, tr("It is the study that is open. Choose another one."));
+    std::vector<std::filesystem::path> others = studies;
+    std::erase(others, session_->path());
+    if (others.empty()) {
+        emit failed(tr("There is nothing to compare"),
+                    tr("It is the study that is open. Choose another one."));
         return;
     }
-    reading_.start([this, study, what]() -> session::NewestTask::Deliver {
-        auto curves = session::loadCurves(study);
-        if (!curves) {
-            return [this, what, message = curves.error().message] {
-                emit failed(what, QString::fromStdString(message));
-            };
-        }
-        charts::StudyCurves other{
-            QString::fromStdString(curves->name), std::move(curves->summaries), std::move(curves->checks), {},
-            std::move(curves->attainable),        curves->cornersFrom};
-        other.trialsPerSecond = speedsOf(other.summaries);
-        return [this, what, other = std::move(other)] {
-            if (other.summaries.empty()) {
-                emit failed(what, tr("It has no generations yet. Choose a study that has learned."));
-                return;
+    reading_.start([this, others]() -> session::NewestTask::Deliver {
+        std::vector<session::StoredCurves> read;
+        for (const std::filesystem::path& study : others) {
+            auto curves = session::loadCurves(study);
+            QString message;
+            if (!curves) {
+                message = QString::fromStdString(curves.error().message);
+            } else if (curves->study.generations.empty()) {
+                message = tr("It has no generations yet. Choose a study that has learned.");
             }
-            other_ = other;
+            if (!message.isEmpty())
+                return [this, message, name = look::toText(study.filename())] {
+                    emit failed(tr("%1 cannot be compared").arg(name), message);
+                };
+            read.push_back(std::move(*curves));
+        }
+        return [this, read = std::move(read)] {
+            others_ = read;
             showStudies();
             emit comparisonChanged();
         };
@@ -114,23 +119,63 @@ void LearningCharts::compareWith(const std::filesystem::path& study) {
 
 void LearningCharts::endComparison() {
     reading_.cancel();
-    other_.reset();
+    others_.clear();
     showStudies();
     emit comparisonChanged();
 }
 
-QString LearningCharts::comparedName() const {
-    return other_ ? other_->name : QString();
+std::vector<study::ComparedStudy> LearningCharts::others() const {
+    std::vector<study::ComparedStudy> others;
+    for (const session::StoredCurves& other : others_)
+        others.push_back(other.study);
+    return others;
+}
+
+study::ComparedStudy LearningCharts::own() const {
+    const StudyRuns& runs = session_->runs();
+    const study::EvolutionSettings& evolution = session_->design().settings().evolution;
+    study::ComparedStudy own;
+    own.name = session_->path().stem().string();
+    own.part = session_->design().part()->name;
+    own.seed = evolution.seed;
+    own.fallsAreForgiven = study::forgivesFalls(evolution);
+    own.generations = runs.summaries();
+    if (const study::Individual* best = runs.bestWinner()) own.best = *best;
+    if (!runs.selections().empty() && !runs.selections().back().entries.empty())
+        own.selected = runs.selections().back().entries.front();
+    return own;
+}
+
+charts::StudyCurves LearningCharts::ownCurves() const {
+    const std::vector<study::GenerationSummary>& summaries = session_->runs().summaries();
+    return {look::toText(session_->path().stem()),
+            summaries,
+            session_->runs().checks(),
+            speedsOf(summaries),
+            session_->design().attainable(),
+            session::findLaterCorners(session_->design().settings().evolution)};
+}
+
+charts::StudyCurves LearningCharts::otherCurves() const {
+    if (others_.size() == 1) {
+        const session::StoredCurves& other = others_.front();
+        return {QString::fromStdString(other.study.name), other.study.generations, other.checks,
+                speedsOf(other.study.generations),        other.attainable,        other.cornersFrom};
+    }
+    charts::StudyCurves all;
+    all.name = tr("median of %1 studies").arg(others_.size() + 1);
+    all.attainable = session_->design().attainable();
+    all.members.push_back(session_->runs().summaries());
+    for (const session::StoredCurves& other : others_)
+        all.members.push_back(other.study.generations);
+    return all;
 }
 
 void LearningCharts::showStudies() {
     std::vector<charts::StudyCurves> studies;
     if (session_) {
-        const std::vector<study::GenerationSummary>& summaries = session_->runs().summaries();
-        studies.push_back({look::toText(session_->path().stem()), summaries, session_->runs().checks(),
-                           speedsOf(summaries), session_->design().attainable(),
-                           session::findLaterCorners(session_->design().settings().evolution)});
-        if (other_) studies.push_back(*other_);
+        studies.push_back(ownCurves());
+        if (!others_.empty()) studies.push_back(otherCurves());
     }
     for (charts::StudyChart* chart : charts_)
         chart->setStudies(studies);

@@ -3,11 +3,11 @@
 #include <QObject>
 #include <QPointer>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "ui/charts/study_curves.h"
 #include "ui/pages/page.h"
+#include "ui/session/study_curves.h"
 #include "ui/session/work_thread.h"
 
 namespace trapwright::charts {
@@ -16,7 +16,8 @@ class StudyChart;
 
 namespace trapwright::pages {
 
-/// The charts of the open study, which grow while it learns, and of another study to compare it with.
+/// The charts of the open study, which grow while it learns, and of another study to compare it with, or of
+/// several: then of the median of all, the open one among them, between the quartiles.
 class LearningCharts : public QObject {
     Q_OBJECT
  public:
@@ -27,11 +28,13 @@ class LearningCharts : public QObject {
     [[nodiscard]] std::vector<Panel> panels() const;
 
     void setSession(const session::StudySession* session);
-    /// Reads the other study in the background; it may be learning in another process.
-    void compareWith(const std::filesystem::path& study);
+    /// Reads the other studies in the background; they may be learning in other processes.
+    void compareWith(const std::vector<std::filesystem::path>& studies);
     void endComparison();
-    /// Name of the other study; empty: none.
-    [[nodiscard]] QString comparedName() const;
+    /// The other studies; empty: there is no comparison.
+    [[nodiscard]] std::vector<study::ComparedStudy> others() const;
+    /// The open study as it is compared.
+    [[nodiscard]] study::ComparedStudy own() const;
 
  signals:
     void comparisonChanged();
@@ -40,10 +43,12 @@ class LearningCharts : public QObject {
 
  private:
     void showStudies();
+    [[nodiscard]] charts::StudyCurves ownCurves() const;
+    [[nodiscard]] charts::StudyCurves otherCurves() const;
     void add(charts::StudyChart* chart);
 
     QPointer<const session::StudySession> session_;
-    std::optional<charts::StudyCurves> other_;
+    std::vector<session::StoredCurves> others_;
     session::NewestTask reading_;
     std::vector<charts::StudyChart*> charts_;
     std::size_t firstDetail_ = 0;  // of charts_: this and all after it show the algorithm

@@ -38,6 +38,7 @@ RunActions::RunActions(QObject* parent)
              "operating "
              "box, where every condition is at an end of its range: least friction with least stroke, say. "
              "Tracks that are good all over the box become as good there."))),
+      cluster_(makeAction(this, "run.cluster", "cluster", tr("R&un on a cluster..."), {}, {})),
       pause_(makeAction(this, "run.pause", "pause", tr("&Pause"), Qt::Key_F6,
                         tr("Wait in the middle of the generation; nothing is lost"))),
       stopAfterGeneration_(makeAction(this, "run.stopAfterGeneration", "stop-after",
@@ -127,6 +128,9 @@ void RunActions::update() {
                                       : tr("&Start learning"));
     start_->setToolTip(obstacle.isEmpty() ? tr("Continue from the last saved generation") : obstacle);
     start_->setEnabled(paused || (idle && obstacle.isEmpty()));
+    cluster_->setEnabled(state == RunState::idle && obstacle.isEmpty());
+    cluster_->setToolTip(
+        obstacle.isEmpty() ? tr("Learn as a job of Slurm on many machines, and watch it here") : obstacle);
     const auto draft = runs_ ? runs_->draft() : std::nullopt;
     const bool timed = runs_ && runs_->estimatedSeconds() > 0.0;
     draft_->setEnabled(idle && obstacle.isEmpty() && draft.has_value());
@@ -148,7 +152,10 @@ void RunActions::update() {
     }
     if (state == RunState::idle && runs_ && !timed && obstacle.isEmpty()) estimateDelay_->start();
     pause_->setEnabled(state == RunState::learning);
-    stopAfterGeneration_->setEnabled(state == RunState::learning || paused);
+    pause_->setToolTip(state == RunState::following
+                           ? tr("A job of a cluster does not wait: stop it, and go on later")
+                           : tr("Wait in the middle of the generation; nothing is lost"));
+    stopAfterGeneration_->setEnabled(state == RunState::learning || state == RunState::following || paused);
     stopNow_->setEnabled(!idle && state != RunState::stopping);
 }
 

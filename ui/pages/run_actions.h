@@ -30,6 +30,8 @@ class RunActions : public QObject {
     QAction* draft() { return draft_; }
     /// Has corners of the operating box learned from the next generation on (study::learnInCorners).
     QAction* corners() { return corners_; }
+    /// Asks for what a job of a cluster is to have; whoever shows that listens to it.
+    QAction* cluster() { return cluster_; }
     QAction* pause() { return pause_; }
     QAction* stopAfterGeneration() { return stopAfterGeneration_; }
     QAction* stopNow() { return stopNow_; }
@@ -49,6 +51,7 @@ class RunActions : public QObject {
     QAction* start_;
     QAction* draft_;
     QAction* corners_;
+    QAction* cluster_;
     QAction* pause_;
     QAction* stopAfterGeneration_;
     QAction* stopNow_;

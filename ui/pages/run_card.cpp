@@ -32,6 +32,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
       detail_(new QLabel(this)),
       standstill_(new QLabel(this)),
       corners_(makeButton(run.corners(), "evolve.corners")),
+      cluster_(makeButton(run.cluster(), "evolve.cluster")),
       remade_(new QLabel(this)),
       speed_(new QLabel(this)),
       bar_(new QProgressBar(this)),
@@ -84,6 +85,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     buttons->addWidget(makeButton(run.pause(), "evolve.pause"), 0, 1);
     buttons->addWidget(makeButton(run.stopAfterGeneration(), "evolve.stopAfterGeneration"), 1, 0);
     buttons->addWidget(makeButton(run.stopNow(), "evolve.stopNow"), 1, 1);
+    buttons->addWidget(cluster_, 2, 0, 1, 2);
     buttons->setColumnStretch(0, 3);
     buttons->setColumnStretch(1, 2);
 
@@ -145,6 +147,7 @@ void RunCard::announce() {
 void RunCard::update() {
     const RunState state = runs_ ? runs_->state() : RunState::idle;
     const bool idle = state == RunState::idle || state == RunState::simulating;
+    cluster_->setVisible(state == RunState::idle && run_.cluster()->isEnabled());
     draft_->setVisible(idle && runs_ && runs_->summaries().empty() && runs_->design().problems().empty());
     bar_->setVisible(!idle);
     speed_->setVisible(!idle);
@@ -254,6 +257,7 @@ void RunCard::showRun(RunState state) {
                             : 0.0;
     double whole = done;
     QString detail;
+    if (progress.job) return showJob(progress);
     if (checking) {
         detail = tr("All generations are saved. The last winners are checked in the reference engine.");
     } else if (progress.isPlanning) {
@@ -310,6 +314,37 @@ void RunCard::showRun(RunState state) {
     constexpr int kSteps = 1000;
     bar_->setMaximum(kSteps);
     bar_->setValue(qRound(std::clamp(whole, 0.0, 1.0) * kSteps));
+}
+
+void RunCard::showJob(const RunProgress& progress) {
+    using workflow::JobState;
+    const bool isQueued = !progress.job->id.empty();
+    const QString job = tr("Job %1").arg(QString::fromStdString(progress.job->id));
+    QString title = tr("Learning on a cluster");
+    QString detail =
+        tr("%1: %2 of %3 generations").arg(job).arg(progress.generation).arg(progress.generations);
+    if (!isQueued) {
+        title = tr("Taking what was learned");
+        detail = tr("%1 of %2 generations").arg(progress.generation).arg(progress.generations);
+    } else if (runs_->state() == RunState::stoppingAfterGeneration) {
+        title = tr("Stopping after this generation");
+    } else if (runs_->state() == RunState::stopping) {
+        title = tr("Stopping");
+    } else if (progress.job->state == JobState::waiting) {
+        title = tr("Waiting in the cluster's queue");
+    } else if (progress.job->state == JobState::unknown) {
+        title = tr("The cluster does not answer");
+        detail += ". " + tr("It is asked again every few seconds; the job may go on meanwhile.");
+    }
+    if (isQueued) detail += ".\n" + tr("You may close the window: the job goes on, and is followed again.");
+    title_->setText(title);
+    detail_->setText(detail);
+    QStringList facts;
+    if (progress.trialsPerSecond > 0) facts << tr("%L1 trials/s").arg(qRound(progress.trialsPerSecond));
+    if (progress.secondsLeft > 0) facts << tr("%1 left").arg(look::durationText(progress.secondsLeft));
+    speed_->setText(facts.isEmpty() ? QString(" ") : facts.join(", "));
+    bar_->setMaximum(progress.generations);
+    bar_->setValue(std::min(progress.generation, progress.generations));
 }
 
 }  // namespace trapwright::pages

@@ -10,6 +10,7 @@ class QToolButton;
 namespace trapwright::session {
 class StudyRuns;
 enum class RunState;
+struct RunProgress;
 }  // namespace trapwright::session
 
 namespace trapwright::pages {
@@ -40,6 +41,7 @@ class RunCard : public QWidget {
     void showIdle();
     void showDraft();
     void showRun(session::RunState state);
+    void showJob(const session::RunProgress& progress);
     [[nodiscard]] QString workText() const;
 
     QPointer<const session::StudyRuns> runs_;
@@ -48,6 +50,7 @@ class RunCard : public QWidget {
     QLabel* detail_;
     QLabel* standstill_;
     QToolButton* corners_;
+    QToolButton* cluster_;
     QLabel* remade_;
     QLabel* speed_;
     QProgressBar* bar_;

@@ -1,6 +1,7 @@
 #include "ui/session/study_curves.h"
 
 #include "core/study/target.h"
+#include "core/workflow/compared_study.h"
 #include "core/workflow/study_design.h"
 
 namespace trapwright::session {
@@ -10,11 +11,11 @@ base::Result<StoredCurves> loadCurves(const std::filesystem::path& study) {
     if (!file) return file.error();
     const auto design = workflow::loadDesign(*file);
     if (!design) return design.error();
-    auto summaries = file->loadSummaries();
-    if (!summaries) return summaries.error();
+    auto compared = workflow::loadCompared(*file, study.stem().string());
+    if (!compared) return compared.error();
     auto checks = file->loadChecks();
     if (!checks) return checks.error();
-    return StoredCurves{study.stem().string(), std::move(*summaries), std::move(*checks),
+    return StoredCurves{std::move(*compared), std::move(*checks),
                         objectives::listAttainable(study::makeTask(design->settings, *design->part)),
                         findLaterCorners(design->settings.evolution)};
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/study/comparison.h"
 #include "core/study/records.h"
 #include "core/study/settings.h"
 
@@ -13,8 +14,7 @@ namespace trapwright::session {
 
 /// What charts show of a study that is not open here, to be compared with the one that is.
 struct StoredCurves {
-    std::string name;
-    std::vector<study::GenerationSummary> summaries;
+    study::ComparedStudy study;
     std::vector<study::CheckRecord> checks;
     std::vector<objectives::Score> attainable;  // objectives::listAttainable of the part
     std::optional<int> cornersFrom;             // findLaterCorners

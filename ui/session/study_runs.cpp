@@ -166,6 +166,18 @@ RunProgress StudyRuns::progress() const {
         progress.generation = run->plan ? run->plan->generation : static_cast<int>(state_->summaries.size());
         progress.individuals = state_->settings.evolution.populationSize;
     }
+    if (run->kind == RunState::following) {
+        const study::EvolutionSettings& evolution = state_->settings.evolution;
+        progress.job = run->job;
+        progress.generations = evolution.generations;
+        progress.generation = static_cast<int>(state_->summaries.size());
+        progress.trialsPerSecond = lateRate(run->firstGeneration);
+        const int left = std::max(evolution.generations - progress.generation, 0);
+        if (progress.trialsPerSecond > 0.0)
+            progress.secondsLeft = static_cast<double>(left) * evolution.populationSize *
+                                   evolution.trialsPerEvaluation / progress.trialsPerSecond;
+        return progress;
+    }
     if (run->plan) {
         const study::GenerationPlan& plan = *run->plan;
         const std::int64_t done = run->learning.run.done();
@@ -210,6 +222,7 @@ void StudyRuns::startRun(RunState kind, const QString& what, std::function<Faile
     auto run = std::make_shared<Run>();
     run->kind = kind;
     run->what = what;
+    run->firstGeneration = static_cast<int>(state_->summaries.size());
     run->remade = std::make_shared<trial::RemadeTrials>();
     run->clock.start();
     state_->run = run;
@@ -262,17 +275,7 @@ std::optional<workflow::Failure> StudyRuns::learn(Run& run, const study::Setting
         makeInputs(state_->environment, settings, part, trial::EngineUse::learning, threads, run.remade);
     if (!inputs) return settingsFailure(inputs.error());
 
-    workflow::LearnEvents events;
-    events.planned = [this](const study::GenerationPlan& plan) {
-        state_->tell([this, plan] { state_->run->plan = plan; });
-    };
-    events.saved = [this](const study::GenerationRecord& record) { tellGeneration(record); };
-    events.checked = [this](const study::CheckRecord& check) {
-        state_->tell([this, check] {
-            state_->checks.push_back(check);
-            emit checkSaved(check.generation);
-        });
-    };
+    const workflow::LearnEvents events = learnEvents();
     const auto report = workflow::learn(state_->writer.file(), *inputs, engines, events, run.learning);
     if (!report) return report.error();
     // Who asked to stop did not ask for the checks that are left.
@@ -285,6 +288,87 @@ std::optional<workflow::Failure> StudyRuns::learn(Run& run, const study::Setting
                                                 events.checked, run.trials);
     if (!checked) return checked.error();
     return std::nullopt;
+}
+
+workflow::LearnEvents StudyRuns::learnEvents() {
+    workflow::LearnEvents events;
+    events.planned = [this](const study::GenerationPlan& plan) {
+        state_->tell([this, plan] { state_->run->plan = plan; });
+    };
+    events.saved = [this](const study::GenerationRecord& record) { tellGeneration(record); };
+    events.checked = [this](const study::CheckRecord& check) {
+        state_->tell([this, check] {
+            state_->checks.push_back(check);
+            emit checkSaved(check.generation);
+        });
+    };
+    return events;
+}
+
+void StudyRuns::startJob(const workflow::JobPlan& plan) {
+    if (!state_->locked() && state_->problems.empty()) state_->undo.clear();
+    const auto work = [this, plan](Run& run) -> Failed {
+        // The copy has what was changed last.
+        if (const auto saved = state_->writer.savePending(); !saved)
+            return workflow::Failure{workflow::FailureKind::saving, saved.error().message};
+        const store::StudyFile& file = state_->writer.file();
+        const std::filesystem::path folder = workflow::findNextFolder(file.path());
+        const auto job = workflow::canSubmit() ? workflow::writeAndSubmit(file, folder, plan)
+                                               : workflow::writeJob(file, folder, plan);
+        if (!job) return workflow::Failure{workflow::FailureKind::simulation, job.error().message};
+        state_->tell([this, job = *job] { emit jobWritten(job); });
+        if (job->id.empty()) return std::nullopt;
+        return follow(run, *job);
+    };
+    startRun(RunState::following, tr("The study could not be given to a cluster"), work);
+}
+
+void StudyRuns::followJob(const workflow::ClusterJob& job) {
+    startRun(RunState::following, tr("What the job learned could not be taken"),
+             [this, job](Run& run) { return follow(run, job); });
+}
+
+std::optional<workflow::ClusterJob> StudyRuns::lastJob() const {
+    const std::filesystem::path folder = workflow::findLastFolder(state_->path);
+    if (folder.empty()) return std::nullopt;
+    auto job = workflow::readJob(folder);
+    return job ? std::optional(std::move(*job)) : std::nullopt;
+}
+
+void StudyRuns::followLastJob() {
+    if (state_->run) return;
+    const auto job = lastJob();
+    if (job && !job->id.empty() && !job->isOver) followJob(*job);
+}
+
+std::optional<workflow::Failure> StudyRuns::follow(Run& run, const workflow::ClusterJob& job) {
+    using workflow::JobState;
+    tellJob({job.id, JobState::waiting});
+    const auto end = workflow::followJob(
+        state_->writer.file(), job, learnEvents(),
+        [this, id = job.id](JobState now) {
+            tellJob({id, now});
+        },
+        run.learning, run.leaving);
+    if (!end) return end.error();
+    const bool isWanted = run.learning.stopRequested() || run.learning.run.cancelled();
+    if (*end != study::LearningEnd::stopped || isWanted || job.id.empty()) return std::nullopt;
+    const std::string said = workflow::readLastWords(job);
+    return workflow::Failure{workflow::FailureKind::simulation,
+                             tr("Job %1 ended before the last generation. What it learned is saved. %2")
+                                 .arg(QString::fromStdString(job.id),
+                                      said.empty() ? tr("It said nothing; its folder is %1.")
+                                                         .arg(QString::fromStdString(job.folder.string()))
+                                                   : tr("It said last: %1").arg(QString::fromStdString(said)))
+                                 .toStdString()};
+}
+
+void StudyRuns::tellJob(const FollowedJob& job) {
+    state_->tell([this, job] {
+        if (!state_->run || state_->run->job == job) return;
+        state_->run->job = job;
+        emit jobChanged(job);
+    });
 }
 
 void StudyRuns::tellGeneration(const study::GenerationRecord& record) {
@@ -427,7 +511,7 @@ void StudyRuns::startMending(const study::Individual& track, const study::Mendin
 
 void StudyRuns::pause() {
     Run* const run = state_->run.get();
-    if (run == nullptr || run->paused || activity_ != run->kind) return;
+    if (run == nullptr || run->paused || activity_ != run->kind || run->kind == RunState::following) return;
     run->learning.pause();
     run->trials.pause();
     run->before += run->clock.elapsed();
@@ -455,7 +539,8 @@ void StudyRuns::goOn() {
 void StudyRuns::stopAfterGeneration() {
     if (!state_->run || activity_ == RunState::stopping) return;
     // Only generations can be waited for.
-    if (state_->run->kind != RunState::learning || state_->run->total > 0) return stopNow();
+    const bool learns = state_->run->kind == RunState::learning || state_->run->kind == RunState::following;
+    if (!learns || state_->run->total > 0) return stopNow();
     state_->run->learning.stopAfterGeneration();
     goOn();
     setActivity(RunState::stoppingAfterGeneration);
@@ -528,15 +613,20 @@ double StudyRuns::estimatedSeconds() const {
     return workflow::learningTime(evolution, std::max(left, 0), state_->trialCost);
 }
 
-double StudyRuns::secondsFor(std::int64_t trials) const {
+double StudyRuns::lateRate(int since) const {
     constexpr std::size_t kLately = 5;  // generations
     std::vector<double> rates;
     for (auto i = summaries().rbegin(); i != summaries().rend() && rates.size() < kLately; ++i)
-        if (i->trialsPerSecond() > 0.0) rates.push_back(i->trialsPerSecond());
+        if (i->index >= since && i->trialsPerSecond() > 0.0) rates.push_back(i->trialsPerSecond());
     if (rates.empty()) return 0.0;
     const auto middle = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2);
     std::nth_element(rates.begin(), middle, rates.end());
-    return static_cast<double>(trials) / *middle;
+    return *middle;
+}
+
+double StudyRuns::secondsFor(std::int64_t trials) const {
+    const double rate = lateRate();
+    return rate > 0.0 ? static_cast<double>(trials) / rate : 0.0;
 }
 
 std::optional<LearningDraft> StudyRuns::draft() const {

@@ -15,8 +15,10 @@
 #include "core/study/settings.h"
 #include "core/study/stream.h"
 #include "core/trial/remade_trials.h"
+#include "core/workflow/cluster_job.h"
 #include "core/workflow/failure.h"
 #include "core/workflow/judging.h"
+#include "core/workflow/learning.h"
 #include "core/workflow/proposal.h"
 
 namespace trapwright::session {
@@ -29,6 +31,7 @@ struct StudyState;
 enum class RunState {
     idle,
     learning,
+    following,                // a job that learns the study on a cluster; it goes on without us
     paused,                   // in the middle of a generation; nothing is lost
     stoppingAfterGeneration,  // as soon as the present generation is saved
     stopping,                 // at once; what is not complete is dropped
@@ -44,6 +47,14 @@ enum class RunState {
 /// it stops, and there is no generation to wait for.
 bool isJudging(RunState state);
 
+/// The job that is followed.
+struct FollowedJob {
+    std::string id;                                          // the batch system's; empty: not queued yet
+    workflow::JobState state = workflow::JobState::waiting;  // as it said last
+
+    friend bool operator==(const FollowedJob&, const FollowedJob&) = default;
+};
+
 /// How far learning, selection, validation or a measurement has come.
 struct RunProgress {
     int generation = 0;       // the present one, from 0
@@ -55,6 +66,7 @@ struct RunProgress {
     double trialsPerSecond = 0.0;  // since the run began, pauses left out
     bool isPlanning = false;       // what learning begins with
     double secondsLeft = 0.0;      // 0 while unknown
+    std::optional<FollowedJob> job{};
 };
 
 /// Learning cut down to what a user waits for.
@@ -117,7 +129,17 @@ class StudyRuns : public QObject {
     /// Learns on from the last generation, and after the last one checks the winners that are left. failed()
     /// if the study has problems or something else goes on.
     void startLearning();
-    /// What goes on stands still; nothing is lost.
+    /// Learns as a job of a cluster: writes it beside the study, queues it where there is an sbatch, and has
+    /// what it learns come home while it does; told by jobWritten(). Stopping stops the job; a session that
+    /// ends leaves it.
+    void startJob(const workflow::JobPlan& plan);
+    /// What a job has learned comes home, and what it learns yet if it was queued from here.
+    void followJob(const workflow::ClusterJob& job);
+    /// The newest job of this study, as it lies beside it; none, or none that can be read.
+    [[nodiscard]] std::optional<workflow::ClusterJob> lastJob() const;
+    /// Follows the newest job if it was left while it went on.
+    void followLastJob();
+    /// What goes on stands still; nothing is lost. A job does not.
     void pause();
     void resume();
     void stopAfterGeneration();
@@ -155,6 +177,8 @@ class StudyRuns : public QObject {
     /// How long so many trials take in the engine that learns, by its rate in the last generations [s]; 0
     /// while there are none.
     [[nodiscard]] double secondsFor(std::int64_t trials) const;
+    /// Trials per second in the last generations since this one (the median); 0 while there are none.
+    [[nodiscard]] double lateRate(int since = 0) const;
     /// What can be learned in less than ten minutes (workflow::fitEvolution). None before the estimate,
     /// once there are generations, or where nothing useful fits.
     [[nodiscard]] std::optional<LearningDraft> draft() const;
@@ -166,6 +190,9 @@ class StudyRuns : public QObject {
  signals:
     void stateChanged(trapwright::session::RunState state);
     void progressed(const trapwright::session::RunProgress& progress);
+    /// Its id is empty where it could not be queued from here.
+    void jobWritten(const trapwright::workflow::ClusterJob& job);
+    void jobChanged(const trapwright::session::FollowedJob& job);
     void generationSaved(int generation);
     void checkSaved(int generation);
     void selectionSaved();
@@ -185,6 +212,9 @@ class StudyRuns : public QObject {
     void endRun(const std::optional<workflow::Failure>& failure);
     std::optional<workflow::Failure> learn(Run& run, const study::Settings& settings,
                                            const std::shared_ptr<const part::Part>& part, unsigned threads);
+    std::optional<workflow::Failure> follow(Run& run, const workflow::ClusterJob& job);
+    void tellJob(const FollowedJob& job);
+    [[nodiscard]] workflow::LearnEvents learnEvents();
     /// For any thread: a generation is in the file.
     void tellGeneration(const study::GenerationRecord& record);
     void goOn();

@@ -38,7 +38,7 @@ StudyState::StudyState(OpenedStudy study, const Environment& environmentGiven,
 }
 
 void StudyState::end() {
-    if (run) run->cancel();
+    if (run) run->leave();
     simulated.cancel();
     estimate.cancel();
     proposing.cancel();

@@ -37,6 +37,9 @@ struct Run {
     QString what;                     // it is called in messages
     study::LearningControl learning;  // any thread
     base::RunControl trials;          // any thread; of all but the generations
+    base::RunControl leaving;         // any thread; of a job, which goes on
+    std::optional<FollowedJob> job;
+    int firstGeneration = 0;
     std::optional<study::GenerationPlan> plan;
     std::int64_t total = 0;                       // of `trials`, once it is known
     std::shared_ptr<trial::RemadeTrials> remade;  // any thread
@@ -51,6 +54,11 @@ struct Run {
         learning.run.cancel();
         learning.checks.cancel();
         trials.cancel();
+    }
+    /// The session ends.
+    void leave() {
+        leaving.cancel();
+        if (kind != RunState::following) cancel();
     }
 };
 

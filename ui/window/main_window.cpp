@@ -87,6 +87,8 @@ MainWindow::MainWindow(session::Environment environment)
         if (page == "part" || page == "track") showPage("evolve");
     });
 
+    connect(run_.cluster(), &QAction::triggered, this, &MainWindow::askForCluster);
+
     // Another drive may have been connected while the study was opened.
     desk_.setGate([this](const std::function<void()>& pass) { farewell_->whenReleased(pass); });
 
@@ -217,6 +219,7 @@ void MainWindow::setSession(session::StudySession* session) {
     status_->setVisible(session != nullptr);
     frame_->showWelcome(session == nullptr);
     showDocks();
+    if (session != nullptr) session->runs().followLastJob();
 }
 
 /// Before another study takes its place, or none does.

@@ -80,6 +80,8 @@ class MainWindow : public QMainWindow {
     void askForDraft();
     void askForStudy();
     void save();
+    /// What a job of a cluster is to have; of a study with a name, beside which the job's folder lies.
+    void askForCluster();
     void askForSaveAs(const std::function<void()>& afterwards);
     void importPart(const std::filesystem::path& file, bool asNewStudy);
     void openStudy(const std::filesystem::path& file, bool learn = false);

@@ -151,8 +151,8 @@ void MainWindow::addViewMenu() {
 
 void MainWindow::addRunMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&Run"));
-    menu.addActions({run_.start(), run_.draft(), run_.corners(), run_.pause(), run_.stopAfterGeneration(),
-                     run_.stopNow()});
+    menu.addActions({run_.start(), run_.draft(), run_.corners(), run_.cluster(), run_.pause(),
+                     run_.stopAfterGeneration(), run_.stopNow()});
 }
 
 void MainWindow::addHelpMenu() {

@@ -5,6 +5,7 @@
 #include "ui/look/file_dialog.h"
 #include "ui/look/message_bar.h"
 #include "ui/look/text.h"
+#include "ui/pages/cluster_dialog.h"
 #include "ui/pages/page.h"
 #include "ui/pages/part_files.h"
 #include "ui/session/part_import.h"
@@ -82,6 +83,14 @@ void MainWindow::askForSaveAs(const std::function<void()>& afterwards) {
                             report(tr("The study cannot be saved there"), saved);
                             if (saved) afterwards();
                         });
+}
+
+void MainWindow::askForCluster() {
+    if (desk_.session() == nullptr) return;
+    if (desk_.isDraft()) return askForSaveAs([this] { askForCluster(); });
+    showPage("evolve");
+    auto* dialog = new pages::ClusterDialog(*desk_.session(), this);
+    dialog->open();
 }
 
 /// A study with a name is saved already: whoever presses Ctrl+S out of habit is told so.
@@ -172,7 +181,8 @@ void MainWindow::offerRecovery() {
 void MainWindow::whenClosable(const std::function<void()>& afterwards) {
     const session::StudySession* session = desk_.session();
     const RunState state = session == nullptr ? RunState::idle : session->runs().state();
-    if (state == RunState::idle || state == RunState::simulating) {
+    // A job of a cluster goes on by itself.
+    if (state == RunState::idle || state == RunState::simulating || state == RunState::following) {
         return whenSaved([this, afterwards] { farewell_->whenReleased(afterwards); });
     }
 

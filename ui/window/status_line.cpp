@@ -37,6 +37,8 @@ StateFace faceOf(RunState state, bool problems) {
                             : StateFace{StatusLine::tr("Ready"), "good", false};
         case RunState::learning:
             return {StatusLine::tr("Learning"), "start", true};
+        case RunState::following:
+            return {StatusLine::tr("Learning on a cluster"), "cluster", true};
         case RunState::paused:
             return {StatusLine::tr("Paused"), "pause", true};
         case RunState::stoppingAfterGeneration:

@@ -3,7 +3,9 @@
 #include <QTemporaryDir>
 #include <QtTest>
 #include <csignal>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 using namespace trapwright;
 using namespace std::chrono_literals;
@@ -38,6 +40,19 @@ class CommandTest : public QObject {
         const auto ran = base::runCommand({"sh", "-c", "sleep 600 & sleep 600"}, "", 300ms);
         QVERIFY(!ran.ok());
         QVERIFY2(ran.error().message.find("did not end") != std::string::npos, ran.error().message.c_str());
+    }
+
+    void whatIsNotWaitedForIsKilled() {
+        base::RunControl control;
+        std::thread canceller([control]() mutable {
+            std::this_thread::sleep_for(200ms);
+            control.cancel();
+        });
+        const auto ran = base::runCommand({"sh", "-c", "sleep 600 & sleep 600"}, "", 600s, control);
+        canceller.join();
+        QVERIFY(!ran.ok());
+        QVERIFY2(ran.error().message.find("not waited for") != std::string::npos,
+                 ran.error().message.c_str());
     }
 
     void whatIsNotThereCannotBeStarted() {

@@ -33,6 +33,11 @@ const PlotSheet& plotOf(const ChartSheet& sheet, const QString& key) {
                          [&](const PlotSheet& plot) { return plot.key == key; });
 }
 
+/// What a study of someStudy() has as its best F_O in its first generation.
+double bestOf(double orientation) {
+    return objectives::findScore(sample::summary(0, orientation).statistics.best, "F_O")->value;
+}
+
 bool isOn(const ChartSheet& sheet, const QString& key) {
     return std::find_if(sheet.legend.begin(), sheet.legend.end(),
                         [&](const LegendEntry& entry) { return entry.key == key; })
@@ -173,6 +178,34 @@ class StudySheetsTest : public QObject {
                     QVERIFY(!(plot.curves[a].style == plot.curves[b].style));
             }
         }
+    }
+
+    // Of generations that one has alone there is no median.
+    void severalStudiesAreTheirMedianBetweenTheirQuartiles() {
+        std::vector<StudyCurves> studies{someStudy("one", 0.5), {}};
+        studies[1].name = "median of 3 studies";
+        for (const double orientation : {0.1, 0.2, 0.6})
+            studies[1].members.push_back(someStudy("", orientation).summaries);
+        studies[1].members[0].push_back(sample::summary(3, 0.1));
+        const ChartSheet sheet = charts::fitnessSheet(studies);
+        const PlotSheet& plot = plotOf(sheet, "F_O");
+        const auto median = std::find_if(plot.curves.begin(), plot.curves.end(), [](const Curve& curve) {
+            return curve.name == "best, median of 3 studies";
+        });
+        QVERIFY(median != plot.curves.end() && median->style.second);
+        QCOMPARE(median->points.size(), std::size_t{3});
+        QCOMPARE(median->band.size(), std::size_t{3});
+        QCOMPARE(median->points[0], QPointF(0.0, bestOf(0.2)));
+        QCOMPARE(median->band[0].low, (bestOf(0.1) + bestOf(0.2)) / 2.0);
+        QCOMPARE(median->band[0].high, (bestOf(0.2) + bestOf(0.6)) / 2.0);
+        QVERIFY(median->bandColumns[0].endsWith("lower quartile"));
+        // One area in a plot.
+        for (const Curve& curve : plot.curves)
+            QCOMPARE(!curve.band.empty(), &curve == &*median);
+        // The winner's own interval stays that of the one study.
+        const Curve& winner = charts::successSheet(studies).plots[0].curves.at(0);
+        QVERIFY(winner.bandColumns[0].contains("Clopper-Pearson"));
+        QCOMPARE(charts::speedSheet(studies).plots[0].curves.size(), std::size_t{2});
     }
 
     void sharedAttainableScoreIsOneLine() {

@@ -539,15 +539,40 @@ class EvolvePageTest : public QObject {
         User user(studies);
         QVERIFY(user.open(studies.path("a.trap")));
         auto* charts = user.window.findChild<pages::LearningCharts*>();
-        charts->compareWith(studies.path("b.trap"));
+        charts->compareWith({studies.path("b.trap")});
         QVERIFY(waitUntil([&] { return user.chart("fitness")->studies().size() == 2; }));
         QCOMPARE(user.chart("speed")->studies()[1].summaries.size(), std::size_t{kGenerations});
         QVERIFY(user.text("evolve.compared").contains("b"));
         user.click("evolve.endComparison");
         QCOMPARE(user.chart("fitness")->studies().size(), std::size_t{1});
-        charts->compareWith(studies.path("missing.trap"));
+        charts->compareWith({studies.path("missing.trap")});
         QVERIFY(waitUntil(
             [&] { return user.find<look::MessageBar>("messageBar")->text().contains("missing.trap"); }));
+    }
+
+    // The open one among them.
+    void seedsAreComparedByTheirMedian() {
+        session::SessionFixture studies;
+        for (const char* name : {"a.trap", "b.trap", "c.trap", "d.trap"})
+            QVERIFY(makeLearned(studies, name));
+        User user(studies);
+        QVERIFY(user.open(studies.path("a.trap")));
+        auto* charts = user.window.findChild<pages::LearningCharts*>();
+        charts->compareWith(
+            {studies.path("a.trap"), studies.path("b.trap"), studies.path("c.trap"), studies.path("d.trap")});
+        QVERIFY(waitUntil([&] { return user.chart("success")->studies().size() == 2; }));
+        const charts::StudyCurves& all = user.chart("success")->studies()[1];
+        QCOMPARE(all.name, QString("median of 4 studies"));
+        QCOMPARE(all.members.size(), std::size_t{4});
+        QCOMPARE(user.text("compared.0.0"), QString("Study"));
+        QCOMPARE(user.text("compared.4.0"), QString("d"));
+        QCOMPARE(user.text("compared.4.1"), QString::number(kGenerations));
+        QCOMPARE(user.text("compared.6.0"), QString("Median"));
+        // All are alike.
+        QCOMPARE(user.text("compared.6.2"), user.text("compared.1.2"));
+        user.click("evolve.endComparison");
+        QCOMPARE(user.chart("success")->studies().size(), std::size_t{1});
+        QVERIFY(!user.find<QWidget>("evolve.comparisonTable")->isVisible());
     }
 
     void lockedSettingsAreChangedInANewStudy() {

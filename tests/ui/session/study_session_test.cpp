@@ -288,9 +288,9 @@ class StudySessionTest : public QObject {
         QVERIFY(session && learnToTheEnd(*session));
         const auto curves = loadCurves(session->path());
         VERIFY_OK(curves);
-        QCOMPARE(curves->name, std::string("a"));
-        QCOMPARE(curves->summaries.size(), std::size_t{2});
-        QCOMPARE(curves->summaries[1].statistics, session->runs().summaries()[1].statistics);
+        QCOMPARE(curves->study.name, std::string("a"));
+        QCOMPARE(curves->study.generations.size(), std::size_t{2});
+        QCOMPARE(curves->study.generations[1].statistics, session->runs().summaries()[1].statistics);
         QVERIFY(curves->attainable == session->design().attainable());
         QVERIFY(!loadCurves(fixture_->path("none.trap")).ok());
     }
