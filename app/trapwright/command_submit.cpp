@@ -43,7 +43,7 @@ std::filesystem::path chooseFolder(const std::filesystem::path& study) {
     if (last.empty()) return workflow::findNextFolder(study);
     const auto job = workflow::readJob(last);
     const bool goesOn =
-        !job || job->id.empty() || (!job->isOver && workflow::askJob(*job) != workflow::JobState::over);
+        !job || job->id.empty() || (!job->isOver && workflow::askJob(*job).state != workflow::JobState::over);
     return goesOn ? last : workflow::findNextFolder(study);
 }
 

@@ -259,10 +259,10 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
 
 Attempt<study::LearningEnd> followLearning(store::StudyFile& file, const study::Settings& settings,
                                            const workflow::ClusterJob& job, const Console& console) {
-    const auto nameOf = [](workflow::JobState state) {
-        switch (state) {
+    const auto nameOf = [](const workflow::JobStatus& status) -> std::string {
+        switch (status.state) {
             case workflow::JobState::waiting:
-                return "waits in the queue";
+                return "waits in the queue" + (status.reason.empty() ? "" : " (" + status.reason + ")");
             case workflow::JobState::running:
                 return "runs";
             case workflow::JobState::over:
@@ -308,7 +308,7 @@ Attempt<study::LearningEnd> followLearning(store::StudyFile& file, const study::
         };
         return workflow::followJob(
             file, job, events,
-            [&](workflow::JobState now) {
+            [&](const workflow::JobStatus& now) {
                 const std::lock_guard lock(mutex);
                 state = nameOf(now);
             },

@@ -205,25 +205,28 @@ base::Status submitJob(ClusterJob& job) {
     return writeNote(job);
 }
 
-JobState askJob(const ClusterJob& job, const base::RunControl& control) {
-    const auto asked = ask({"squeue", "--noheader", "--format=%T", "--jobs=" + job.id}, control);
-    if (!asked) return JobState::unknown;
+JobStatus askJob(const ClusterJob& job, const base::RunControl& control) {
+    const auto asked = ask({"squeue", "--noheader", "--format=%T %r", "--jobs=" + job.id}, control);
+    if (!asked) return {JobState::unknown};
     const std::string said = trimmed(asked->output);
     if (asked->code != 0)
         // Of a job that ended some minutes ago it knows nothing any more.
-        return said.find("Invalid job id") != std::string::npos ? JobState::over : JobState::unknown;
-    if (said.empty()) return JobState::over;
+        return {said.find("Invalid job id") != std::string::npos ? JobState::over : JobState::unknown};
+    if (said.empty()) return {JobState::over};
     for (const char* state : {"RUNNING", "COMPLETING", "SUSPENDED", "STOPPED", "SIGNALING", "STAGE_OUT"})
-        if (said.starts_with(state)) return JobState::running;
+        if (said.starts_with(state)) return {JobState::running};
     for (const char* state : {"PENDING", "CONFIGURING", "REQUEUED", "REQUEUE_HOLD", "REQUEUE_FED",
                               "RESV_DEL_HOLD", "SPECIAL_EXIT", "RESIZING"})
-        if (said.starts_with(state)) return JobState::waiting;
-    return JobState::over;
+        if (said.starts_with(state)) {
+            const std::string reason = said.substr(std::min(said.find(' '), said.size() - 1) + 1);
+            return {JobState::waiting, reason == "None" ? std::string() : reason};
+        }
+    return {JobState::over};
 }
 
 base::Status stopJob(const ClusterJob& job, JobStop stop) {
     // Who waits has no generation that could end.
-    const bool mayEnd = stop == JobStop::afterGeneration && askJob(job) == JobState::running;
+    const bool mayEnd = stop == JobStop::afterGeneration && askJob(job).state == JobState::running;
     const auto told =
         mayEnd ? ask({"scancel", "--batch", "--signal=USR2", job.id}) : ask({"scancel", job.id});
     if (!told) return told.error();
@@ -253,13 +256,13 @@ std::string readLastWords(const ClusterJob& job) {
 }
 
 Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& job, const LearnEvents& events,
-                                     const std::function<void(JobState)>& changed,
+                                     const std::function<void(const JobStatus&)>& changed,
                                      const study::LearningControl& control, const base::RunControl& leave,
                                      const FollowIntervals& intervals) {
     constexpr std::chrono::milliseconds kNap{50};
     const bool isQueued = !job.id.empty();
-    std::optional<JobState> state;
-    if (!isQueued) state = JobState::over;
+    std::optional<JobStatus> status;
+    if (!isQueued) status = {JobState::over};
     std::optional<JobStop> asked;
     Clock::time_point nextLook = Clock::now();
     Clock::time_point nextAsk = nextLook;
@@ -277,13 +280,13 @@ Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& j
             nextAsk = Clock::now();
         }
         if (isQueued && Clock::now() >= nextAsk) {
-            const JobState now = askJob(job, leave);
+            const JobStatus now = askJob(job, leave);
             if (leave.cancelled()) break;
-            if (now != state && changed) changed(now);
-            state = now;
+            if (now != status && changed) changed(now);
+            status = now;
             nextAsk = Clock::now() + intervals.state;
         }
-        const bool isOver = state == JobState::over;
+        const bool isOver = status && status->state == JobState::over;
         if (Clock::now() >= nextLook || isOver) {
             auto taken = look(file, job);
             if (!taken) return describeSaving(taken.error());

@@ -60,7 +60,14 @@ enum class JobState {
     over,    // ended, whether well or not
     unknown  // the batch system does not answer
 };
-JobState askJob(const ClusterJob& job, const base::RunControl& control = {});
+struct JobStatus {
+    JobState state = JobState::waiting;
+    std::string
+        reason{};  // why it waits, in the batch system's words: "Resources", "Priority"; empty: not told
+
+    friend bool operator==(const JobStatus&, const JobStatus&) = default;
+};
+JobStatus askJob(const ClusterJob& job, const base::RunControl& control = {});
 
 enum class JobStop { afterGeneration, atOnce };
 /// What the batch system says if it cannot.
@@ -75,12 +82,12 @@ struct FollowIntervals {
 };
 
 /// Takes what the job learns into the study, until it is over: events.saved and events.checked tell each,
-/// `changed` each state. A job that was not submitted from here, but elsewhere or not at all, is taken as far
-/// as it is. The control's stop and its cancel stop the job, after the generation or at once; `leave` ends
-/// the watching, and the job goes on. Errors: the job's study is none of this one, cannot be read for a
+/// `changed` each status. A job that was not submitted from here, but elsewhere or not at all, is taken as
+/// far as it is. The control's stop and its cancel stop the job, after the generation or at once; `leave`
+/// ends the watching, and the job goes on. Errors: the job's study is none of this one, cannot be read for a
 /// minute, or cannot be saved.
 Result<study::LearningEnd> followJob(store::StudyFile& file, const ClusterJob& job, const LearnEvents& events,
-                                     const std::function<void(JobState)>& changed,
+                                     const std::function<void(const JobStatus&)>& changed,
                                      const study::LearningControl& control,
                                      const base::RunControl& leave = {},
                                      const FollowIntervals& intervals = {});

@@ -35,7 +35,8 @@ using session::StudySession;
 
 namespace {
 
-constexpr int kWidth = 560;  // [px]
+constexpr int kNumberWidth = 128;  // [px]
+constexpr int kWidth = 560;        // [px]
 constexpr int kMostRanks = 100000;
 constexpr double kShortestTurn = 0.05;  // [h]
 constexpr double kLongestTurn = 10000.0;
@@ -83,7 +84,7 @@ ClusterDialog::ClusterDialog(StudySession& session, QWidget* parent)
     column->addWidget(said_);
     setMinimumWidth(kWidth);
 
-    connect(&runs_, &StudyRuns::estimated, this, &ClusterDialog::showTime);
+    connect(&runs_, &StudyRuns::estimated, this, &ClusterDialog::showForm);
     connect(&runs_, &StudyRuns::jobWritten, this, [this](const workflow::ClusterJob& job) {
         isAsked_ = false;
         if (!job.id.empty()) return accept();
@@ -93,7 +94,7 @@ ClusterDialog::ClusterDialog(StudySession& session, QWidget* parent)
         if (isAsked_) tell(message, true);
     });
     connect(&runs_, &StudyRuns::stateChanged, this, [this](RunState state) {
-        submit_->setEnabled(state == RunState::idle);
+        showForm();
         take_->setEnabled(state == RunState::idle);
         if (state != RunState::idle || !std::exchange(isAsked_, false)) return;
         const std::size_t taken = runs_.summaries().size() - known_;
@@ -150,28 +151,29 @@ QWidget* ClusterDialog::makeForm() {
     auto* form = new QFormLayout;
     form->setLabelAlignment(Qt::AlignLeft);
     form->setHorizontalSpacing(16);
+    for (QWidget* number : {static_cast<QWidget*>(ranks_), static_cast<QWidget*>(hours_)})
+        number->setFixedWidth(kNumberWidth);
     form->addRow(tr("Processors"), ranks_);
     form->addRow(tr("Time of one turn"), hours_);
     form->addRow(tr("Options for sbatch"), options_);
-    form->addRow(tr("Trapwright there"), program_);
+    form->addRow(tr("Program on the cluster"), program_);
     column->addLayout(form);
     time_ = makeText({}, page);
     time_->setObjectName("cluster.time");
     time_->setForegroundRole(QPalette::PlaceholderText);
     column->addWidget(time_);
     column->addStretch(1);
-    connect(ranks_, &QSpinBox::valueChanged, this, &ClusterDialog::showTime);
+    connect(ranks_, &QSpinBox::valueChanged, this, &ClusterDialog::showForm);
 
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, page);
     submit_ = buttons->addButton(canSubmit_ ? tr("Submit the job") : tr("Write the job"),
                                  QDialogButtonBox::AcceptRole);
     submit_->setObjectName("cluster.submit");
     submit_->setDefault(true);
-    submit_->setEnabled(runs_.state() == RunState::idle || runs_.state() == RunState::simulating);
     connect(buttons, &QDialogButtonBox::accepted, this, &ClusterDialog::submit);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     column->addWidget(buttons);
-    showTime();
+    showForm();
     return page;
 }
 
@@ -214,6 +216,7 @@ QWidget* ClusterDialog::makeWritten() {
     another->setObjectName("cluster.another");
     connect(another, &QPushButton::clicked, this, [this] {
         said_->hide();
+        showForm();
         stack_->setCurrentIndex(0);
     });
     take_ = buttons->addButton(tr("Take what it learned"), QDialogButtonBox::AcceptRole);
@@ -225,7 +228,7 @@ QWidget* ClusterDialog::makeWritten() {
     return page;
 }
 
-void ClusterDialog::showTime() {
+void ClusterDialog::showForm() {
     const study::EvolutionSettings& evolution = runs_.design().settings().evolution;
     const int ranks = ranks_->value();
     const std::int64_t trials =
@@ -234,6 +237,9 @@ void ClusterDialog::showTime() {
     const unsigned threads = runs_.threads() == 0 ? base::availableThreads() : runs_.threads();
     const double seconds =
         std::max(runs_.estimatedSeconds(), runs_.secondsFor(left * trials)) * threads / ranks;
+    const bool isResting = runs_.state() == RunState::idle || runs_.state() == RunState::simulating;
+    submit_->setEnabled(isResting && left > 0);
+    if (left <= 0) return time_->setText(tr("All generations are learned. Raise their number first."));
     QStringList text;
     if (seconds > 0.0)
         text << tr("%1 at best with processors like these, for %L2 generations of %L3 trials.")

@@ -29,7 +29,7 @@ class ClusterDialog : public QDialog {
  private:
     QWidget* makeForm();
     QWidget* makeWritten();
-    void showTime();
+    void showForm();
     void showWritten(const workflow::ClusterJob& job);
     void submit();
     void take();

@@ -186,9 +186,13 @@ void EventLog::tellJob(const session::FollowedJob& job) {
     using workflow::JobState;
     if (job.id.empty()) return;
     const QString id = QString::fromStdString(job.id);
-    switch (job.state) {
+    switch (job.status.state) {
         case JobState::waiting:
-            return add(Kind::info, tr("Job %1 waits in the queue").arg(id));
+            return add(
+                Kind::info,
+                job.status.reason.empty()
+                    ? tr("Job %1 waits in the queue").arg(id)
+                    : tr("Job %1 waits in the queue: %2").arg(id, QString::fromStdString(job.status.reason)));
         case JobState::running:
             return add(Kind::good, tr("Job %1 runs").arg(id));
         case JobState::over:

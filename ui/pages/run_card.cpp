@@ -38,7 +38,8 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
       bar_(new QProgressBar(this)),
       draft_(new QWidget(this)),
       draftTime_(new QLabel(draft_)),
-      run_(run) {
+      run_(run),
+      hasQueue_(workflow::canSubmit()) {
     setObjectName("evolve.card");
     title_->setObjectName("evolve.state");
     QFont font = title_->font();
@@ -77,6 +78,7 @@ RunCard::RunCard(RunActions& run, QWidget* parent)
     draft->addWidget(makeButton(run.draft(), "evolve.draft"));
     draft->addWidget(draftTime_);
     connect(run.draft(), &QAction::changed, this, &RunCard::showDraft);
+    connect(run.cluster(), &QAction::changed, this, &RunCard::showCluster);
     connect(run.corners(), &QAction::changed, this, &RunCard::showStandstill);
 
     auto* buttons = new QGridLayout;
@@ -147,7 +149,7 @@ void RunCard::announce() {
 void RunCard::update() {
     const RunState state = runs_ ? runs_->state() : RunState::idle;
     const bool idle = state == RunState::idle || state == RunState::simulating;
-    cluster_->setVisible(state == RunState::idle && run_.cluster()->isEnabled());
+    showCluster();
     draft_->setVisible(idle && runs_ && runs_->summaries().empty() && runs_->design().problems().empty());
     bar_->setVisible(!idle);
     speed_->setVisible(!idle);
@@ -221,6 +223,11 @@ QString RunCard::workText() const {
 /// What the action tells when it is pointed at.
 void RunCard::showDraft() {
     draftTime_->setText(run_.draft()->toolTip() + '.');
+}
+
+/// Where there is a queue; elsewhere it is in the menu, for few.
+void RunCard::showCluster() {
+    cluster_->setVisible(hasQueue_ && run_.cluster()->isEnabled());
 }
 
 void RunCard::showIdle() {
@@ -330,9 +337,11 @@ void RunCard::showJob(const RunProgress& progress) {
         title = tr("Stopping after this generation");
     } else if (runs_->state() == RunState::stopping) {
         title = tr("Stopping");
-    } else if (progress.job->state == JobState::waiting) {
+    } else if (progress.job->status.state == JobState::waiting) {
         title = tr("Waiting in the cluster's queue");
-    } else if (progress.job->state == JobState::unknown) {
+        if (!progress.job->status.reason.empty())
+            detail += tr(" (the queue says: %1)").arg(QString::fromStdString(progress.job->status.reason));
+    } else if (progress.job->status.state == JobState::unknown) {
         title = tr("The cluster does not answer");
         detail += ". " + tr("It is asked again every few seconds; the job may go on meanwhile.");
     }

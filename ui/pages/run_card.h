@@ -38,6 +38,7 @@ class RunCard : public QWidget {
     void showSuccess();
     void showStandstill();
     void showRemade();
+    void showCluster();
     void showIdle();
     void showDraft();
     void showRun(session::RunState state);
@@ -57,6 +58,7 @@ class RunCard : public QWidget {
     QWidget* draft_;
     QLabel* draftTime_;
     RunActions& run_;
+    bool hasQueue_;  // jobs of a cluster can be submitted from here
 };
 
 }  // namespace trapwright::pages

@@ -342,11 +342,10 @@ void StudyRuns::followLastJob() {
 }
 
 std::optional<workflow::Failure> StudyRuns::follow(Run& run, const workflow::ClusterJob& job) {
-    using workflow::JobState;
-    tellJob({job.id, JobState::waiting});
+    tellJob({job.id});
     const auto end = workflow::followJob(
         state_->writer.file(), job, learnEvents(),
-        [this, id = job.id](JobState now) {
+        [this, id = job.id](const workflow::JobStatus& now) {
             tellJob({id, now});
         },
         run.learning, run.leaving);

@@ -49,8 +49,8 @@ bool isJudging(RunState state);
 
 /// The job that is followed.
 struct FollowedJob {
-    std::string id;                                          // the batch system's; empty: not queued yet
-    workflow::JobState state = workflow::JobState::waiting;  // as it said last
+    std::string id;                // the batch system's; empty: it was queued elsewhere, if at all
+    workflow::JobStatus status{};  // as it said last
 
     friend bool operator==(const FollowedJob&, const FollowedJob&) = default;
 };

@@ -141,7 +141,10 @@ void StatusLine::changeEvent(QEvent* event) {
 void StatusLine::update() {
     const RunState runState = runs_ ? runs_->state() : RunState::idle;
     const bool problems = runs_ && !runs_->design().problems().empty();
-    const StateFace face = faceOf(runState, problems);
+    StateFace face = faceOf(runState, problems);
+    const auto job = runs_ ? runs_->progress().job : std::nullopt;
+    if (job && !job->id.empty() && job->status.state == workflow::JobState::waiting)
+        face.text = tr("Waiting for a cluster");
     for (QWidget* widget : std::initializer_list<QWidget*>{sign_, state_})
         widget->setVisible(runs_ != nullptr);
     for (QWidget* widget : std::initializer_list<QWidget*>{bar_, individual_, speed_, left_})

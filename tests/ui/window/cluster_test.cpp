@@ -51,6 +51,8 @@ class ClusterTest : public QObject {
         QVERIFY(open(window));
         auto& runs = window.desk().session()->runs();
         QSignalSpy saved(&runs, &session::StudyRuns::generationSaved);
+        window.showPage("evolve");
+        QVERIFY(find<QToolButton>(window, "evolve.cluster")->isVisible());
         QDialog* dialog = ask(window);
         QVERIFY(dialog != nullptr);
         dialog->findChild<QSpinBox*>("cluster.ranks")->setValue(2);
@@ -58,7 +60,7 @@ class ClusterTest : public QObject {
         QVERIFY(find<QLabel>(window, "cluster.time")->text().contains("home-job"));
         click(dialog, "cluster.submit");
         QTRY_VERIFY_WITH_TIMEOUT(runs.state() == RunState::following, kPatience);
-        QCOMPARE(find<QLabel>(window, "status.state")->text(), QString("Learning on a cluster"));
+        QTRY_COMPARE(find<QLabel>(window, "status.state")->text(), QString("Learning on a cluster"));
         QVERIFY(!action(window, "run.pause")->isEnabled() && !action(window, "run.start")->isEnabled());
         QTRY_VERIFY_WITH_TIMEOUT(window.findChild<QDialog*>("cluster") == nullptr, kPatience);
         QTRY_COMPARE_WITH_TIMEOUT(runs.state(), RunState::idle, kPatience);
@@ -104,6 +106,30 @@ class ClusterTest : public QObject {
         dialog->reject();
     }
 
+    // A job that waits has no generation that could end: it goes from the queue.
+    void tellsWhyAJobWaits() {
+        QVERIFY(SlurmStandIn(folder_->path())
+                    .write("squeue",
+                           "#!/bin/sh\nif [ -e \"$SLURM_STANDIN/cancelled\" ]; then exit 0; fi\n"
+                           "echo 'PENDING ReqNodeNotAvail, UnavailableNodes:v[1-2]'\n"));
+        QVERIFY(SlurmStandIn(folder_->path())
+                    .write("sbatch",
+                           "#!/bin/sh\nsleep 600 > /dev/null 2>&1 & echo $! > "
+                           "\"$SLURM_STANDIN/process\"\necho 7\n"));
+        makeStudy("home.trap", 3);
+        window::MainWindow window{environment()};
+        QVERIFY(open(window));
+        click(ask(window), "cluster.submit");
+        auto* detail = find<QLabel>(window, "evolve.detail");
+        QTRY_VERIFY_WITH_TIMEOUT(detail->text().contains("ReqNodeNotAvail, UnavailableNodes:v[1-2]"),
+                                 kPatience);
+        QCOMPARE(find<QLabel>(window, "status.state")->text(), QString("Waiting for a cluster"));
+        action(window, "run.stopAfterGeneration")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(window.desk().session()->runs().state(), RunState::idle, kPatience);
+        QCOMPARE(notes("cancelled"), QByteArray("7\n"));
+        QVERIFY2(messageOf(window).isEmpty(), qPrintable(messageOf(window)));
+    }
+
     void tellsWhatSbatchSays() {
         QVERIFY(SlurmStandIn(folder_->path()).write("sbatch", test::kRefusing));
         makeStudy("home.trap", 3);
@@ -138,6 +164,8 @@ class ClusterTest : public QObject {
         makeStudy("home.trap", 3);
         window::MainWindow window{environment()};
         QVERIFY(open(window));
+        window.showPage("evolve");
+        QVERIFY(!find<QToolButton>(window, "evolve.cluster")->isVisible());
         QDialog* dialog = ask(window);
         QCOMPARE(dialog->findChild<QPushButton*>("cluster.submit")->text(), QString("Write the job"));
         click(dialog, "cluster.submit");
@@ -196,7 +224,12 @@ class ClusterTest : public QObject {
     }
     static QDialog* ask(window::MainWindow& window) {
         window.showPage("evolve");
-        QTest::mouseClick(find<QToolButton>(window, "evolve.cluster"), Qt::LeftButton);
+        auto* button = find<QToolButton>(window, "evolve.cluster");
+        if (button->isVisible()) {
+            QTest::mouseClick(button, Qt::LeftButton);
+        } else {
+            action(window, "run.cluster")->trigger();
+        }
         return window.findChild<QDialog*>("cluster");
     }
     static void click(QDialog* dialog, const char* name) {
