@@ -163,9 +163,13 @@ void Plot::paintMarkers(QPainter& painter, std::size_t curve) const {
 /// Cut to the plot by our own arithmetic: QSvgGenerator of Qt 6.4 knows no clipping.
 void Plot::paintBands(QPainter& painter) const {
     const QRectF area = plotArea();
+    const bool isAlone =
+        std::ranges::count_if(curves_, [](const DrawnCurve& curve) { return !curve.low.isEmpty(); }) == 1;
     for (std::size_t i = 0; i < curves_.size(); ++i) {
         if (!curves_[i].shown || curves_[i].low.isEmpty()) continue;
-        QColor colour = theme_.series(sheet_.curves[i].style.colour, sheet_.curves[i].style.second);
+        // Lighter than the first one's, if there is that.
+        const CurveStyle& style = sheet_.curves[i].style;
+        QColor colour = theme_.series(style.colour, style.second && !isAlone);
         colour.setAlphaF(kBandOpacity);
         painter.setPen(Qt::NoPen);
         painter.setBrush(colour);

@@ -63,6 +63,11 @@ void fill(Curve& curve, const StudyCurves& study, const ValueOf& valueOf) {
                              Text::tr("%1, upper quartile").arg(curve.column)};
 }
 
+/// Whether one of them stands for several.
+bool hasSeveral(const std::vector<StudyCurves>& studies) {
+    return std::ranges::any_of(studies, [](const StudyCurves& study) { return !study.members.empty(); });
+}
+
 /// Areas of several curves would hide each other.
 void dropBand(Curve& curve) {
     curve.band.clear();
@@ -295,7 +300,8 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
             return success && success->trials > 0 ? kPercent * success->share()
                                                   : std::numeric_limits<double>::quiet_NaN();
         });
-        if (studies[i].members.empty()) addBounds(curve, studies, i);
+        // Beside quartiles it would be one area too many.
+        if (!hasSeveral(studies)) addBounds(curve, studies, i);
         CurveStyle mean = kMean;
         mean.second = i > 0;
         Curve top{withStudy(Text::tr("mean of top 30 %"), studies, i),
@@ -312,11 +318,15 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
         plot.curves.push_back(std::move(top));
     }
     sheet.plots.push_back(std::move(plot));
-    sheet.legend.push_back(
-        {"best", Text::tr("winner, with its 95 % bounds"),
-         Text::tr("Parts of each generation's winner that finished in the expected orientation, of all its "
-                  "trials. The area is the 95 % Clopper-Pearson interval."),
-         kBest});
+    const QString winner = Text::tr(
+        "Parts of each generation's winner that finished in the expected orientation, of all its trials.");
+    if (hasSeveral(studies)) {
+        sheet.legend.push_back({"best", Text::tr("winner"), winner, kBest});
+    } else {
+        sheet.legend.push_back({"best", Text::tr("winner, with its 95 % bounds"),
+                                winner + ' ' + Text::tr("The area is the 95 % Clopper-Pearson interval."),
+                                kBest});
+    }
     sheet.legend.push_back({"mean", Text::tr("mean of top 30 %"),
                             Text::tr("The mean success of the best 30 % of each generation."), kMean});
     addStudies(sheet, studies);

@@ -163,7 +163,7 @@ charts::StudyCurves LearningCharts::otherCurves() const {
                 speedsOf(other.study.generations),        other.attainable,        other.cornersFrom};
     }
     charts::StudyCurves all;
-    all.name = tr("median of %1 studies").arg(others_.size() + 1);
+    all.name = tr("median and quartiles of %1 studies").arg(others_.size() + 1);
     all.attainable = session_->design().attainable();
     all.members.push_back(session_->runs().summaries());
     for (const session::StoredCurves& other : others_)

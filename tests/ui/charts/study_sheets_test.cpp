@@ -202,9 +202,10 @@ class StudySheetsTest : public QObject {
         // One area in a plot.
         for (const Curve& curve : plot.curves)
             QCOMPARE(!curve.band.empty(), &curve == &*median);
-        // The winner's own interval stays that of the one study.
-        const Curve& winner = charts::successSheet(studies).plots[0].curves.at(0);
-        QVERIFY(winner.bandColumns[0].contains("Clopper-Pearson"));
+        const ChartSheet success = charts::successSheet(studies);
+        QVERIFY(success.plots[0].curves.at(0).band.empty());
+        QVERIFY(success.plots[0].curves.at(2).bandColumns[0].endsWith("lower quartile"));
+        QCOMPARE(success.legend[0].text, QString("winner"));
         QCOMPARE(charts::speedSheet(studies).plots[0].curves.size(), std::size_t{2});
     }
 

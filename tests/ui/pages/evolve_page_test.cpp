@@ -562,7 +562,7 @@ class EvolvePageTest : public QObject {
             {studies.path("a.trap"), studies.path("b.trap"), studies.path("c.trap"), studies.path("d.trap")});
         QVERIFY(waitUntil([&] { return user.chart("success")->studies().size() == 2; }));
         const charts::StudyCurves& all = user.chart("success")->studies()[1];
-        QCOMPARE(all.name, QString("median of 4 studies"));
+        QCOMPARE(all.name, QString("median and quartiles of 4 studies"));
         QCOMPARE(all.members.size(), std::size_t{4});
         QCOMPARE(user.text("compared.0.0"), QString("Study"));
         QCOMPARE(user.text("compared.4.0"), QString("d"));
