@@ -106,6 +106,9 @@ ClusterDialog::ClusterDialog(StudySession& session, QWidget* parent)
     });
     connect(&session_, &QObject::destroyed, this, &QDialog::reject);
 
+    // The dialog has one; a page that is out of sight must not have it.
+    connect(stack_, &QStackedWidget::currentChanged, this, &ClusterDialog::setDefault);
+    setDefault();
     const auto last = runs_.lastJob();
     if (!canSubmit_ && last && last->id.empty()) showWritten(*last);
 }
@@ -169,7 +172,6 @@ QWidget* ClusterDialog::makeForm() {
     submit_ = buttons->addButton(canSubmit_ ? tr("Submit the job") : tr("Write the job"),
                                  QDialogButtonBox::AcceptRole);
     submit_->setObjectName("cluster.submit");
-    submit_->setDefault(true);
     connect(buttons, &QDialogButtonBox::accepted, this, &ClusterDialog::submit);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     column->addWidget(buttons);
@@ -221,11 +223,14 @@ QWidget* ClusterDialog::makeWritten() {
     });
     take_ = buttons->addButton(tr("Take what it learned"), QDialogButtonBox::AcceptRole);
     take_->setObjectName("cluster.take");
-    take_->setDefault(true);
     connect(buttons, &QDialogButtonBox::accepted, this, &ClusterDialog::take);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     column->addWidget(buttons);
     return page;
+}
+
+void ClusterDialog::setDefault() {
+    (stack_->currentIndex() == 0 ? submit_ : take_)->setDefault(true);
 }
 
 void ClusterDialog::showForm() {

@@ -29,6 +29,7 @@ class ClusterDialog : public QDialog {
  private:
     QWidget* makeForm();
     QWidget* makeWritten();
+    void setDefault();
     void showForm();
     void showWritten(const workflow::ClusterJob& job);
     void submit();

@@ -168,7 +168,7 @@ class ClusterTest : public QObject {
         QVERIFY(!find<QToolButton>(window, "evolve.cluster")->isVisible());
         QDialog* dialog = ask(window);
         QCOMPARE(dialog->findChild<QPushButton*>("cluster.submit")->text(), QString("Write the job"));
-        click(dialog, "cluster.submit");
+        QTest::keyClick(dialog, Qt::Key_Return);
         auto* command = dialog->findChild<QLineEdit*>("cluster.command");
         QTRY_VERIFY_WITH_TIMEOUT(command->isVisible(), kPatience);
         QCOMPARE(command->text(), QString("sh home-job/submit.sh"));
