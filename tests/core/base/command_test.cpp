@@ -2,8 +2,8 @@
 
 #include <QTemporaryDir>
 #include <QtTest>
-#include <csignal>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <thread>
 
