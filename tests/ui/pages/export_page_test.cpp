@@ -70,8 +70,15 @@ struct User : tests::WindowUser {
         action("export." + format)->trigger();
         auto* dialog = find<QFileDialog>("dialog.file");
         if (dialog == nullptr) return false;
-        emit dialog->fileSelected(path);
-        dialog->close();
+        // It would ask before it replaces a file, and take no folder that is none.
+        QFile::remove(path);
+        if (QFileInfo(QFileInfo(path).path()).isDir()) {
+            dialog->selectFile(path);
+            QMetaObject::invokeMethod(dialog, "accept");
+        } else {
+            emit dialog->filesSelected({path});
+            dialog->close();
+        }
         return QTest::qWaitFor([&] { return find<QFileDialog>("dialog.file") == nullptr; }, kPatience);
     }
     /// What core makes of the individual that was chosen, or else of that which the last selection puts
