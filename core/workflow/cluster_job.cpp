@@ -81,6 +81,11 @@ base::Status fill(const store::StudyFile& study, const ClusterJob& job, const Jo
     return writeNote(job);
 }
 
+/// Of an id: what goes on the command lines of others is nothing else.
+bool hasOnlyDigits(const std::string& id) {
+    return std::ranges::all_of(id, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 std::string trimmed(std::string text) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
         text.pop_back();
@@ -155,15 +160,18 @@ base::Result<ClusterJob> readJob(const std::filesystem::path& folder) {
         return base::Error{"There is no job of Trapwright in " + folder.string() + ": " +
                            text.error().message};
     const auto note = nlohmann::json::parse(*text, nullptr, false);
-    if (!note.is_object() || !note.contains("study") || !note["study"].is_string() || !note.contains("job") ||
-        !note["job"].is_string())
+    const bool isNote = note.is_object() && note.contains("study") && note["study"].is_string() &&
+                        note.contains("job") && note["job"].is_string() &&
+                        (!note.contains("over") || note["over"].is_boolean());
+    const std::string id = isNote ? note["job"].get<std::string>() : std::string();
+    if (!isNote || !hasOnlyDigits(id))
         return base::Error{
             (folder / kNote).string() +
                 " is damaged. Choose another folder for a new job; the study in this one may be whole.",
             base::ErrorKind::damaged};
     // A name, whatever the file says.
     const std::filesystem::path name = std::filesystem::path(note["study"].get<std::string>()).filename();
-    return ClusterJob{folder, folder / name, note["job"].get<std::string>(), note.value("over", false)};
+    return ClusterJob{folder, folder / name, id, note.value("over", false)};
 }
 
 std::filesystem::path findLastFolder(const std::filesystem::path& study) {
@@ -195,9 +203,7 @@ base::Status submitJob(ClusterJob& job) {
     const std::string said = trimmed(queued->output);
     const std::string last = said.substr(said.find_last_of('\n') + 1);
     const std::string id = last.substr(0, last.find(';'));
-    const bool isNumber =
-        !id.empty() && std::ranges::all_of(id, [](unsigned char c) { return std::isdigit(c) != 0; });
-    if (queued->code != 0 || !isNumber)
+    if (queued->code != 0 || id.empty() || !hasOnlyDigits(id))
         return base::Error{fmt::format("The job in {} could not be queued. sbatch said: {}",
                                        job.folder.string(),
                                        said.empty() ? fmt::format("nothing, code {}", queued->code) : said)};

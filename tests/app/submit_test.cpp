@@ -106,6 +106,21 @@ class SubmitTest : public QObject {
         QVERIFY2(refused.code == 3 && refused.errors.contains("other settings"), refused.all());
     }
 
+    // Whatever a folder's note says: nothing of it becomes an option of scancel, and nothing is broken off.
+    void aDamagedNoteIsToldOf() {
+        standInForSlurm();
+        QCOMPARE(run(path(), QStringList{"new", "home.trap"} + kQuick).code, 0);
+        QVERIFY(QDir(path()).mkdir("home-job"));
+        for (const char* note : {"", "[]", R"({"study": "home.trap"})", R"({"study": "home.trap", "job": 7})",
+                                 R"({"study": "home.trap", "job": "--user=root"})",
+                                 R"({"study": "home.trap", "job": "7", "over": "no"})"}) {
+            trapwright::test::write(path() + "/home-job/job.json", note);
+            const Ran ran = submit({"home.trap"});
+            QVERIFY2(ran.code == 3 && ran.errors.contains("job.json is damaged"), ran.all());
+        }
+        QVERIFY(read("cancelled").isEmpty());
+    }
+
     void saysWhatSbatchSays() {
         standInForSlurm();
         QVERIFY(SlurmStandIn(path()).write("sbatch", kRefusing));
