@@ -93,10 +93,9 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     if (job.id.empty() && !workflow::canSubmit()) {
         console.print(
             fmt::format("The job is written: {}. There is no sbatch here: copy the folder to the cluster, "
-                        "and queue it there by "
-                        "its submit.sh;\nthen bring what it learned home, at any time, by: trapwright submit "
-                        "{} --folder {}\n",
-                        folder.string(), options.study, folder.string()));
+                        "and queue it there: {}\nThen bring what it learned home, at any time: trapwright "
+                        "submit {} --folder {}\n",
+                        folder.string(), workflow::submitCommand(job), options.study, folder.string()));
         return end(ExitCode::ok);
     }
     if (job.id.empty()) {

@@ -195,6 +195,14 @@ base::Result<ClusterJob> writeAndSubmit(const store::StudyFile& study, const std
     return job;
 }
 
+std::string submitCommand(const ClusterJob& job) {
+    const std::string script = (job.folder.filename() / kSubmit).string();
+    const bool isPlain = std::ranges::all_of(script, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '.' || c == '_' || c == '-' || c == '/';
+    });
+    return "sh " + (isPlain ? script : quoted(script));
+}
+
 base::Status submitJob(ClusterJob& job) {
     const auto queued = base::runCommand({(std::filesystem::absolute(job.folder) / kSubmit).string()},
                                          job.folder.string(), kPatience);

@@ -48,6 +48,8 @@ std::filesystem::path findLastFolder(const std::filesystem::path& study);
 /// Where the next one goes.
 std::filesystem::path findNextFolder(const std::filesystem::path& study);
 
+/// What a user types to queue it on another machine, where its folder was copied to.
+std::string submitCommand(const ClusterJob& job);
 /// Queues it, by its submit.sh, and keeps its id in the folder. The error has what sbatch said.
 base::Status submitJob(ClusterJob& job);
 /// Writes a job and queues it; if it cannot be queued nothing is left behind.
@@ -60,10 +62,10 @@ enum class JobState {
     over,    // ended, whether well or not
     unknown  // the batch system does not answer
 };
+/// What the batch system says of a job.
 struct JobStatus {
     JobState state = JobState::waiting;
-    std::string
-        reason{};  // why it waits, in the batch system's words: "Resources", "Priority"; empty: not told
+    std::string reason{};  // why it waits, in its words: "Resources", "Priority"; empty: not told
 
     friend bool operator==(const JobStatus&, const JobStatus&) = default;
 };

@@ -94,6 +94,10 @@ class SubmitTest : public QObject {
         const Ran written = submit({"home.trap"});
         QVERIFY2(written.code == 0, written.all());
         QVERIFY2(written.output.contains("There is no sbatch here"), written.all());
+        QVERIFY2(written.output.contains(": sh home-job/submit.sh\n"), written.all());
+        QCOMPARE(run(path(), QStringList{"new", "two parts.trap"} + kQuick).code, 0);
+        const Ran spaced = submit({"two parts.trap"});
+        QVERIFY2(spaced.output.contains(": sh 'two parts-job/submit.sh'\n"), spaced.all());
         QCOMPARE(run(path() + "/home-job", {"evolve", "home.trap"}).code, 0);
         const Ran taken = submit({"home.trap", "--folder", "home-job"});
         QVERIFY2(taken.output.contains("3 new generations"), taken.all());

@@ -121,11 +121,10 @@ QWidget* ClusterDialog::makeForm() {
     column->addWidget(makeText(
         canSubmit_
             ? tr("Learning goes on as a job of Slurm, and what it learns comes into this study while it "
-                 "does. "
-                 "You may close the window meanwhile: when the study is opened again, the job is followed.")
+                 "does. You may close the window meanwhile: when the study is opened again, the job is "
+                 "followed.")
             : tr("There is no sbatch on this machine. A folder is written with all that the job needs: copy "
-                 "it "
-                 "to the cluster, queue the job there, and take home what it has learned."),
+                 "it to the cluster, queue the job there, and take home what it has learned."),
         page));
 
     const QSettings settings;
@@ -297,7 +296,7 @@ void ClusterDialog::take() {
 void ClusterDialog::showWritten(const workflow::ClusterJob& job) {
     job_ = job;
     folder_->setText(tr("The job is written: <b>%1</b>").arg(look::pathText(job.folder).toHtmlEscaped()));
-    command_->setText(QString("sh %1/submit.sh").arg(look::toText(job.folder.filename())));
+    command_->setText(QString::fromStdString(workflow::submitCommand(job)));
     stack_->setCurrentIndex(1);
 }
 

@@ -264,7 +264,7 @@ void RunCard::showRun(RunState state) {
                             : 0.0;
     double whole = done;
     QString detail;
-    if (progress.job) return showJob(progress);
+    if (state == RunState::following || progress.job) return showJob(progress);
     if (checking) {
         detail = tr("All generations are saved. The last winners are checked in the reference engine.");
     } else if (progress.isPlanning) {
@@ -325,6 +325,14 @@ void RunCard::showRun(RunState state) {
 
 void RunCard::showJob(const RunProgress& progress) {
     using workflow::JobState;
+    bar_->setMaximum(progress.generations);
+    bar_->setValue(std::min(progress.generation, progress.generations));
+    if (!progress.job) {
+        title_->setText(tr("Writing the job"));
+        detail_->setText(tr("A copy of the study, and what the cluster's queue says to it."));
+        speed_->setText(" ");
+        return;
+    }
     const bool isQueued = !progress.job->id.empty();
     const QString job = tr("Job %1").arg(QString::fromStdString(progress.job->id));
     QString title = tr("Learning on a cluster");
@@ -352,8 +360,6 @@ void RunCard::showJob(const RunProgress& progress) {
     if (progress.trialsPerSecond > 0) facts << tr("%L1 trials/s").arg(qRound(progress.trialsPerSecond));
     if (progress.secondsLeft > 0) facts << tr("%1 left").arg(look::durationText(progress.secondsLeft));
     speed_->setText(facts.isEmpty() ? QString(" ") : facts.join(", "));
-    bar_->setMaximum(progress.generations);
-    bar_->setValue(std::min(progress.generation, progress.generations));
 }
 
 }  // namespace trapwright::pages

@@ -114,12 +114,14 @@ class ClusterTest : public QObject {
                            "echo 'PENDING ReqNodeNotAvail, UnavailableNodes:v[1-2]'\n"));
         QVERIFY(SlurmStandIn(folder_->path())
                     .write("sbatch",
-                           "#!/bin/sh\nsleep 600 > /dev/null 2>&1 & echo $! > "
+                           "#!/bin/sh\nsleep 2\nsleep 600 > /dev/null 2>&1 & echo $! > "
                            "\"$SLURM_STANDIN/process\"\necho 7\n"));
         makeStudy("home.trap", 3);
         window::MainWindow window{environment()};
         QVERIFY(open(window));
         click(ask(window), "cluster.submit");
+        QTRY_COMPARE_WITH_TIMEOUT(find<QLabel>(window, "evolve.state")->text(), QString("Writing the job"),
+                                  kPatience);
         auto* detail = find<QLabel>(window, "evolve.detail");
         QTRY_VERIFY_WITH_TIMEOUT(detail->text().contains("ReqNodeNotAvail, UnavailableNodes:v[1-2]"),
                                  kPatience);
