@@ -147,7 +147,7 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || surface || settingsFile || paper || sorting || time || beginWith || behind;
+           contact || surface || settingsFile || paper || sorting || ledges || time || beginWith || behind;
 }
 
 bool SettingOptions::given() const {
@@ -183,6 +183,14 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "A track that throws out what lies wrong, in proportion to the part: for parts that nothing "
                 "turns into one way")
             .excludes(paper);
+    const Option ledges =
+        command
+            .addFlag(
+                "--ledges", options.ledges,
+                "A spiral's ledge that throws out all parts but those that lie one way, in proportion to "
+                "the part: none wrong, at the price of parts a minute")
+            .excludes(paper)
+            .excludes(sorting);
     const Option time =
         command
             .addOption(
@@ -191,7 +199,8 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "part, and how much of it for this time on this machine")
             .type("DURATION")
             .excludes(paper)
-            .excludes(sorting);
+            .excludes(sorting)
+            .excludes(ledges);
     Option beginWith =
         command
             .addOption(
@@ -200,7 +209,7 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "what follows: so that what is learned need not be learned again where friction, drive or "
                 "what is wanted is another")
             .type("STUDY");
-    for (const Option& other : {preset, part, contact, surface, settings, paper, sorting, time})
+    for (const Option& other : {preset, part, contact, surface, settings, paper, sorting, ledges, time})
         beginWith.excludes(other);
     Option behind =
         command
@@ -209,7 +218,7 @@ void addCreationOptions(Command command, CreationOptions& options) {
                        "study, with its part and its settings (its chosen track, or else its best), or of a "
                        "track's file, with --part or --preset")
             .type("STUDY|TRACK");
-    for (const Option& other : {paper, sorting, time, beginWith})
+    for (const Option& other : {paper, sorting, ledges, time, beginWith})
         behind.excludes(other);
 }
 
@@ -366,6 +375,11 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
     }
     if (creation.sorting) {
         *settings = study::sortingMode(*settings, *loaded->part);
+        applied = applySettings(*settings, options);
+        if (!applied) return applied.error();
+    }
+    if (creation.ledges) {
+        *settings = study::ledgeMode(*settings, *loaded->part);
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }

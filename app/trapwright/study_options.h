@@ -23,6 +23,7 @@ struct CreationOptions {
     std::optional<std::string> settingsFile;  // JSON
     bool paper = false;
     bool sorting = false;
+    bool ledges = false;
     std::optional<std::string> time;  // that the user has: "10min"
     // A study whose part, settings and tracks it begins with; instead of all of the above.
     std::optional<std::string> beginWith;

@@ -23,7 +23,6 @@ void sortByWorth(std::vector<Chain>& chains) {
 }  // namespace
 
 WayMatrix ChainSearch::calcChances(const WayMatrix& counts) const {
-    constexpr double kUnseenTurns = 1.0;
     constexpr double kUnseenStuck = 0.2;
     const std::size_t columns = problem_.columns();
     const std::size_t stuck = problem_.stuck();
@@ -33,8 +32,8 @@ WayMatrix ChainSearch::calcChances(const WayMatrix& counts) const {
         for (std::size_t to = 0; to < columns; ++to) {
             double& chance = chances[from][to];
             chance = counts[from][to];
-            if (to == stuck) chance += kUnseenStuck;
-            if (to != from && to < stuck) chance += kUnseenTurns / static_cast<double>(problem_.ways);
+            if (to == stuck) chance += kUnseenStuck * problem_.unseenTurns;
+            if (to != from && to < stuck) chance += problem_.unseenTurns / static_cast<double>(problem_.ways);
             sum += chance;
         }
         for (double& chance : chances[from])

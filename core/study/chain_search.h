@@ -45,6 +45,7 @@ struct ChainProblem {
     bool forgivesFalls = false;         // what falls off comes again
     bool seeksPurity = false;           // then: few wrong ones count by their nines, not by bits
     double rightAsNines = 1.0;          // then: what all right is worth besides
+    double unseenTurns = 1.0;           // trials from each way that are taken to end in others
     std::vector<std::size_t> wanted{};  // ways in which parts shall lie; none: in any one
 
     [[nodiscard]] std::size_t stuck() const { return ways + 1; }

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -23,6 +24,7 @@
 #include "core/study/trial_batches.h"
 #include "core/track/track_builder.h"
 #include "core/traps/groove.h"
+#include "core/traps/ledge.h"
 #include "core/traps/trap_chain.h"
 #include "core/trial/orientations.h"
 
@@ -31,6 +33,7 @@ namespace trapwright::study {
 namespace {
 
 constexpr int kGroovesBefore = 2;      // the first turns parts along the track, the second is the run-up
+constexpr int kLedgesBefore = 1;       // the run-up: what comes before goes over to it
 constexpr int kTrialsOfWays = 3000;    // that tell the ways
 constexpr std::size_t kMostWays = 14;  // others are one together
 constexpr int kLeastOfWay = 40;        // trials that end so
@@ -40,11 +43,13 @@ constexpr int kRoundsBetweenPlans = 6;
 constexpr int kRoundsOfIsland = 24;  // at least
 constexpr int kMostIslands = 8;
 constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
-constexpr int kFirstTrials = 6;            // from each way on average, of a trap that is new
-constexpr int kMoreTrials = 24;            // of one that is promising
-constexpr std::size_t kMostShared = 8;     // ways that count for the sum of these trials
-constexpr double kMostFromWay = 0.3;       // of these trials
-constexpr int kTrialsOfFollowed = 300;     // behind each trap, shared by the best chains
+constexpr int kFirstTrials = 6;         // from each way on average, of a trap that is new
+constexpr int kMoreTrials = 24;         // of one that is promising
+constexpr std::size_t kMostShared = 8;  // ways that count for the sum of these trials
+constexpr double kMostFromWay = 0.3;    // of these trials
+constexpr int kTrialsOfFollowed = 300;  // behind each trap, shared by the best chains
+constexpr int kTrialsOfFollowedForPurity = 900;
+constexpr std::size_t kFewOthers = 3;      // of these, that come so far
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
@@ -65,6 +70,46 @@ struct Care {
 };
 constexpr Care kOnTheWay{3, 300, 4};
 constexpr Care kAtTheEnd{1, 1000, 12};
+constexpr Care kAtTheEndOfPurity{1, 2500, 5};
+constexpr double kUnseenTurnsOfPurity = 0.2;  // one would hide how few of many are turned
+
+bool seeksPurity(const EvolutionSettings& settings) {
+    return objectives::contains(summedObjectives(settings), objectives::kPurity);
+}
+
+/// Trials of whole tracks by which chains are judged: of each, and of the best. Nines are told by many.
+std::pair<int, int> judgingTrials(const EvolutionSettings& settings) {
+    constexpr int kTimesOfPurity = 5;
+    const int times = seeksPurity(settings) ? kTimesOfPurity : 1;
+    return {times * kFirstOfJudged, times * kTrialsOfJudged};
+}
+
+/// What parts come to the first trap on, to lie down and to move on.
+struct RunUp {
+    traps::TrapChain traps;
+    search::Design design;
+    double fall = 0.0;  // of the surface along the track, where parts are put [rad]
+};
+
+/// The traps at the beginning of a chain that are none to be planned.
+int countBefore(const traps::TrapChain& chain) {
+    return chain.front()->key == traps::ledge().key ? kLedgesBefore : kGroovesBefore;
+}
+
+RunUp makeRunUp(const traps::TrapChain& chain, const TrackSettings& settings) {
+    const int before = countBefore(chain);
+    RunUp runUp{{chain.begin(), chain.begin() + before}, {}, 0.0};
+    if (chain.front()->key == traps::groove().key) {
+        runUp.fall = traps::kRestingFall;
+        for (int i = 0; i < before; ++i)
+            std::ranges::copy(traps::restingGroove(settings), std::back_inserter(runUp.design));
+        return runUp;
+    }
+    // All numbers in the middle: a ledge that is not cut.
+    for (const search::Dimension& dimension : traps::designSpace(runUp.traps, settings).dimensions)
+        runUp.design.push_back(search::roundToBits(0.5, dimension.bits));
+    return runUp;
+}
 
 /// What a trap is still to be tried.
 struct Work {
@@ -85,17 +130,17 @@ double lowestAt(const track::Track& track, double x) {
 
 class Planner {
  public:
-    Planner(const StudyInputs& inputs, traps::TrapChain chain,
+    Planner(const StudyInputs& inputs, const traps::TrapChain& chain,
             std::function<void(const GenerationPlan&)> planned, const LearningControl& control)
         : inputs_(&inputs),
           specimens_(makeSpecimens(inputs.settings, inputs.part)),
-          chain_(std::move(chain)),
+          runUp_(makeRunUp(chain, inputs.settings.track)),
           planned_(std::move(planned)),
           control_(control),
           doneBefore_(control_.run.done()) {
-        for (std::size_t i = kGroovesBefore; i < chain_.size(); ++i) {
-            auto found = std::find(kinds_.begin(), kinds_.end(), chain_[i]);
-            if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), chain_[i]);
+        for (std::size_t i = runUp_.traps.size(); i < chain.size(); ++i) {
+            auto found = std::find(kinds_.begin(), kinds_.end(), chain[i]);
+            if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), chain[i]);
             places_.push_back(static_cast<std::size_t>(found - kinds_.begin()));
         }
         for (const traps::TrapKind* kind : kinds_)
@@ -129,7 +174,8 @@ class Planner {
             if (const auto joined = plan(kOnTheWay); !joined) return joined.error();
         }
         if (const auto done = goOn(round, rounds, rounds); !done) return done.error();
-        if (const auto last = plan(kAtTheEnd); !last) return last.error();
+        const bool isPurity = search_.problem().seeksPurity;
+        if (const auto last = plan(isPurity ? kAtTheEndOfPurity : kAtTheEnd); !last) return last.error();
         return judge(listDesigns(most));
     }
 
@@ -176,9 +222,10 @@ class Planner {
         problem.places = places_;
         problem.forgivesFalls = forgivesFalls(settings().evolution);
         const objectives::ObjectiveList summed = summedObjectives(settings().evolution);
-        problem.seeksPurity = objectives::contains(summed, objectives::kPurity);
+        problem.seeksPurity = seeksPurity(settings().evolution);
         // Where right parts are not in the sum they decide between chains that are as pure.
         if (!objectives::contains(summed, objectives::kSuccess)) problem.rightAsNines = 0.1;
+        if (problem.seeksPurity) problem.unseenTurns = kUnseenTurnsOfPurity;
         problem.wanted = listWantedWays();
         problem.arriving.assign(problem.columns(), 0.0);
         search_ = ChainSearch(problem);  // findColumn() asks it
@@ -243,48 +290,41 @@ class Planner {
 
     base::Result<std::shared_ptr<const track::Track>> buildWith(const traps::TrapKind* kind,
                                                                 std::span<const double> numbers) const {
-        traps::TrapChain chain(kGroovesBefore, chain_.front());
-        search::Design design = designOfGrooves();
-        if (kind != nullptr) {
-            chain.push_back(kind);
-            design.insert(design.end(), numbers.begin(), numbers.end());
-        }
-        return build(chain, design);
+        traps::TrapChain chain = runUp_.traps;
+        search::Design design = runUp_.design;
+        if (kind == nullptr) return build(chain, design, settings().track);
+        chain.push_back(kind);
+        design.insert(design.end(), numbers.begin(), numbers.end());
+        TrackSettings shortened = settings().track;
+        shortened.given.clear();  // parts are put behind it
+        return build(chain, design, std::move(shortened));
     }
 
     base::Result<std::shared_ptr<const track::Track>> build(const traps::TrapChain& chain,
-                                                            const search::Design& design) const {
+                                                            const search::Design& design,
+                                                            TrackSettings shortened) const {
         // Parts must be seen as they go on: they creep along a level lead-out, and lie better behind it.
-        TrackSettings shortened = settings().track;
         shortened.leadOutSegments = 1;
-        // What a trap does with a part that lies in the groove before it depends on neither.
-        shortened.spiral = {};
+        // What a trap does with a part that lies in the groove before it depends on neither; but on a ledge
+        // parts lie as they come up the spiral.
+        if (chain.front()->key == traps::groove().key) shortened.spiral = {};
         shortened.chute = {};
         shortened.maxSegmentLength = 2.0 * inputs_->part->boundingRadius;
-        auto track = track::buildTrack(shortened, traps::build(chain, settings().track, design));
+        auto track = decodeChain(settings().track, chain, design, shortened);
         if (!track) return track.error();
         return std::make_shared<const track::Track>(std::move(track).value());
     }
 
     [[nodiscard]] base::Result<std::shared_ptr<const track::Track>> buildChain(
         std::span<const std::size_t> used) const {
-        traps::TrapChain chain(kGroovesBefore, chain_.front());
-        search::Design design = designOfGrooves();
+        traps::TrapChain chain = runUp_.traps;
+        search::Design design = runUp_.design;
         for (const std::size_t i : used) {
             const KnownTrap& trap = search_.traps()[i];
             chain.push_back(kinds_[trap.kind]);
             design.insert(design.end(), trap.numbers.begin(), trap.numbers.end());
         }
-        return build(chain, design);
-    }
-
-    [[nodiscard]] search::Design designOfGrooves() const {
-        search::Design design;
-        for (int i = 0; i < kGroovesBefore; ++i) {
-            for (const double number : traps::restingGroove(settings().track))
-                design.push_back(number);
-        }
-        return design;
+        return build(chain, design, settings().track);
     }
 
     trial::TrialBatch makeBatch(std::shared_ptr<const track::Track> track, int trials) {
@@ -319,13 +359,13 @@ class Planner {
         return from[random.below(static_cast<std::uint32_t>(from.size()))];
     }
 
-    /// Trials, each from its way, at the beginning of the second groove: what is put there at rest conveys as
-    /// quickly as any other when it comes to the trap.
+    /// Trials, each from its way, at the beginning of the second groove or of the first ledge: what is put
+    /// there at rest conveys as quickly as any other when it comes to the trap.
     void placeParts(trial::TrialBatch& batch, const std::vector<std::size_t>& ways) const {
         const track::Track& track = *batch.track;
         const double x = track.sections[2].x + 0.1 * inputs_->part->boundingRadius;
         const double bottom = lowestAt(track, x);
-        const base::Quaternion fall(Eigen::AngleAxisd(traps::kRestingFall, base::Vec3::UnitY()));
+        const base::Quaternion fall(Eigen::AngleAxisd(runUp_.fall, base::Vec3::UnitY()));
         constexpr double kAbove = 0.3e-3;  // so that it touches nothing when it is turned [m]
         for (std::size_t i = 0; i < batch.trials.size(); ++i) {
             trial::TrialSpec& spec = batch.trials[i];
@@ -514,7 +554,8 @@ class Planner {
     base::Status followParts() {
         std::vector<trial::TrialBatch> batches;
         std::vector<double> bottoms;
-        const int each = kTrialsOfFollowed / static_cast<int>(search_.niches().size());
+        const int trials = search_.problem().seeksPurity ? kTrialsOfFollowedForPurity : kTrialsOfFollowed;
+        const int each = trials / static_cast<int>(search_.niches().size());
         for (const Chain& chain : search_.niches()) {
             for (std::size_t place = 1; place < places_.size(); ++place) {
                 const auto track = buildChain(std::span(chain.traps).first(place));
@@ -526,13 +567,25 @@ class Planner {
         const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
         if (!outcomes) return outcomes.error();
         met_.assign(rows(), {});
+        std::vector<base::Pose> others;  // that come farthest along one chain
         for (std::size_t i = 0; i < batches.size(); ++i) {
+            std::vector<std::vector<base::Pose>> here(rows());
             for (const trial::Outcome& outcome : (*outcomes)[i]) {
                 const std::size_t column = findColumn(outcome.parts.front());
                 if (column >= rows()) continue;
-                met_[column].push_back(outcome.parts.front().farthest);
-                met_[column].back().position.z() -= bottoms[i];
+                here[column].push_back(outcome.parts.front().farthest);
+                here[column].back().position.z() -= bottoms[i];
             }
+            // Parts in none of the ways are of many kinds. Where the last wrong one counts, those that come
+            // through are what is to be thrown out.
+            if (search_.problem().seeksPurity && rows() > ways_.size()) {
+                if (i % (places_.size() - 1) == 0) others.clear();
+                if (here.back().size() >= kFewOthers) others = std::move(here.back());
+                here.back().clear();
+                if (i % (places_.size() - 1) == places_.size() - 2) here.back() = others;
+            }
+            for (std::size_t row = 0; row < rows(); ++row)
+                std::ranges::move(here[row], std::back_inserter(met_[row]));
         }
         for (const std::size_t i : std::set<std::size_t>(search_.used().begin(), search_.used().end())) {
             for (WayShares& counts : search_.traps()[i].counts)
@@ -573,7 +626,7 @@ class Planner {
         std::vector<search::Design> designs;
         for (const Chain& chain : search_.chains()) {
             if (designs.size() == most) break;
-            search::Design design = designOfGrooves();
+            search::Design design = runUp_.design;
             for (const std::size_t i : chain.traps) {
                 const std::vector<double>& numbers = search_.traps()[i].numbers;
                 design.insert(design.end(), numbers.begin(), numbers.end());
@@ -590,8 +643,8 @@ class Planner {
     base::Result<std::vector<search::Design>> judge(std::vector<search::Design> designs) {
         const std::size_t judged = std::min(designs.size(), kJudged);
         StudyInputs race = *inputs_;
-        race.settings.evolution.trialsPerEvaluation = kTrialsOfJudged;
-        race.settings.evolution.racingTrials = kFirstOfJudged;
+        std::tie(race.settings.evolution.racingTrials, race.settings.evolution.trialsPerEvaluation) =
+            judgingTrials(settings().evolution);
         race.settings.evolution.racingShare = search::kTopShare;
         std::vector<search::Proposal> proposals(judged);
         for (std::size_t i = 0; i < judged; ++i)
@@ -613,7 +666,7 @@ class Planner {
 
     const StudyInputs* inputs_;
     Specimens specimens_;
-    traps::TrapChain chain_;
+    RunUp runUp_;
     std::function<void(const GenerationPlan&)> planned_;
     LearningControl control_;
     std::int64_t doneBefore_;
@@ -631,10 +684,14 @@ class Planner {
 }  // namespace
 
 std::string findPlanningProblem(const TrackSettings& settings) {
-    if (!settings.given.empty())
-        return "Traps behind one that is given (track.given) are not planned; choose graded.";
     const auto chain = traps::readTraps(settings.traps);
     if (!chain) return chain.error().message;
+    const auto isLedge = [](const traps::TrapKind* kind) { return kind->key == traps::ledge().key; };
+    if (chain->size() > kLedgesBefore && std::ranges::all_of(*chain, isLedge)) return {};
+    if (!settings.given.empty())
+        return "Behind a trap that is given (track.given) only ledges are planned, as in \"4 x ledge\"; "
+               "choose "
+               "them or graded.";
     const std::string_view groove = traps::groove().key;
     bool isRight = chain->size() > kGroovesBefore;
     for (std::size_t i = 0; i < chain->size(); ++i) {
@@ -644,7 +701,7 @@ std::string findPlanningProblem(const TrackSettings& settings) {
     if (isRight) return {};
     return fmt::format(
         "Traps can be planned that begin with two grooves and go on with drops, cut-outs and gaps, as in "
-        "\"groove, groove, 3 x gap\"; these are \"{}\".",
+        "\"groove, groove, 3 x gap\", or that are all ledges, as in \"4 x ledge\"; these are \"{}\".",
         settings.traps);
 }
 
@@ -681,9 +738,9 @@ std::int64_t estimateJudgingTrials(const EvolutionSettings& settings) {
     if (!isPlanned(settings)) return 0;
     const std::size_t judged = std::min(kJudged, countPlanned(settings));
     const std::vector<int> none(judged, 0);
-    return search::countRacingTrials(
-        none, static_cast<int>(judged),
-        search::makeRacingStages(judged, kFirstOfJudged, kTrialsOfJudged, search::kTopShare));
+    const auto [first, most] = judgingTrials(settings);
+    return search::countRacingTrials(none, static_cast<int>(judged),
+                                     search::makeRacingStages(judged, first, most, search::kTopShare));
 }
 
 std::size_t countPlanned(const EvolutionSettings& settings) {
@@ -696,8 +753,8 @@ base::Result<std::vector<search::Design>> planDesigns(
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     if (const std::string problem = findPlanningProblem(inputs.settings.track); !problem.empty())
         return base::Error{problem};
-    auto chain = traps::readTraps(inputs.settings.track.traps);
-    return Planner(inputs, std::move(chain).value(), planned, control).run(most);
+    const auto chain = traps::readTraps(inputs.settings.track.traps);
+    return Planner(inputs, *chain, planned, control).run(most);
 }
 
 }  // namespace trapwright::study

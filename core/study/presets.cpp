@@ -140,6 +140,24 @@ Settings sortingMode(Settings settings, const part::Part& part) {
     return settings;
 }
 
+Settings ledgeMode(Settings settings, const part::Part& part) {
+    const auto inProportion = [&](double ofBracket) { return scaleLength(ofBracket, 9.4e-3, part); };
+    settings = sortingMode(std::move(settings), part);
+    TrackSettings& track = settings.track;
+    track.traps = "8 x ledge";
+    track.spiral = {inProportion(20e-3), inProportion(10e-3), 10.0 * base::kDegree};
+    track.segmentWidth = track.spiral.width + inProportion(10e-3);
+    track.segmentHeight = inProportion(100e-3);
+    settings.simulation.start.lateral = std::min(settings.simulation.start.lateral, inProportion(2e-3));
+    EvolutionSettings& evolution = settings.evolution;
+    evolution.objectives = "F_C, purity, success";
+    evolution.plannedTraps = 600;
+    // Most parts are thrown out, and of the others not one in a hundred may be wrong.
+    evolution.trialsPerEvaluation = 1000;
+    evolution.racingTrials = 200;
+    return settings;
+}
+
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track) {
     settings.track.traps = "notched";
     auto behind = placeBehind(track, settings.track);

@@ -34,6 +34,11 @@ Settings turningMode(Settings settings, const part::Part& part);
 /// plan, and time for parts to go all the way. Lengths are whole half millimetres.
 Settings sortingMode(Settings settings, const part::Part& part);
 
+/// Changes settings to those of a spiral whose ledges throw out all but one way, in proportion to the part:
+/// planned, judged by how few of the parts that leave it are wrong, and how many leave it
+/// (decisions.md#ledges). Lengths are whole half millimetres.
+Settings ledgeMode(Settings settings, const part::Part& part);
+
 /// Settings that learn traps behind a track that is there, which throw out what still lies wrong, so that it
 /// comes again: a notched track, judged by how few of the parts that arrive are wrong, and how many arrive.
 /// Part, drive, contact, engine and seed stay. An error if other traps cannot follow that track

@@ -12,6 +12,7 @@
 #include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
+#include "core/traps/ledge.h"
 #include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
@@ -129,6 +130,15 @@ std::vector<std::string> findTrackProblems(const TrackSettings& track) {
                            shown(track.minSegmentLength, FileUnit::millimetre) +
                            "; it must not be more than track.maxSegmentLength_mm, which is " +
                            shown(track.maxSegmentLength, FileUnit::millimetre) + ".");
+    }
+    if (const auto chain = traps::readTraps(track.traps)) {
+        const auto least = static_cast<int>(track::kLeastSpiralPoints);
+        const bool hasLedge = std::ranges::any_of(
+            *chain, [](const traps::TrapKind* kind) { return kind->key == traps::ledge().key; });
+        if (hasLedge && track.pointsPerSection < least)
+            problems.push_back(
+                fmt::format("track.pointsPerSection is {}; a ledge with its wall needs at least {}.",
+                            track.pointsPerSection, least));
     }
     if (const auto given = readSections(track.given); given && !given->empty()) {
         const auto points = static_cast<int>(given->front().points.size());

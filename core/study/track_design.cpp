@@ -8,7 +8,6 @@
 
 #include "core/base/spelling.h"
 #include "core/study/number_text.h"
-#include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
 
@@ -201,9 +200,14 @@ base::Result<track::Track> decodeTrack(const TrackSettings& settings, const sear
     if (!traps) return traps.error();
     if (const auto checked = traps::designSpace(*traps, settings).check(design); !checked)
         return checked.error();
-    const Given given = givenOf(settings);
-    return track::buildTrack(settings,
-                             given.followedBy(traps::build(*traps, settings, design, given.last(settings))));
+    return decodeChain(settings, *traps, design, settings);
+}
+
+base::Result<track::Track> decodeChain(const TrackSettings& settings, const traps::TrapChain& traps,
+                                       const search::Design& design, const TrackSettings& around) {
+    const track::CrossSection before = givenOf(settings).last(around);
+    return track::buildTrack(around,
+                             givenOf(around).followedBy(traps::build(traps, settings, design, before)));
 }
 
 base::Result<track::Track> buildLayout(const TrackSettings& settings) {

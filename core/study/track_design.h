@@ -8,6 +8,7 @@
 #include "core/search/methods.h"
 #include "core/study/settings.h"
 #include "core/track/track.h"
+#include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
 
@@ -47,6 +48,11 @@ std::unique_ptr<search::Search> makeSearch(const Settings& settings);
 /// The track that a design stands for. An error if it has not as many numbers as the settings say, or if the
 /// track cannot be built.
 base::Result<track::Track> decodeTrack(const TrackSettings& settings, const search::Design& design);
+/// Any chain of traps that these settings have room for, in the place of theirs, each of the form that it has
+/// there. `around`: the settings of what is before and behind them; without what is given (TrackSettings::
+/// given) parts can only be put on the traps.
+base::Result<track::Track> decodeChain(const TrackSettings& settings, const traps::TrapChain& traps,
+                                       const search::Design& design, const TrackSettings& around);
 
 /// The track before anything is learned: its trap flat at the lead-in's height, all segments of the mean
 /// length (paper, Figure 3); of traps that fall, with all numbers in the middle of their ranges. An error if

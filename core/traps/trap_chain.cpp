@@ -11,6 +11,7 @@
 #include "core/base/spelling.h"
 #include "core/traps/free_form.h"
 #include "core/traps/groove.h"
+#include "core/traps/ledge.h"
 #include "core/traps/narrowed.h"
 #include "core/traps/step.h"
 
@@ -51,8 +52,8 @@ Repeated readRepeated(std::string_view word) {
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 8> kinds = {freeForm(), step(), groove(),   drop(),
-                                                  cutOut(),   gap(),  narrowed(), notched()};
+    static const std::array<TrapKind, 9> kinds = {freeForm(), step(),     groove(),  drop(), cutOut(),
+                                                  gap(),      narrowed(), notched(), ledge()};
     return kinds;
 }
 

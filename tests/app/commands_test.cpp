@@ -158,6 +158,35 @@ class CommandsTest : public QObject {
         QVERIFY(both.errors.contains("--sorting"));
     }
 
+    // A spiral in proportion to the part, planned; also behind a track that is there.
+    void ledgeMode() {
+        QCOMPARE(ask({"new", "ledges.trap", "--part", "bracket", "--ledges"}).code, 0);
+        const QJsonObject settings = ask({"settings", "ledges.trap", "--json"}).json();
+        const QJsonObject track = settings["track"].toObject();
+        QCOMPARE(track["traps"].toString(), "8 x ledge");
+        QCOMPARE(track["returns"].toString(), "anywhere");
+        const double width = track["spiralWidth_mm"].toDouble();
+        QVERIFY2(width > 19.0 && width < 22.0, qPrintable(QString::number(width)));
+        QVERIFY(track["segmentWidth_mm"].toDouble() > width + 4.4);
+        QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "F_C, purity, success");
+        QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
+        for (const char* other : {"--sorting", "--paper"}) {
+            const Ran both = ask({"new", "both.trap", "--part", "bracket", "--ledges", other});
+            QCOMPARE(both.code, 2);
+            QVERIFY(both.errors.contains("--ledges"));
+        }
+        const QByteArray cone = QByteArray(TRAPWRIGHT_SOURCE_DIR) + "/resources/tracks/cone_track.json";
+        QCOMPARE(ask({"new", "behind.trap", "--behind", cone.constData(), "--preset", "cone", "--set",
+                      "track.traps=4 x ledge", "--set", "evolution.firstGeneration=planned"})
+                     .code,
+                 0);
+        const Ran gaps =
+            ask({"new", "gaps.trap", "--behind", cone.constData(), "--preset", "cone", "--set",
+                 "track.traps=groove, groove, gap", "--set", "evolution.firstGeneration=planned"});
+        QVERIFY(gaps.code != 0);
+        QVERIFY2(gaps.errors.contains("only ledges are planned"), gaps.errors.constData());
+    }
+
     // What is learned goes by the part, how much of it by the time; what is set one by one comes after it.
     void settingsForATime() {
         // Enough of it for a busy machine too.

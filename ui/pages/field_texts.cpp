@@ -47,7 +47,7 @@ const RawText kTexts[] = {
     {"track.spiralInclination_deg", TEXT("Spiral leans out"), TEXT("How steeply the ledge falls toward its wall, so that parts come along the wall.")},
     {"track.chuteLength_mm", TEXT("Chute"), TEXT("How long a chute behind the lead-out is, along the track: the last cross-section, falling. The finish line is then in its middle, and parts count as they lie on it. 0: none.")},
     {"track.chuteAngle_deg", TEXT("Chute falls by"), TEXT("How steeply. Parts slide by themselves where its tangent is more than the friction; vibration helps them.")},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, ledges, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
     {"track.given", TEXT("Given trap"), TEXT("Cross-sections that the traps follow: those of a track that was learned before and stays as it is. Change in a new study, Add a rejecting trap, sets them.")},
     {"track.returns", TEXT("What falls off"), TEXT("Where parts that fall off the track come again because they fall back into the bowl or a tray: nowhere, at one side, anywhere. What falls elsewhere is lost."), {TEXT("Is lost"), TEXT("Returns inside"), TEXT("Returns outside"), TEXT("Returns")}},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
@@ -197,7 +197,7 @@ std::vector<Choice> trapChoices() {
     for (const char* chain :
          {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
           "groove, 10 x drop", "groove, groove, 8 x gap", "groove, groove, 8 x cut-out", "2 x narrowed",
-          "narrowed, notched", "free-form, narrowed"})
+          "narrowed, notched", "free-form, narrowed", "8 x ledge"})
         add(chain);
     return choices;
 }

@@ -135,6 +135,9 @@ QWidget* TrackPage::makeHead() {
     QAction* sorting = menu->addAction(tr("Throw out what lies wrong, in proportion to the part"));
     sorting->setObjectName("preset.sorting");
     connect(sorting, &QAction::triggered, this, &TrackPage::useSorting);
+    QAction* ledges = menu->addAction(tr("Let only one way pass, on a ledge, in proportion to the part"));
+    ledges->setObjectName("preset.ledges");
+    connect(ledges, &QAction::triggered, this, &TrackPage::useLedges);
     menu->addSeparator();
     QAction* paper = menu->addAction(tr("The paper's own choices throughout"));
     paper->setObjectName("preset.paper");
@@ -472,6 +475,11 @@ void TrackPage::usePaperMode() {
 void TrackPage::useSorting() {
     if (!design_ || !design_->part()) return;
     edit(study::sortingMode(design_->settings(), *design_->part()), tr("Throw out what lies wrong"));
+}
+
+void TrackPage::useLedges() {
+    if (!design_ || !design_->part()) return;
+    edit(study::ledgeMode(design_->settings(), *design_->part()), tr("Let only one way pass"));
 }
 
 void TrackPage::showTitle() {

@@ -51,6 +51,7 @@ class TrackPage : public Page {
     void usePreset(const QString& name, const QString& title);
     void usePaperMode();
     void useSorting();
+    void useLedges();
     void useFullLearning();
     void useDraft();
     void propose(double seconds, const QString& what);

@@ -41,6 +41,30 @@ trial::PartOutcome sieveLaw(const trial::TrialBatch& batch, const trial::TrialSp
     return outcome;
 }
 
+/// The same on a ledge: what narrows it throws out 1 and 3, what takes its wall away 2 and 3.
+trial::PartOutcome ledgeLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    constexpr double kNarrow = 5e-3;
+    const track::Track& track = *batch.track;
+    const int way = findWay(spec.parts.front().pose.rotation);
+    bool isNarrow = false;
+    bool hasGap = false;
+    for (const track::CrossSection& section : track.sections) {
+        const double last = section.points.back().x();
+        const double width = last - section.points.front().x();
+        const bool hasWall = section.points.back().y() > section.points.front().y() + 5e-3;
+        isNarrow = isNarrow || (hasWall && width < kNarrow);
+        hasGap = hasGap || !hasWall;
+    }
+    const bool falls = (isNarrow && way % 2 == 1) || (hasGap && way >= 2);
+    trial::PartOutcome outcome;
+    outcome.initial = {spec.parts.front().pose.rotation, {track.start, 0.0, 0.0}};
+    outcome.farthest.position = {track.finish, 0.0, 0.0};
+    outcome.farthest.rotation = Eigen::AngleAxisd(way * 0.5 * base::kPi, base::Vec3::UnitZ());
+    outcome.ending = falls ? trial::Ending::fellOff : trial::Ending::finished;
+    outcome.time = 1.0;
+    return outcome;
+}
+
 study::StudyInputs sieveInputs(const char* objectives, unsigned threads = 1) {
     study::StudyInputs inputs = fake::waveInputs(threads);
     part::Part part = *inputs.part;
@@ -97,6 +121,38 @@ class PlanningTest : public QObject {
                  qPrintable(QString("%1 and %2 mm").arg(1e3 * inner).arg(1e3 * outer)));
         for (const search::Design& design : *designs)
             QVERIFY(study::designSpace(inputs.settings.track).check(design).ok());
+    }
+
+    void findsTheLedgesThatLeaveOneWay_data() {
+        QTest::addColumn<bool>("isGiven");
+        QTest::newRow("behind the lead-in") << false;
+        QTest::newRow("behind a track that is given") << true;
+    }
+    void findsTheLedgesThatLeaveOneWay() {
+        QFETCH(bool, isGiven);
+        study::StudyInputs inputs = sieveInputs("purity", 2);
+        inputs.engine = std::make_shared<fake::FakeEngine>(ledgeLaw, 2);
+        study::TrackSettings& track = inputs.settings.track;
+        track.traps = "4 x ledge";
+        track.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
+        if (isGiven) {
+            track::CrossSection section = track::makeLeadIn(track, 20e-3, 8);
+            track.given = study::describeSections({&section, 1});
+        }
+        const auto designs = study::planDesigns(inputs, 3, {}, {});
+        VERIFY_OK(designs);
+        QVERIFY(!designs->empty());
+        const auto built = study::decodeTrack(track, designs->front());
+        VERIFY_OK(built);
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            trial::TrialBatch batch;
+            batch.track = std::make_shared<const track::Track>(*built);
+            trial::TrialSpec spec;
+            spec.parts.resize(1);
+            spec.parts.front().pose.rotation =
+                Eigen::AngleAxisd(quarter * 0.5 * base::kPi, base::Vec3::UnitZ());
+            QCOMPARE(ledgeLaw(batch, spec).ending == trial::Ending::finished, quarter == 0);
+        }
     }
 
     void cutsNothingWhereFallsCount() {
@@ -191,6 +247,9 @@ class PlanningTest : public QObject {
         QTest::addColumn<bool>("can");
         QTest::newRow("cut-outs") << "groove, groove, 3 x cut-out" << true;
         QTest::newRow("drops, cut-outs and gaps") << "2 x groove, drop, 3 x cut-out, gap, drop" << true;
+        QTest::newRow("ledges") << "4 x ledge" << true;
+        QTest::newRow("one ledge, the run-up") << "ledge" << false;
+        QTest::newRow("ledges and others") << "2 x ledge, step" << false;
         QTest::newRow("one groove") << "groove, 3 x cut-out" << false;
         QTest::newRow("nothing behind") << "groove, groove" << false;
         QTest::newRow("free-form") << "groove, groove, cut-out, free-form" << false;

@@ -7,6 +7,7 @@
 #include "core/geometry/mesh_check.h"
 #include "core/track/track_builder.h"
 #include "core/traps/groove.h"
+#include "core/traps/ledge.h"
 #include "core/traps/narrowed.h"
 #include "core/traps/step.h"
 #include "core/traps/trap_chain.h"
@@ -40,7 +41,7 @@ class TrapKindsTest : public QObject {
         for (const traps::TrapKind& kind : traps::trapKinds())
             QTest::newRow(kind.key.data()) << QString::fromUtf8(kind.key.data());
         QTest::newRow("several") << "step, free-form,step, groove, drop,drop, cut-out, narrowed, cut-out, "
-                                    "gap, narrowed, notched, 2 x notched";
+                                    "gap, narrowed, notched, 2 x notched, ledge, 2 x ledge";
     }
     void everyKindGivesATrack() {
         QFETCH(QString, chain);
@@ -378,6 +379,92 @@ class TrapKindsTest : public QObject {
             QVERIFY(section.points == upright.points);
     }
 
+    void aLedgeIsWhatItsNumbersSay() {
+        const traps::TrapKind ledge = traps::ledge();
+        TrapParameters parameters;
+        parameters.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
+        const auto dimensions = ledge.dimensions(parameters);
+        QCOMPARE(dimensions.size(), std::size_t{9});
+        QCOMPARE(dimensions[2].low, -20.0);
+        QCOMPARE(dimensions[2].high, 20.0);
+        const track::CrossSection before = track::makeLeadIn(parameters, 0.0, 8);
+        const double fall = std::tan(10.0 * base::kDegree);
+        const double foot = 15e-3 - 10e-3 * fall;
+        const auto isOnLedge = [&](const base::Vec2& point, double below) {
+            return std::abs(point.y() - (foot - below + fall * (10e-3 - point.x()))) < 1e-12;
+        };
+        const auto cut = [](double millimetres) { return 0.5 + millimetres / 40.0; };
+        // 10 mm of its width at the beginning; 15 mm and, with the wall, 2 mm at the end; then 3 mm lower.
+        const auto narrow =
+            ledge.build(parameters, before,
+                        std::vector<double>{0.5, 0.0, cut(10.0), 0.5, 0.5, cut(15.0), cut(2.0), 1.0, 0.75});
+        QCOMPARE(narrow.size(), std::size_t{6});
+        const std::array<double, 6> xs = {25.5e-3, 26e-3, 26.5e-3, 44.75e-3, 45.25e-3, 63.25e-3};
+        const std::array<double, 6> inners = {-10e-3, 0.0, 0.0, 5e-3, 5e-3, -10e-3};
+        for (std::size_t i = 0; i < 6; ++i) {
+            const double below = i == 5 ? 3e-3 : 0.0;
+            const bool hasWall = i < 3 || i == 5;
+            const std::vector<base::Vec2>& points = narrow[i].points;
+            QVERIFY(std::abs(narrow[i].x - xs[i]) < 1e-12);
+            QCOMPARE(points.size(), std::size_t{8});
+            QVERIFY(std::abs(points.front().x() - inners[i]) < 1e-12);
+            for (std::size_t j = 0; j < (hasWall ? 6 : 8); ++j)
+                QVERIFY(isOnLedge(points[j], below));
+            if (!hasWall) {
+                QVERIFY(std::abs(points.back().x() - 8e-3) < 1e-12);
+                continue;
+            }
+            QVERIFY(std::abs(points[5].x() - 10e-3) < 1e-12);
+            for (const base::Vec2& top : {points[6], points[7]})
+                QVERIFY(std::abs(top.y() - (foot - below + 10e-3)) < 1e-12);
+            QVERIFY(std::abs(points[6].x() - 10.2e-3) < 1e-12 && std::abs(points[7].x() - 12.2e-3) < 1e-12);
+        }
+        // What is left at the wall and what is left at the inner edge have nothing in common: a gap, between
+        // whose edges there is nothing but a thread far below.
+        const auto gap =
+            ledge.build(parameters, before,
+                        std::vector<double>{0.5, 0.0, cut(20.0), 0.5, 0.5, 0.5, cut(16.0), 1.0, 0.25});
+        QVERIFY(std::abs(gap[1].points.front().x() - 9.7e-3) < 1e-12);
+        QVERIFY(isOnLedge(gap[1].points.front(), 3e-3));
+        for (const std::size_t i : {2, 3}) {
+            QVERIFY(std::abs(gap[i].points.front().x() + 10e-3) < 1e-12);
+            QVERIFY(std::abs(gap[i].points.back().x() + 8.8e-3) < 1e-12);
+            QVERIFY(gap[i].points.front().y() < foot - 9e-3);
+        }
+        QVERIFY(std::abs(gap[4].points.back().x() + 6e-3) < 1e-12);
+        QVERIFY(isOnLedge(gap[4].points.back(), 3e-3) && isOnLedge(gap[5].points.front(), 3e-3));
+    }
+
+    // All in the middle, as it is rounded to bits, is the spiral as it was.
+    void aLedgeThatIsNotCutGoesOnWithTheSpiral() {
+        TrapParameters parameters;
+        parameters.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
+        const track::CrossSection before = track::makeLeadIn(parameters, 0.0, 8);
+        std::vector<double> numbers;
+        for (const search::Dimension& dimension : traps::ledge().dimensions(parameters))
+            numbers.push_back(dimension.isRelief ? search::roundToBits(0.5, dimension.bits) : 0.3);
+        for (const track::CrossSection& section : traps::ledge().build(parameters, before, numbers)) {
+            for (std::size_t j = 0; j < 8; ++j)
+                QVERIFY((section.points[j] - before.points[j]).norm() < 0.05e-3);
+        }
+    }
+
+    // Its wall's foot is at the lowest point of what comes before: of a groove its bottom; of a level track
+    // as far out as there is room for a wall.
+    void aLedgeFollowsWhateverComesBefore() {
+        TrapParameters parameters;
+        track::CrossSection groove{0.0, {}};
+        for (const double y : {-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 25.0, 30.0})
+            groove.points.emplace_back(1e-3 * y, 5e-3 + 0.5e-3 * std::abs(y));
+        const std::vector<double> whole(9, 0.5);
+        const auto behindGroove = traps::ledge().build(parameters, groove, whole);
+        QCOMPARE(behindGroove.front().points.front().x(), -30e-3);
+        QVERIFY((behindGroove.front().points[5] - base::Vec2(0.0, 5e-3)).norm() < 1e-12);
+        const auto behindLevel =
+            traps::ledge().build(parameters, traps::levelSection(parameters, 15e-3), whole);
+        QVERIFY((behindLevel.front().points[5] - base::Vec2(27.8e-3, 15e-3)).norm() < 1e-12);
+    }
+
     void chainsAreReadFromText() {
         const auto chain = traps::readTraps(" step,free-form ");
         QVERIFY(chain.ok());
@@ -385,8 +472,8 @@ class TrapKindsTest : public QObject {
         QCOMPARE((*chain)[0]->key, std::string_view("step"));
         QCOMPARE(traps::describe(*chain), std::string("Step, free form"));
         QVERIFY(
-            messageOf(traps::readTraps("ledge"))
-                .contains("no kind of trap named \"ledge\". The kinds are: free-form, step, groove, drop, "
+            messageOf(traps::readTraps("shelf"))
+                .contains("no kind of trap named \"shelf\". The kinds are: free-form, step, groove, drop, "
                           "cut-out"));
         const auto repeated = traps::readTraps("groove, 2 x drop, drop, 1xstep");
         QVERIFY2(repeated.ok(), qPrintable(messageOf(repeated)));

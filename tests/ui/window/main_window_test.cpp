@@ -146,6 +146,12 @@ class MainWindowTest : public QObject {
         QCOMPARE(sorting.track.traps, std::string("groove, groove, 8 x gap"));
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
+        user.action("preset.ledges")->trigger();
+        const study::Settings ledges = user.session()->design().settings();
+        QCOMPARE(ledges.track.traps, std::string("8 x ledge"));
+        QVERIFY(ledges.track.spiral.width > 0.0);
+        QVERIFY(user.session()->design().problems().empty());
+        user.action("edit.undo")->trigger();
         QVERIFY(user.session()->design().settings() == before);
     }
 
