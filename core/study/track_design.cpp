@@ -8,6 +8,7 @@
 
 #include "core/base/spelling.h"
 #include "core/study/number_text.h"
+#include "core/traps/ledge.h"
 
 namespace trapwright::study {
 
@@ -214,7 +215,10 @@ base::Result<track::Track> buildLayout(const TrackSettings& settings) {
     const auto traps = trapsOf(settings);
     if (!traps) return traps.error();
     const Given given = givenOf(settings);
-    if (calcTypicalFall(settings) > 0.0)
+    // Ledges have their form before anything is learned.
+    const bool hasLedge = std::ranges::any_of(
+        *traps, [](const traps::TrapKind* kind) { return kind->key == traps::ledge().key; });
+    if (hasLedge || calcTypicalFall(settings) > 0.0)
         return track::buildTrack(settings,
                                  given.followedBy(buildTypical(*traps, settings, given.last(settings))));
     std::vector<track::CrossSection> flat;

@@ -194,6 +194,20 @@ class TrackDesignTest : public QObject {
         QCOMPARE(layout->sections.size(), std::size_t{2 + 1 + 2 * 5 + 2});
     }
 
+    // Ledges have their wall before anything is learned.
+    void layoutOfLedgesGoesOnWithTheSpiral() {
+        study::TrackSettings settings;
+        settings.traps = "2 x ledge";
+        settings.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
+        const auto layout = study::buildLayout(settings);
+        VERIFY_OK(layout);
+        QCOMPARE(layout->sections.size(), std::size_t{2 + 2 * 6 + 2});
+        const std::vector<base::Vec2>& spiral = layout->sections.front().points;
+        for (const track::CrossSection& section : layout->sections)
+            for (std::size_t j = 0; j < spiral.size(); ++j)
+                QVERIFY((section.points[j] - spiral[j]).norm() < 1e-12);
+    }
+
     void designsOfAnotherLengthAreRefused() {
         const auto track = study::decodeTrack(
             smallSettings(), designOf(std::vector<double>(26, 0.0), std::vector<double>(3, 0.0)));
