@@ -14,6 +14,7 @@ constexpr std::size_t kBeam = 60;       // chains that are followed up
 constexpr std::size_t kBeamOfWay = 10;  // of these, in which parts lie one way more than any other
 constexpr std::size_t kImproved = 5;    // chains of these whose traps are exchanged for better ones
 constexpr std::size_t kSieves = 12;
+constexpr double kTrialsOfPurity = 2000.0;
 
 void sortByWorth(std::vector<Chain>& chains) {
     std::stable_sort(chains.begin(), chains.end(),
@@ -71,8 +72,9 @@ double ChainSearch::worthOf(const WayShares& parts) const {
     if (staying < kLeast) return std::log2(kLeast);
     const double most = problem_.wanted.empty() ? *std::max_element(ways.begin(), ways.end()) : wanted;
     if (problem_.seeksPurity) {
-        constexpr double kLeastWrong = 1e-4;  // four nines are more than a plan can tell
-        const double nines = -std::log10(std::max(0.0, 1.0 - most / staying) + kLeastWrong);
+        // As so many trials would tell them: few parts that arrive say little, however right they are.
+        const double wrong = std::max(0.0, staying - most);
+        const double nines = -std::log10((wrong * kTrialsOfPurity + 1.0) / (staying * kTrialsOfPurity + 2.0));
         return nines + problem_.rightAsNines * bitsOfHalving_ / objectives::kBitsOfHalving * most;
     }
     return std::log2(most / staying + kLeast) + bitsOfHalving_ * std::log2(staying);

@@ -82,7 +82,7 @@ class ChainSearch {
     [[nodiscard]] WayShares pass(const WayShares& parts, const WayMatrix& chances) const;
     /// Minus the bits of objectives::sorting() where falls are forgiven, else of objectives::disorder();
     /// where ways are wanted, of the share that lies so. Where purity is sought as nines,
-    /// objectives::purity() and the share of right ones of all.
+    /// objectives::purity() as 2000 parts would tell it, and the share of right ones of all.
     [[nodiscard]] double worthOf(const WayShares& parts) const;
     /// Where parts are behind as many of these as there are places of their kind.
     [[nodiscard]] WayShares repeat(const KnownTrap& trap) const;

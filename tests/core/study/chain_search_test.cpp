@@ -112,11 +112,14 @@ class ChainSearchTest : public QObject {
         problem.seeksPurity = true;
         ChainSearch search(problem);
         const double onlyOrder = search.worthOf({0.9, 0.1, 0, 0, 0, 0});
-        QVERIFY(std::abs(onlyOrder - (1.0 + 0.9)) < 1e-3);
+        QVERIFY(std::abs(onlyOrder - (std::log10(2002.0 / 201.0) + 0.9)) < 1e-9);
         const double sieved = search.worthOf({0.45, 0.005, 0, 0, 0, 0.545});
-        QVERIFY(std::abs(sieved - (1.955 + 0.45)) < 0.01);
+        QVERIFY(std::abs(sieved - (std::log10(912.0 / 11.0) + 0.45)) < 1e-9);
+        // None wrong of twice as many is worth more.
+        QVERIFY(search.worthOf({0.2, 0, 0, 0, 0, 0.8}) > search.worthOf({0.1, 0, 0, 0, 0, 0.9}) + 0.25);
         problem.rightAsNines = 0.1;
-        QVERIFY(std::abs(ChainSearch(problem).worthOf({0.9, 0.1, 0, 0, 0, 0}) - (1.0 + 0.09)) < 1e-3);
+        QVERIFY(std::abs(ChainSearch(problem).worthOf({0.9, 0.1, 0, 0, 0, 0}) -
+                         (std::log10(2002.0 / 201.0) + 0.09)) < 1e-9);
         // Bits have it the other way round where half of the parts go for a tenth of the wrong ones.
         problem.seeksPurity = false;
         const ChainSearch bits(problem);

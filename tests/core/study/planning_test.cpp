@@ -21,6 +21,18 @@ int findWay(const base::Quaternion& rotation) {
     return (static_cast<int>(std::lround(std::atan2(axis.y(), axis.x()) / (0.5 * base::kPi))) + 4) % 4;
 }
 
+/// It ends as it starts, or falls.
+trial::PartOutcome endOf(const track::Track& track, const trial::TrialSpec& spec, bool falls) {
+    trial::PartOutcome outcome;
+    outcome.initial = {spec.parts.front().pose.rotation, {track.start, 0.0, 0.0}};
+    outcome.farthest.position = {track.finish, 0.0, 0.0};
+    outcome.farthest.rotation =
+        Eigen::AngleAxisd(findWay(spec.parts.front().pose.rotation) * 0.5 * base::kPi, base::Vec3::UnitZ());
+    outcome.ending = falls ? trial::Ending::fellOff : trial::Ending::finished;
+    outcome.time = 1.0;
+    return outcome;
+}
+
 /// Parts lie down with one of four headings. What cuts in from the inner edge throws out 1 and 3, from the
 /// outer edge 2 and 3; nothing turns.
 trial::PartOutcome sieveLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
@@ -32,13 +44,7 @@ trial::PartOutcome sieveLaw(const trial::TrialBatch& batch, const trial::TrialSp
         if (section.points.front().x() > -half + kCut) falls = falls || way == 1 || way == 3;
         if (section.points.back().x() < half - kCut) falls = falls || way == 2 || way == 3;
     }
-    trial::PartOutcome outcome;
-    outcome.initial = {spec.parts.front().pose.rotation, {track.start, 0.0, 0.0}};
-    outcome.farthest.position = {track.finish, 0.0, 0.0};
-    outcome.farthest.rotation = Eigen::AngleAxisd(way * 0.5 * base::kPi, base::Vec3::UnitZ());
-    outcome.ending = falls ? trial::Ending::fellOff : trial::Ending::finished;
-    outcome.time = 1.0;
-    return outcome;
+    return endOf(track, spec, falls);
 }
 
 /// The same on a ledge: what narrows it throws out 1 and 3, what takes its wall away 2 and 3.
@@ -56,13 +62,7 @@ trial::PartOutcome ledgeLaw(const trial::TrialBatch& batch, const trial::TrialSp
         hasGap = hasGap || !hasWall;
     }
     const bool falls = (isNarrow && way % 2 == 1) || (hasGap && way >= 2);
-    trial::PartOutcome outcome;
-    outcome.initial = {spec.parts.front().pose.rotation, {track.start, 0.0, 0.0}};
-    outcome.farthest.position = {track.finish, 0.0, 0.0};
-    outcome.farthest.rotation = Eigen::AngleAxisd(way * 0.5 * base::kPi, base::Vec3::UnitZ());
-    outcome.ending = falls ? trial::Ending::fellOff : trial::Ending::finished;
-    outcome.time = 1.0;
-    return outcome;
+    return endOf(track, spec, falls);
 }
 
 study::StudyInputs sieveInputs(const char* objectives, unsigned threads = 1) {
