@@ -26,6 +26,17 @@ double scaleLength(double length, double radius, const part::Part& part) {
            kHalfMillimetres;
 }
 
+/// A plan, and a generation or two of chains like its best ones.
+void planLedges(EvolutionSettings& evolution) {
+    evolution.firstGeneration = search::ga::FirstGeneration::planned;
+    evolution.populationSize = 24;
+    evolution.tournamentSize = 6;
+    evolution.generations = 2;
+    // Most parts are thrown out, and of the others not one in a hundred may be wrong.
+    evolution.trialsPerEvaluation = 1000;
+    evolution.racingTrials = 200;
+}
+
 }  // namespace
 
 std::span<const std::string_view> presetNames() {
@@ -149,17 +160,16 @@ Settings ledgeMode(Settings settings, const part::Part& part) {
     track.segmentWidth = track.spiral.width + inProportion(10e-3);
     track.segmentHeight = inProportion(100e-3);
     settings.simulation.start.lateral = std::min(settings.simulation.start.lateral, inProportion(2e-3));
-    EvolutionSettings& evolution = settings.evolution;
-    evolution.objectives = "F_C, purity, success";
-    evolution.plannedTraps = 600;
-    // Most parts are thrown out, and of the others not one in a hundred may be wrong.
-    evolution.trialsPerEvaluation = 1000;
-    evolution.racingTrials = 200;
+    settings.evolution.objectives = "F_C, purity, success";
+    planLedges(settings.evolution);
+    settings.evolution.plannedTraps = 600;
     return settings;
 }
 
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track) {
-    settings.track.traps = "notched";
+    // Behind ledges more of them, along the same wall.
+    const bool isSpiral = track::spiralOf(track).width > 0.0;
+    settings.track.traps = isSpiral ? "4 x ledge" : "notched";
     auto behind = placeBehind(track, settings.track);
     if (!behind) return behind.error();
     settings.track = *std::move(behind);
@@ -168,6 +178,13 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     evolution.search = search::Method::genetic;
     evolution.objectives = "F_C, purity, success";
     evolution.tradeOff.clear();
+    evolution.cornerShare = 0.0;
+    evolution.cornersFrom = 0;
+    if (isSpiral) {
+        planLedges(evolution);
+        evolution.plannedTraps = 300;
+        return settings;
+    }
     evolution.firstGeneration = search::ga::FirstGeneration::graded;
     // Few numbers are looked for, of a hundred bits at most, and one wrong part in a hundred is to be seen.
     evolution.staticMutation = 0.02;
@@ -176,8 +193,6 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     evolution.racingTrials = 30;
     evolution.tournamentSize = std::min(evolution.tournamentSize, evolution.populationSize);
     evolution.generations = 30;
-    evolution.cornerShare = 0.0;
-    evolution.cornersFrom = 0;
     return settings;
 }
 

@@ -164,9 +164,10 @@ QWidget* TrackPage::makeHead() {
         "numbers that a track is made of (traps, sections, points) must stay"));
     auto* behind = new QCheckBox(tr("Add a rejecting trap"), locked_);
     behind->setObjectName("track.forkBehind");
-    behind->setToolTip(
-        tr("The chosen track stays as it is, and a notched track is learned behind it that throws out what "
-           "still lies wrong, so that it comes again: fewer wrong ones, at the price of parts a minute"));
+    behind->setToolTip(tr(
+        "The chosen track stays as it is, and a notched track, or ledges where it has a spiral, is learned "
+        "behind it that throws out what still lies wrong, so that it comes again: fewer wrong ones, at the "
+        "price of parts a minute"));
     // One or the other, or neither.
     connect(withTracks, &QCheckBox::toggled, behind, [behind](bool on) {
         if (on) behind->setChecked(false);
