@@ -185,6 +185,13 @@ class CommandsTest : public QObject {
                  "track.traps=groove, groove, gap", "--set", "evolution.firstGeneration=planned"});
         QVERIFY(gaps.code != 0);
         QVERIFY2(gaps.errors.contains("only ledges are planned"), gaps.errors.constData());
+        // Behind a spiral they are what is proposed.
+        const QByteArray spiral =
+            QByteArray(TRAPWRIGHT_SOURCE_DIR) + "/resources/tracks/bracket_ledges_track.json";
+        QCOMPARE(ask({"new", "spiral.trap", "--behind", spiral.constData(), "--part", "bracket"}).code, 0);
+        const QJsonObject more = ask({"settings", "spiral.trap", "--json"}).json();
+        QCOMPARE(more["track"].toObject()["traps"].toString(), "4 x ledge");
+        QCOMPARE(more["evolution"].toObject()["firstGeneration"].toString(), "planned");
     }
 
     // What is learned goes by the part, how much of it by the time; what is set one by one comes after it.
