@@ -49,7 +49,7 @@ constexpr std::size_t kMostShared = 8;  // ways that count for the sum of these 
 constexpr double kMostFromWay = 0.3;    // of these trials
 constexpr int kTrialsOfFollowed = 300;  // behind each trap, shared by the best chains
 constexpr int kTrialsOfFollowedForPurity = 900;
-constexpr std::size_t kFewOthers = 3;      // of these, that come so far
+constexpr std::size_t kFewOfWay = 3;       // of these, that lie so behind a trap
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
@@ -71,6 +71,7 @@ struct Care {
 constexpr Care kOnTheWay{3, 300, 4};
 constexpr Care kAtTheEnd{1, 1000, 12};
 constexpr Care kAtTheEndOfPurity{1, 2500, 5};
+constexpr int kFollowedAtTheEnd = 2;
 constexpr double kUnseenTurnsOfPurity = 0.2;  // one would hide how few of many are turned
 
 bool seeksPurity(const EvolutionSettings& settings) {
@@ -174,9 +175,21 @@ class Planner {
             if (const auto joined = plan(kOnTheWay); !joined) return joined.error();
         }
         if (const auto done = goOn(round, rounds, rounds); !done) return done.error();
-        const bool isPurity = search_.problem().seeksPurity;
-        if (const auto last = plan(isPurity ? kAtTheEndOfPurity : kAtTheEnd); !last) return last.error();
+        if (const auto last = planAtTheEnd(); !last) return last.error();
         return judge(listDesigns(most));
+    }
+
+    /// Where purity is sought, again with what comes through the chain that was found: a part in a thousand
+    /// is met by no trial that begins before all traps.
+    base::Status planAtTheEnd() {
+        if (!search_.problem().seeksPurity) return plan(kAtTheEnd);
+        if (const auto first = plan(kAtTheEndOfPurity); !first) return first.error();
+        for (int again = 0; again < kFollowedAtTheEnd && places_.size() > 1; ++again) {
+            if (search_.chains().empty()) break;
+            if (const auto followed = followParts(); !followed) return followed.error();
+            if (const auto planned = plan(kAtTheEndOfPurity); !planned) return planned.error();
+        }
+        return base::success();
     }
 
     /// Rounds of traps, planned with from time to time.
@@ -567,7 +580,7 @@ class Planner {
         const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
         if (!outcomes) return outcomes.error();
         met_.assign(rows(), {});
-        std::vector<base::Pose> others;  // that come farthest along one chain
+        std::vector<std::vector<base::Pose>> farthest;  // of each way, along one chain
         for (std::size_t i = 0; i < batches.size(); ++i) {
             std::vector<std::vector<base::Pose>> here(rows());
             for (const trial::Outcome& outcome : (*outcomes)[i]) {
@@ -576,13 +589,16 @@ class Planner {
                 here[column].push_back(outcome.parts.front().farthest);
                 here[column].back().position.z() -= bottoms[i];
             }
-            // Parts in none of the ways are of many kinds. Where the last wrong one counts, those that come
-            // through are what is to be thrown out.
-            if (search_.problem().seeksPurity && rows() > ways_.size()) {
-                if (i % (places_.size() - 1) == 0) others.clear();
-                if (here.back().size() >= kFewOthers) others = std::move(here.back());
-                here.back().clear();
-                if (i % (places_.size() - 1) == places_.size() - 2) here.back() = others;
+            // Parts that lie one way, or in none that has a name, are of many kinds. Where the last wrong one
+            // counts, those that come through are what is to be thrown out.
+            if (search_.problem().seeksPurity) {
+                const std::size_t place = i % (places_.size() - 1);
+                if (place == 0) farthest.assign(rows(), {});
+                for (std::size_t row = 0; row < rows(); ++row) {
+                    if (here[row].size() >= kFewOfWay) farthest[row] = std::move(here[row]);
+                    here[row].clear();
+                }
+                if (place + 2 == places_.size()) here = std::move(farthest);
             }
             for (std::size_t row = 0; row < rows(); ++row)
                 std::ranges::move(here[row], std::back_inserter(met_[row]));
