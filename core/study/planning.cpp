@@ -598,7 +598,7 @@ class Planner {
                     if (here[row].size() >= kFewOfWay) farthest[row] = std::move(here[row]);
                     here[row].clear();
                 }
-                if (place + 2 == places_.size()) here = std::move(farthest);
+                if (place + 2 == places_.size()) here.swap(farthest);
             }
             for (std::size_t row = 0; row < rows(); ++row)
                 std::ranges::move(here[row], std::back_inserter(met_[row]));
