@@ -403,7 +403,7 @@ class LearningTest : public QObject {
     }
 
     void unknownTrapsAreRefused() {
-        const Ran ran = learn(quickStudy("none.trap", 1) + QStringList{"--set", "track.traps=ledge"});
+        const Ran ran = learn(quickStudy("none.trap", 1) + QStringList{"--set", "track.traps=shelf"});
         QVERIFY2(ran.code != 0 && ran.errors.contains("The kinds are: free-form, step"), ran.all());
         QVERIFY(!QFile::exists(folder_->filePath("none.trap")));
     }
