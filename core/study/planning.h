@@ -19,7 +19,8 @@ namespace trapwright::study {
 /// chains.
 
 /// Why a chain of these traps cannot be planned; empty if it can. It begins with two grooves, in which parts
-/// come to lie down and to move on, and goes on with drops, cut-outs and gaps.
+/// come to lie down and to move on, and goes on with drops, cut-outs and gaps; or all of it are ledges, of
+/// which the first is left whole, also behind a trap that is given.
 std::string findPlanningProblem(const TrackSettings& settings);
 
 /// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
