@@ -40,6 +40,7 @@ JudgingCard::JudgingCard(QWidget* parent)
       robustness_(new QAction(tr("Measure its &robustness"), this)),
       allRobustness_(new QAction(tr("Measure &all compared"), this)),
       stream_(new QAction(tr("Send a &stream of parts"), this)),
+      oneStream_(new QAction(this)),
       compareText_(makeSentence(this)),
       validateText_(makeSentence(this)),
       robustnessText_(makeSentence(this)),
@@ -68,6 +69,9 @@ JudgingCard::JudgingCard(QWidget* parent)
         const auto inflows = study::defaultInflows();
         runs_->startStreams(*winner_, {inflows.begin(), inflows.end()});
     });
+    oneStream_->setObjectName("review.stream.one");
+    connect(oneStream_, &QAction::triggered, this,
+            [this] { runs_->startStreams(*winner_, {runs_->design().settings().stream.partsPerMinute}); });
 
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -87,6 +91,7 @@ JudgingCard::JudgingCard(QWidget* parent)
     column->addSpacing(6);
     column->addWidget(makeButton(stream_));
     column->addWidget(streamText_);
+    column->addWidget(makeButton(oneStream_));
     update();
 }
 
@@ -95,6 +100,7 @@ QPushButton* JudgingCard::makeButton(QAction* action) {
     button->setObjectName(action->objectName() + ".button");
     connect(button, &QPushButton::clicked, action, &QAction::trigger);
     const auto follow = [button, action] {
+        button->setText(action->text());
         button->setEnabled(action->isEnabled());
         button->setToolTip(action->toolTip());
     };
@@ -148,8 +154,9 @@ void JudgingCard::update() {
     const auto winners =
         std::min<std::size_t>(static_cast<std::size_t>(settings.selectionWinners), runs_->winners().size());
     const int inCorners = study::countCornerTrials(runs_->design().settings());
-    const QString tracks =
-        tr("%1 tracks, %2 trials each").arg(winners).arg(locale.toString(settings.selectionTrials));
+    const QString trialsOfEach = locale.toString(settings.selectionTrials);
+    const QString tracks = winners == 1 ? tr("1 track, %1 trials").arg(trialsOfEach)
+                                        : tr("%1 tracks, %2 trials each").arg(winners).arg(trialsOfEach);
     compareText_->setText(inCorners > 0 ? tr("%1 and %2 in corners").arg(tracks, locale.toString(inCorners))
                                         : tracks);
     const std::size_t poses = runs_->design().part()->stablePoses.size();
@@ -204,27 +211,41 @@ void JudgingCard::showRobustness(const QString& obstacle) {
 
 void JudgingCard::showStream(const QString& obstacle) {
     QString reason = obstacle;
-    QString text;
+    QString reasonOfOne = obstacle;
     if (runs_) {
-        const study::StreamSettings& stream = runs_->design().settings().stream;
+        const study::Settings& settings = runs_->design().settings();
+        const auto findProblem = [&](double inflow) {
+            const auto problems = study::findStreamProblems(settings, inflow);
+            return problems.empty() ? QString() : QString::fromStdString(problems.front());
+        };
         const auto inflows = study::defaultInflows();
         double parts = 0.0;
         for (const double inflow : inflows) {
-            parts += inflow / 60.0 * (stream.warmUp + stream.duration) * stream.streams;
-            const auto problems = study::findStreamProblems(runs_->design().settings(), inflow);
-            if (reason.isEmpty() && !problems.empty()) reason = QString::fromStdString(problems.front());
+            parts +=
+                inflow / 60.0 * (settings.stream.warmUp + settings.stream.duration) * settings.stream.streams;
+            if (reason.isEmpty()) reason = findProblem(inflow);
         }
-        text = tr("%1 to %2 parts a minute: %3 parts")
-                   .arg(inflows.front())
-                   .arg(inflows.back())
-                   .arg(QLocale().toString(static_cast<int>(parts)));
+        streamText_->setText(tr("%1 to %2 parts a minute: %3 parts")
+                                 .arg(inflows.front())
+                                 .arg(inflows.back())
+                                 .arg(QLocale().toString(static_cast<int>(parts))));
+        const double inflow = settings.stream.partsPerMinute;
+        if (reasonOfOne.isEmpty()) reasonOfOne = findProblem(inflow);
+        oneStream_->setText(tr("Only %1 parts a &minute").arg(QLocale().toString(inflow, 'g', 6)));
+    } else {
+        streamText_->clear();
+        oneStream_->setText(tr("Only the study's parts a &minute"));
     }
-    streamText_->setText(text);
     stream_->setEnabled(reason.isEmpty() && winner_.has_value());
     stream_->setToolTip(
         reason.isEmpty() ? tr("Simulate parts that follow each other, push and jam: how many a minute leave "
                               "the track as wanted")
                          : reason);
+    oneStream_->setEnabled(reasonOfOne.isEmpty() && winner_.has_value());
+    oneStream_->setToolTip(
+        reasonOfOne.isEmpty()
+            ? tr("Simulate streams of the inflow that is set on the Track page, and of no other")
+            : reasonOfOne);
 }
 
 void JudgingCard::measureAll() {

@@ -52,6 +52,7 @@ class JudgingCard : public QWidget {
     QAction* robustness_;
     QAction* allRobustness_;
     QAction* stream_;
+    QAction* oneStream_;
     QLabel* compareText_;
     QLabel* validateText_;
     QLabel* robustnessText_;

@@ -239,7 +239,8 @@ void RunCard::showIdle() {
         return;
     }
     if (known >= wanted) {
-        title_->setText(tr("All %1 generations learned").arg(wanted));
+        title_->setText(wanted == 1 ? tr("Its one generation is learned")
+                                    : tr("All %1 generations learned").arg(wanted));
         detail_->setText(tr("Raise their number below to continue."));
         return;
     }
