@@ -24,7 +24,6 @@
 #include "core/study/trial_batches.h"
 #include "core/track/track_builder.h"
 #include "core/traps/groove.h"
-#include "core/traps/ledge.h"
 #include "core/traps/trap_chain.h"
 #include "core/trial/orientations.h"
 
@@ -94,13 +93,13 @@ struct RunUp {
 
 /// The traps at the beginning of a chain that are none to be planned.
 int countBefore(const traps::TrapChain& chain) {
-    return chain.front()->key == traps::ledge().key ? kLedgesBefore : kGroovesBefore;
+    return chain.front()->isLedge ? kLedgesBefore : kGroovesBefore;
 }
 
 RunUp makeRunUp(const traps::TrapChain& chain, const TrackSettings& settings) {
     const int before = countBefore(chain);
     RunUp runUp{{chain.begin(), chain.begin() + before}, {}, 0.0};
-    if (chain.front()->key == traps::groove().key) {
+    if (!chain.front()->isLedge) {
         runUp.fall = traps::kRestingFall;
         for (int i = 0; i < before; ++i)
             std::ranges::copy(traps::restingGroove(settings), std::back_inserter(runUp.design));
@@ -320,7 +319,7 @@ class Planner {
         shortened.leadOutSegments = 1;
         // What a trap does with a part that lies in the groove before it depends on neither; but on a ledge
         // parts lie as they come up the spiral.
-        if (chain.front()->key == traps::groove().key) shortened.spiral = {};
+        if (!chain.front()->isLedge) shortened.spiral = {};
         shortened.chute = {};
         shortened.maxSegmentLength = 2.0 * inputs_->part->boundingRadius;
         auto track = decodeChain(settings().track, chain, design, shortened);
@@ -702,8 +701,7 @@ class Planner {
 std::string findPlanningProblem(const TrackSettings& settings) {
     const auto chain = traps::readTraps(settings.traps);
     if (!chain) return chain.error().message;
-    const auto isLedge = [](const traps::TrapKind* kind) { return kind->key == traps::ledge().key; };
-    if (chain->size() > kLedgesBefore && std::ranges::all_of(*chain, isLedge)) return {};
+    if (chain->size() > kLedgesBefore && std::ranges::all_of(*chain, &traps::TrapKind::isLedge)) return {};
     if (!settings.given.empty())
         return "Behind a trap that is given (track.given) only ledges are planned, as in \"4 x ledge\"; "
                "choose "
@@ -747,7 +745,11 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways)
     constexpr int kPlans = 12;
     constexpr int kMost = kMostShared;
     const int each = kShared * std::min(ways, kMost) + kOthers * std::max(0, ways - kMost) + kPlans;
-    return kTrialsOfWays + std::int64_t{settings.plannedTraps} * each;
+    // For purity parts are followed through longer, and at the end again: of chains of about seven traps.
+    const bool isPure = seeksPurity(settings);
+    const int followed = isPure ? 28 : 0;
+    const int atTheEnd = isPure ? 37000 : 0;
+    return kTrialsOfWays + std::int64_t{settings.plannedTraps} * (each + followed) + atTheEnd;
 }
 
 std::int64_t estimateJudgingTrials(const EvolutionSettings& settings) {

@@ -12,7 +12,6 @@
 #include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
-#include "core/traps/ledge.h"
 #include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
@@ -133,9 +132,9 @@ std::vector<std::string> findTrackProblems(const TrackSettings& track) {
     }
     if (const auto chain = traps::readTraps(track.traps)) {
         const auto least = static_cast<int>(track::kLeastSpiralPoints);
-        const bool hasLedge = std::ranges::any_of(
-            *chain, [](const traps::TrapKind* kind) { return kind->key == traps::ledge().key; });
-        if (hasLedge && track.pointsPerSection < least)
+        const bool hasLedge = std::ranges::any_of(*chain, &traps::TrapKind::isLedge);
+        // With a spiral too it is told once, by the spiral.
+        if (hasLedge && track.spiral.width <= 0.0 && track.pointsPerSection < least)
             problems.push_back(
                 fmt::format("track.pointsPerSection is {}; a ledge with its wall needs at least {}.",
                             track.pointsPerSection, least));

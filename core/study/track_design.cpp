@@ -8,7 +8,6 @@
 
 #include "core/base/spelling.h"
 #include "core/study/number_text.h"
-#include "core/traps/ledge.h"
 
 namespace trapwright::study {
 
@@ -216,8 +215,7 @@ base::Result<track::Track> buildLayout(const TrackSettings& settings) {
     if (!traps) return traps.error();
     const Given given = givenOf(settings);
     // Ledges have their form before anything is learned.
-    const bool hasLedge = std::ranges::any_of(
-        *traps, [](const traps::TrapKind* kind) { return kind->key == traps::ledge().key; });
+    const bool hasLedge = std::ranges::any_of(*traps, &traps::TrapKind::isLedge);
     if (hasLedge || calcTypicalFall(settings) > 0.0)
         return track::buildTrack(settings,
                                  given.followedBy(buildTypical(*traps, settings, given.last(settings))));

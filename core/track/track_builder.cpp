@@ -128,10 +128,9 @@ CrossSection makeLeadIn(const TrackParameters& parameters, double x, std::size_t
         addPlane(section, parameters.segmentWidth, middle, 0.0, points);
         return section;
     }
-    constexpr double kWallRun = 0.2e-3;  // so much the wall leans out, so that the surface stays one over y
     addPlane(section, spiral.width, middle, std::tan(spiral.inclination), points - 2);
     const double top = section.points.back().y() + spiral.wall;
-    section.points.emplace_back(0.5 * spiral.width + kWallRun, top);
+    section.points.emplace_back(0.5 * spiral.width + kSpiralWallRun, top);
     section.points.emplace_back(0.5 * spiral.width + kSpiralWallWidth, top);
     return section;
 }

@@ -41,6 +41,8 @@ CrossSection makeLeadIn(const TrackParameters& parameters, double x, std::size_t
 inline constexpr std::size_t kLeastSpiralPoints = 4;
 /// How much the wall of a spiral takes beside its ledge. [m]
 inline constexpr double kSpiralWallWidth = 2.2e-3;
+/// By so much it leans out, so that the surface stays one over y. [m]
+inline constexpr double kSpiralWallRun = 0.2e-3;
 
 /// Lead-in from x = 0, the functional sections (x measured from the lead-in's end, at least one), the
 /// lead-out and the chute; finish in the middle of the last duplicate or the chute. An error that names the

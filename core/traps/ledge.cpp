@@ -17,7 +17,6 @@ constexpr double kLeastStep = 1e-2;         // of the highest, likewise
 constexpr double kLongestSlant = 0.5;       // of the longest segment: a cut's beginning and end
 constexpr double kHighestStep = 1.0 / 6.0;  // of the longest segment
 constexpr double kDepthOfGap = 0.5;         // of the longest segment
-constexpr double kWallRun = 0.2e-3;         // the wall leans out by so much, as the spiral's does [m]
 constexpr int kBits = 7;
 constexpr int kFineBits = 10;  // of cuts, which decide by a tenth of a millimetre
 
@@ -99,7 +98,7 @@ class Course {
                 last > 0 ? within(left.inner, left.outer, static_cast<double>(j) / last) : left.outer));
         if (left.hasWall) {
             const double top = std::min(highest, foot + parameters_->spiral.wall);
-            section.points.emplace_back(place_.foot + kWallRun, top);
+            section.points.emplace_back(place_.foot + track::kSpiralWallRun, top);
             section.points.emplace_back(place_.foot + track::kSpiralWallWidth, top);
         }
         sections_.push_back(std::move(section));
@@ -194,7 +193,10 @@ TrapKind ledge() {
             &dimensionsOf,
             &build,
             &layOut,
-            &longest};
+            &longest,
+            nullptr,
+            false,
+            true};
 }
 
 }  // namespace trapwright::traps

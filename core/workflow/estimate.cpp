@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/study/evaluator.h"
 #include "core/study/planning.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
@@ -96,7 +97,9 @@ std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSetting
     study::EvolutionSettings fitted = full;
     fitted.generations = std::min(full.generations, kGenerations);
     fitted.populationSize = std::min(full.populationSize, kPopulation);
-    fitted.trialsPerEvaluation = std::min(full.trialsPerEvaluation, kTrials);
+    // Nines are told by many trials.
+    if (!objectives::contains(study::summedObjectives(full), objectives::kPurity))
+        fitted.trialsPerEvaluation = std::min(full.trialsPerEvaluation, kTrials);
     fitted.racingTrials = std::min(fitted.racingTrials, fitted.trialsPerEvaluation);
     fitted.tournamentSize = std::min(fitted.tournamentSize, fitted.populationSize);
     const auto timeOf = [&](int traps) {

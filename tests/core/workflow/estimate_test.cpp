@@ -93,6 +93,27 @@ class EstimateTest : public QObject {
         QVERIFY(!workflow::fitEvolution(planned, 20.0, cost).has_value());
     }
 
+    // One wrong part in a thousand is told by no hundred trials, and takes longer to plan for.
+    void aDraftForPurityKeepsItsTrials() {
+        study::EvolutionSettings sorting;
+        sorting.firstGeneration = search::ga::FirstGeneration::planned;
+        sorting.trialsPerEvaluation = 1000;
+        sorting.racingTrials = 200;
+        sorting.plannedTraps = 3000;
+        sorting.objectives = objectives::kSorting;
+        study::EvolutionSettings pure = sorting;
+        pure.objectives = "F_C, purity, success";
+        QVERIFY(study::estimatePlanningTrials(pure, 9) > study::estimatePlanningTrials(sorting, 9) + 30000);
+        const workflow::TrialCost cost{1e-3, 5e-4, 9};
+        constexpr double kSeconds = 300.0;
+        const auto draft = workflow::fitEvolution(pure, kSeconds, cost);
+        QVERIFY(draft.has_value());
+        QCOMPARE(draft->trialsPerEvaluation, 1000);
+        QCOMPARE(draft->racingTrials, 200);
+        QVERIFY(workflow::learningTime(*draft, draft->generations, cost) <= kSeconds);
+        QCOMPARE(workflow::fitEvolution(sorting, kSeconds, cost)->trialsPerEvaluation, 100);
+    }
+
     // Tests of the operators that a draft must not break.
     void aDraftCanBeLearned() {
         study::Settings settings;
