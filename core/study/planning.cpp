@@ -33,6 +33,8 @@ namespace {
 
 constexpr int kGroovesBefore = 2;      // the first turns parts along the track, the second is the run-up
 constexpr int kLedgesBefore = 1;       // the run-up: what comes before goes over to it
+constexpr std::size_t kLastAgain = 2;  // ledges behind a long chain that are its last one again
+constexpr std::size_t kLongChain = 7;  // of so many at least
 constexpr int kTrialsOfWays = 3000;    // that tell the ways
 constexpr std::size_t kMostWays = 14;  // others are one together
 constexpr int kLeastOfWay = 40;        // trials that end so
@@ -145,6 +147,10 @@ class Planner {
         }
         for (const traps::TrapKind* kind : kinds_)
             dimensions_.push_back(kind->dimensions(settings().track));
+        if (!chain.front()->isLedge || !seeksPurity(settings().evolution) || places_.size() < kLongChain)
+            return;
+        lastAgain_ = kLastAgain;
+        places_.resize(places_.size() - kLastAgain);
     }
 
     base::Result<std::vector<search::Design>> run(std::size_t most) {
@@ -637,6 +643,18 @@ class Planner {
         return work;
     }
 
+    /// The last ledge lets right parts pass, and throws out again what it should have thrown out, which no
+    /// arithmetic of shares below a thousandth tells. Where the track is too low for that: ledges not cut.
+    void repeatLast(search::Design& design, const Chain& chain) const {
+        const KnownTrap& last = search_.traps()[chain.traps.back()];
+        double fall = chain.fall;
+        for (std::size_t again = 0; again < lastAgain_; ++again) {
+            fall += last.fall;
+            const search::Design& numbers = fall <= search_.problem().mostFall ? last.numbers : runUp_.design;
+            design.insert(design.end(), numbers.begin(), numbers.end());
+        }
+    }
+
     [[nodiscard]] std::vector<search::Design> listDesigns(std::size_t most) const {
         std::vector<search::Design> designs;
         for (const Chain& chain : search_.chains()) {
@@ -646,6 +664,7 @@ class Planner {
                 const std::vector<double>& numbers = search_.traps()[i].numbers;
                 design.insert(design.end(), numbers.begin(), numbers.end());
             }
+            repeatLast(design, chain);
             if (std::find(designs.begin(), designs.end(), design) == designs.end())
                 designs.push_back(std::move(design));
         }
@@ -690,6 +709,7 @@ class Planner {
     std::vector<const traps::TrapKind*> kinds_;               // of the traps behind the grooves, each once
     std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind
     std::vector<std::size_t> places_;                         // kinds, along the track
+    std::size_t lastAgain_ = 0;                               // places behind them
     std::vector<base::Quaternion> ways_;                      // in which parts lie
     std::vector<std::vector<base::Pose>> starts_;  // of each way, and of others; z from the groove's bottom
     std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chains

@@ -155,7 +155,7 @@ Settings ledgeMode(Settings settings, const part::Part& part) {
     const auto inProportion = [&](double ofBracket) { return scaleLength(ofBracket, 9.4e-3, part); };
     settings = sortingMode(std::move(settings), part);
     TrackSettings& track = settings.track;
-    track.traps = "8 x ledge";
+    track.traps = "10 x ledge";
     track.spiral = {inProportion(20e-3), inProportion(10e-3), 10.0 * base::kDegree};
     track.segmentWidth = track.spiral.width + inProportion(10e-3);
     track.segmentHeight = inProportion(100e-3);

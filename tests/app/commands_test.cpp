@@ -163,7 +163,7 @@ class CommandsTest : public QObject {
         QCOMPARE(ask({"new", "ledges.trap", "--part", "bracket", "--ledges"}).code, 0);
         const QJsonObject settings = ask({"settings", "ledges.trap", "--json"}).json();
         const QJsonObject track = settings["track"].toObject();
-        QCOMPARE(track["traps"].toString(), "8 x ledge");
+        QCOMPARE(track["traps"].toString(), "10 x ledge");
         QCOMPARE(track["returns"].toString(), "anywhere");
         const double width = track["spiralWidth_mm"].toDouble();
         QVERIFY2(width > 19.0 && width < 22.0, qPrintable(QString::number(width)));

@@ -197,7 +197,7 @@ std::vector<Choice> trapChoices() {
     for (const char* chain :
          {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
           "groove, 10 x drop", "groove, groove, 8 x gap", "groove, groove, 8 x cut-out", "2 x narrowed",
-          "narrowed, notched", "free-form, narrowed", "8 x ledge"})
+          "narrowed, notched", "free-form, narrowed", "10 x ledge"})
         add(chain);
     return choices;
 }

@@ -125,15 +125,18 @@ class PlanningTest : public QObject {
 
     void findsTheLedgesThatLeaveOneWay_data() {
         QTest::addColumn<bool>("isGiven");
-        QTest::newRow("behind the lead-in") << false;
-        QTest::newRow("behind a track that is given") << true;
+        QTest::addColumn<QByteArray>("traps");
+        QTest::newRow("behind the lead-in") << false << QByteArray("4 x ledge");
+        QTest::newRow("behind a track that is given") << true << QByteArray("4 x ledge");
+        QTest::newRow("a long chain, its last one three times") << false << QByteArray("8 x ledge");
     }
     void findsTheLedgesThatLeaveOneWay() {
         QFETCH(bool, isGiven);
+        QFETCH(QByteArray, traps);
         study::StudyInputs inputs = sieveInputs("purity", 2);
         inputs.engine = std::make_shared<fake::FakeEngine>(ledgeLaw, 2);
         study::TrackSettings& track = inputs.settings.track;
-        track.traps = "4 x ledge";
+        track.traps = traps.toStdString();
         track.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
         if (isGiven) {
             track::CrossSection section = track::makeLeadIn(track, 20e-3, 8);
@@ -153,6 +156,10 @@ class PlanningTest : public QObject {
                 Eigen::AngleAxisd(quarter * 0.5 * base::kPi, base::Vec3::UnitZ());
             QCOMPARE(ledgeLaw(batch, spec).ending == trial::Ending::finished, quarter == 0);
         }
+        const std::ptrdiff_t each = std::ssize(designs->front()) / (traps.front() - '0');
+        const auto end = designs->front().end();
+        QCOMPARE(std::equal(end - each, end, end - 2 * each) && std::equal(end - each, end, end - 3 * each),
+                 traps == "8 x ledge");
     }
 
     void cutsNothingWhereFallsCount() {

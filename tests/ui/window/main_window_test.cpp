@@ -148,7 +148,7 @@ class MainWindowTest : public QObject {
         user.action("edit.undo")->trigger();
         user.action("preset.ledges")->trigger();
         const study::Settings ledges = user.session()->design().settings();
-        QCOMPARE(ledges.track.traps, std::string("8 x ledge"));
+        QCOMPARE(ledges.track.traps, std::string("10 x ledge"));
         QVERIFY(ledges.track.spiral.width > 0.0);
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
