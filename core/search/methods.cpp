@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/search/exchange_search.h"
 #include "core/search/ga/genetic_search.h"
 #include "core/search/random_search.h"
 
@@ -23,7 +24,8 @@ std::unique_ptr<Search> make(DesignSpace space, const SearchParameters& paramete
 
 constexpr std::array<Entry, kMethods.size()> kEntries = {
     {{Method::genetic, &ga::describeGeneticSearch, &make<ga::GeneticSearch>},
-     {Method::random, &describeRandomSearch, &make<RandomSearch>}}};
+     {Method::random, &describeRandomSearch, &make<RandomSearch>},
+     {Method::exchange, &describeExchangeSearch, &make<ExchangeSearch>}}};
 
 const Entry& entryOf(Method method) {
     return *std::find_if(kEntries.begin(), kEntries.end(),

@@ -12,11 +12,11 @@ namespace trapwright::search {
 
 /// The ways of searching that there are. A new one is its own file, its line in kMethods, its entry in
 /// methods.cpp.
-enum class Method { genetic, random };
+enum class Method { genetic, random, exchange };
 
 /// The methods by the names that they have in files and on the command line.
-inline constexpr std::array<std::pair<std::string_view, Method>, 2> kMethods = {
-    {{"genetic", Method::genetic}, {"random", Method::random}}};
+inline constexpr std::array<std::pair<std::string_view, Method>, 3> kMethods = {
+    {{"genetic", Method::genetic}, {"random", Method::random}, {"exchange", Method::exchange}}};
 
 /// What is to be known of a method without a search.
 struct MethodInfo {

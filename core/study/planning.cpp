@@ -740,7 +740,7 @@ std::string findPlanningProblem(const TrackSettings& settings) {
 }
 
 bool isPlanned(const EvolutionSettings& settings) {
-    return settings.search == search::Method::genetic &&
+    return settings.search != search::Method::random &&
            settings.firstGeneration == search::ga::FirstGeneration::planned;
 }
 

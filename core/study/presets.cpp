@@ -26,15 +26,23 @@ double scaleLength(double length, double radius, const part::Part& part) {
            kHalfMillimetres;
 }
 
-/// A plan, and a generation or two of chains like its best ones.
+/// Each generation one trap or two exchanged in the best chain, in a race that the two best run to its end.
+void exchangeTraps(EvolutionSettings& evolution) {
+    evolution.search = search::Method::exchange;
+    evolution.populationSize = 32;
+    evolution.tournamentSize = 6;
+    evolution.generations = 20;
+    evolution.racingShare = 2.0 / 32.0;
+    evolution.commonRandomNumbers = true;
+}
+
+/// A plan, whose best chain then has ledges exchanged.
 void planLedges(EvolutionSettings& evolution) {
     evolution.firstGeneration = search::ga::FirstGeneration::planned;
-    evolution.populationSize = 24;
-    evolution.tournamentSize = 6;
-    evolution.generations = 2;
+    exchangeTraps(evolution);
     // Most parts are thrown out, and of the others not one in a hundred may be wrong.
-    evolution.trialsPerEvaluation = 1000;
-    evolution.racingTrials = 200;
+    evolution.trialsPerEvaluation = 1920;
+    evolution.racingTrials = 60;
 }
 
 }  // namespace

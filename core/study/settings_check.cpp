@@ -223,6 +223,11 @@ std::vector<std::string> findProblems(const Settings& settings) {
             "evolution.racingTrials is 1; F_O compares two parts at least, so it must be 0 (no race) or at "
             "least 2.");
     }
+    if (evolution.search != search::Method::exchange && evolution.racingShare < search::kTopShare) {
+        problems.push_back("evolution.racingShare is " + shown(evolution.racingShare, FileUnit::none) +
+                           "; it must be from 0.3 to 1, as what breeds and what is shown is the best 30 %, "
+                           "unless evolution.search is exchange.");
+    }
     if (isPlanned(evolution)) {
         if (const std::string problem = findPlanningProblem(settings.track); !problem.empty())
             problems.push_back("evolution.firstGeneration is planned. " + problem);
@@ -341,15 +346,18 @@ std::vector<std::string> findRecommendations(const Settings& settings) {
                 evolution.cornersFrom));
     }
     if (evolution.firstGeneration == search::ga::FirstGeneration::known &&
-        evolution.search != search::Method::genetic)
+        evolution.search == search::Method::random)
         recommendations.push_back(
-            "evolution.firstGeneration is known, but only the genetic search begins with tracks that are "
-            "known; "
+            "evolution.firstGeneration is known, but designs that are drawn at random begin with nothing; "
+            "genetic or exchange is recommended as evolution.search.");
+    if (!evolution.tradeOff.empty() && evolution.search != search::Method::genetic)
+        recommendations.push_back(
+            "evolution.tradeOff asks for many tracks, but only the genetic search keeps more than one; "
             "genetic is recommended as evolution.search.");
-    if (!evolution.tradeOff.empty() && evolution.search == search::Method::random)
+    if (evolution.search == search::Method::exchange && !evolution.commonRandomNumbers)
         recommendations.push_back(
-            "evolution.tradeOff does nothing where designs are drawn at random; genetic is recommended as "
-            "evolution.search.");
+            "evolution.search is exchange, whose designs differ by little; that they meet the same starts is "
+            "recommended (evolution.commonRandomNumbers), or luck decides between them.");
     if ((counts(objectives::kSorting) || counts(objectives::kPurity)) &&
         settings.track.returns == trial::Returns::nowhere)
         recommendations.push_back(

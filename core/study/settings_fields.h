@@ -114,7 +114,7 @@ void visitFields(Visitor& v, SettingsType& s) {
                                                      {"plain", trial::OrientationDistance::plain}}});
     v.flag("evolution.simulateOverlapping", s.evolution.simulateOverlapping);
     v.count({"evolution.racingTrials", 0, 1000000}, s.evolution.racingTrials);
-    v.number({"evolution.racingShare", none, search::kTopShare, 1.0}, s.evolution.racingShare);
+    v.number({"evolution.racingShare", none, 0.02, 1.0}, s.evolution.racingShare);
     v.flag("evolution.commonRandomNumbers", s.evolution.commonRandomNumbers);
     v.number({"evolution.streamShare", none, 0.0, 1.0}, s.evolution.streamShare);
     v.count({"evolution.streamsEach", 1, 1000}, s.evolution.streamsEach);

@@ -87,16 +87,18 @@ double planningTime(const study::EvolutionSettings& evolution, const TrialCost& 
            static_cast<double>(study::estimateJudgingTrials(evolution)) * cost.learning;
 }
 
-/// As many traps as take `seconds` to plan with, and two generations, as those that follow gain little.
+/// As many traps as take `seconds` to plan with, and two generations, as those that are bred gain little.
+/// Exchanges gain more: they get half of the time.
 std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSettings& full, double seconds,
                                                    const TrialCost& cost) {
     constexpr int kFewestTraps = 500;
     constexpr int kGenerations = 2;
     constexpr int kPopulation = 24;
     constexpr int kTrials = 100;
+    const bool exchanges = full.search == search::Method::exchange;
     study::EvolutionSettings fitted = full;
     fitted.generations = std::min(full.generations, kGenerations);
-    fitted.populationSize = std::min(full.populationSize, kPopulation);
+    if (!exchanges) fitted.populationSize = std::min(full.populationSize, kPopulation);
     // Nines are told by many trials.
     if (!objectives::contains(study::summedObjectives(full), objectives::kPurity))
         fitted.trialsPerEvaluation = std::min(full.trialsPerEvaluation, kTrials);
@@ -107,9 +109,17 @@ std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSetting
         return learningTime(fitted, fitted.generations, cost);
     };
     const double before = timeOf(0);
-    const double count = std::floor((seconds - before) / (timeOf(1) - before));
-    if (!(count >= std::min(full.plannedTraps, kFewestTraps))) return std::nullopt;
-    fitted.plannedTraps = static_cast<int>(std::min<double>(count, full.plannedTraps));
+    const auto trapsIn = [&](double time) { return std::floor((time - before) / (timeOf(1) - before)); };
+    const int fewest = std::min(full.plannedTraps, kFewestTraps);
+    double count = trapsIn(seconds);
+    if (!(count >= fewest)) return std::nullopt;
+    if (exchanges) count = std::max<double>(fewest, trapsIn(0.5 * seconds));
+    const double left = seconds - timeOf(static_cast<int>(std::min<double>(count, full.plannedTraps)));
+    if (exchanges) {
+        const double each = learningTime(fitted, 1, cost);
+        fitted.generations += static_cast<int>(
+            std::clamp<double>(std::floor(left / each), 0.0, full.generations - fitted.generations));
+    }
     return fitted;
 }
 

@@ -39,7 +39,8 @@ inline constexpr double kDraftLearningTime = 450.0;
 
 /// Learning cut down to `seconds`: the largest of some populations, with as many trials, that gets
 /// generations enough to go with it, and no more of anything than `full` has; where the first generation is
-/// planned, as many traps as there is time for, and two generations of 24 individuals with 100 trials. All
+/// planned, as many traps as there is time for, and two generations of 24 individuals with 100 trials, or,
+/// of a search by exchanges, half of the time for traps and half for its generations. All
 /// else stays. None if not even 10 generations of 20 individuals with 20 trials fit, or a plan of 500 traps.
 std::optional<study::EvolutionSettings> fitEvolution(const study::EvolutionSettings& full, double seconds,
                                                      const TrialCost& cost);

@@ -170,6 +170,7 @@ class CommandsTest : public QObject {
         QVERIFY(track["segmentWidth_mm"].toDouble() > width + 4.4);
         QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "F_C, purity, success");
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
+        QCOMPARE(settings["evolution"].toObject()["search"].toString(), "exchange");
         for (const char* other : {"--sorting", "--paper"}) {
             const Ran both = ask({"new", "both.trap", "--part", "bracket", "--ledges", other});
             QCOMPARE(both.code, 2);

@@ -308,6 +308,8 @@ class LearningTest : public QObject {
         const QStringList scores{"best_so_far", "median_score"};
         QTest::newRow("random") << "random"
                                 << "free-form" << scores;
+        QTest::newRow("exchange") << "exchange"
+                                  << "free-form" << QStringList{"gain", "exchanges"};
         QTest::newRow("step") << "genetic"
                               << "step" << strategy;
         QTest::newRow("both") << "random"
@@ -324,13 +326,13 @@ class LearningTest : public QObject {
         QVERIFY2(ran.code == 0, ran.all());
         QCOMPARE(dumpOf("pieces.trap"), dumpOf("whole.trap"));
         const QJsonObject generation = ran.json()["generations"].toArray()[3].toObject();
-        for (const char* key : {"p_x", "p_dm", "p_s", "best_so_far", "median_score"})
+        for (const char* key : {"p_x", "p_dm", "p_s", "best_so_far", "median_score", "gain", "exchanges"})
             QCOMPARE(generation.contains(QLatin1String(key)), curves.contains(QLatin1String(key)));
         const Ran solid = learn({"export", "whole.trap", "track.stl"});
         QVERIFY2(solid.code == 0 && solid.output.contains("closed and manifold"), solid.all());
         const Ran changed =
             learn({"evolve", "whole.trap", "--resume", "--set",
-                   search == "random" ? "evolution.search=genetic" : "track.traps=free-form"});
+                   search == "genetic" ? "track.traps=free-form" : "evolution.search=genetic"});
         QVERIFY2(changed.code == 2 && changed.errors.contains("Only evolution.generations"), changed.all());
     }
 

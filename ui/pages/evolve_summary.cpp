@@ -25,6 +25,18 @@ QString objectiveText(const study::EvolutionSettings& evolution) {
     return QString::fromStdString(list ? objectives::describeSum(*list) : evolution.objectives);
 }
 
+QString searchText(const study::EvolutionSettings& evolution) {
+    switch (evolution.search) {
+        case search::Method::genetic:
+            return EvolveSummary::tr("genetic, tournaments of %1").arg(evolution.tournamentSize);
+        case search::Method::random:
+            return EvolveSummary::tr("random");
+        case search::Method::exchange:
+            return EvolveSummary::tr("exchanges in the best track");
+    }
+    return {};
+}
+
 QString stepText(const study::Settings& settings) {
     const QString text = EvolveSummary::tr("%1 ms while learning")
                              .arg(look::numberText(study::chooseLearningStep(settings) * 1e3));
@@ -65,10 +77,7 @@ Facts factsOf(const study::Settings& settings, const part::Part& part) {
         {EvolveSummary::tr("Population"), EvolveSummary::tr("%1, with %2 trials each")
                                               .arg(evolution.populationSize)
                                               .arg(evolution.trialsPerEvaluation)},
-        {EvolveSummary::tr("Search"),
-         evolution.search == search::Method::genetic
-             ? EvolveSummary::tr("genetic, tournaments of %1").arg(evolution.tournamentSize)
-             : EvolveSummary::tr("random")},
+        {EvolveSummary::tr("Search"), searchText(evolution)},
         {EvolveSummary::tr("Objective"), objectiveText(evolution)},
         {EvolveSummary::tr("Step"), stepText(settings)},
         {EvolveSummary::tr("Seed"), QString::number(evolution.seed)},

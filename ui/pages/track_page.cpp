@@ -378,10 +378,10 @@ void TrackPage::refresh() {
     for (const char* key : {"track.crossSections", "track.encoding"})
         form_->setVisible(key, freeForm);
     const bool genetic = settings.evolution.search == search::Method::genetic;
-    for (const char* key :
-         {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
-          "evolution.strategyScope", "evolution.smoothingLimit", "evolution.firstGeneration"})
+    for (const char* key : {"evolution.tournamentSize", "evolution.staticMutation", "evolution.mutationFloor",
+                            "evolution.strategyScope", "evolution.smoothingLimit"})
         form_->setVisible(key, genetic);
+    form_->setVisible("evolution.firstGeneration", settings.evolution.search != search::Method::random);
     form_->setVisible("evolution.plannedTraps", study::isPlanned(settings.evolution));
     const bool locked = design_->locked();
     form_->setLocked([locked](const std::string& key) { return !locked || staysFree(key); });

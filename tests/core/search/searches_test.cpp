@@ -2,6 +2,7 @@
 
 #include <QtTest>
 #include <cmath>
+#include <set>
 
 #include "core/search/ga/genetic_search.h"
 #include "core/search/methods.h"
@@ -23,6 +24,30 @@ search::DesignSpace someSpace() {
     }
     space.dimensions.push_back({"real", "", 0.0, 1.0});
     return space;
+}
+
+constexpr std::size_t kLines = 6;
+constexpr std::size_t kOfLine = 5;
+
+/// Lines that are alike, as those of a chain of one kind of trap, and a number by itself.
+search::DesignSpace chainSpace() {
+    search::DesignSpace space;
+    for (std::size_t line = 0; line < kLines; ++line) {
+        for (std::size_t i = 0; i < kOfLine; ++i) {
+            search::Dimension& dimension = space.dimensions.emplace_back();
+            dimension.key = "trap " + std::to_string(line) + ": number " + std::to_string(i);
+            dimension.bits = 10;
+            dimension.line = static_cast<int>(line);
+        }
+    }
+    space.dimensions.push_back({"alone", "mm", 0.0, 1.0});
+    space.dimensions.back().line = kLines;
+    return space;
+}
+
+search::Design lineOf(const search::Design& design, std::size_t line) {
+    const auto begin = design.begin() + static_cast<std::ptrdiff_t>(line * kOfLine);
+    return {begin, begin + static_cast<std::ptrdiff_t>(kOfLine)};
 }
 
 search::SearchParameters someParameters() {
@@ -222,8 +247,8 @@ class SearchesTest : public QObject {
         QVERIFY(messageOf(other->load(search->save())).contains("120, 56 and 60 bits"));
     }
 
-    // The paper's algorithm does what it is there for, drawing at random does not.
-    void breedingBeatsChance() {
+    // The paper's algorithm and exchanges do what they are there for, drawing at random does not.
+    void breedingAndExchangingBeatChance() {
         const auto bestOf = [](Method method) {
             const auto search = search::makeSearch(method, someSpace(), someParameters());
             double best = -1e9;
@@ -238,6 +263,107 @@ class SearchesTest : public QObject {
         const double bred = bestOf(Method::genetic);
         const double drawn = bestOf(Method::random);
         QVERIFY2(bred > -0.1 && drawn < -0.4, qPrintable(QString("%1, %2").arg(bred).arg(drawn)));
+        const double exchanged = bestOf(Method::exchange);
+        QVERIFY2(exchanged > -0.1, qPrintable(QString::number(exchanged)));
+    }
+
+    // Lines of a kind are exchanged whole or a little, and all others stay.
+    void exchangesTouchOneLineOrTwoUnlessTheyMove() {
+        const search::DesignSpace space = chainSpace();
+        search::SearchParameters parameters = someParameters();
+        parameters.populationSize = 400;
+        const auto search = search::makeSearch(Method::exchange, space, parameters);
+        std::vector<search::Proposal> begun(2);
+        for (std::size_t line = 0; line < kLines; ++line) {
+            for (std::size_t i = 0; i < kOfLine; ++i) {
+                begun[0].design.push_back(search::roundToBits(0.1 * static_cast<double>(line), 10));
+                begun[1].design.push_back(search::roundToBits(0.05 + 0.1 * static_cast<double>(line), 10));
+            }
+        }
+        begun[0].design.push_back(0.5);
+        begun[1].design.push_back(0.25);
+        search->begin(begun);
+        const auto first = search->ask();
+        QVERIFY(first[0].design == begun[0].design && first[1].design == begun[1].design);
+        std::vector<search::Judgement> judgements(first.size(), {0.0, 10});
+        judgements[0].score = 1.0;
+        search->tell(judgements);
+
+        const auto children = search->ask();
+        QVERIFY(children[0].design == begun[0].design);
+        int little = 0;
+        int adopted = 0;
+        int moved = 0;
+        for (std::size_t child = 1; child < children.size(); ++child) {
+            QVERIFY(children[child].design != begun[0].design);
+            int changed = 0;
+            int few = 0;
+            std::multiset<search::Design> lines;
+            std::multiset<search::Design> before;
+            for (std::size_t line = 0; line < kLines; ++line) {
+                const search::Design now = lineOf(children[child].design, line);
+                const search::Design old = lineOf(begun[0].design, line);
+                lines.insert(now);
+                before.insert(old);
+                if (now == old) continue;
+                ++changed;
+                int numbers = 0;
+                for (std::size_t i = 0; i < kOfLine; ++i)
+                    numbers += now[i] != old[i] ? 1 : 0;
+                few += numbers <= 3 ? 1 : 0;
+                for (std::size_t other = 0; other < kLines; ++other)
+                    adopted += now == lineOf(begun[1].design, other) ? 1 : 0;
+            }
+            if (changed == few) ++little;
+            if (changed > 1 && lines == before) ++moved;
+            QVERIFY(changed <= 2 || few < changed);
+        }
+        QVERIFY2(little > 100 && adopted > 30 && moved > 20,
+                 qPrintable(QString("%1, %2, %3").arg(little).arg(adopted).arg(moved)));
+    }
+
+    // Who is best once meets the one of before on other trials, and takes its place if it is better again;
+    // what was lucky in few trials is behind all that have more.
+    void exchangesGoOnFromWhatIsBetterTwice() {
+        const auto search = search::makeSearch(Method::exchange, someSpace(), someParameters());
+        const auto numberOf = [&](const char* key) {
+            return search::findNumber(search->report(), key).value();
+        };
+        const auto tell = [&](std::size_t best, double score, double ofParent) {
+            auto proposals = search->ask();
+            std::vector<search::Judgement> judgements(proposals.size(), {0.0, 10});
+            judgements[0].score = ofParent;
+            judgements[best].score = score;
+            judgements[8] = {50.0, 4};
+            search->tell(judgements);
+            return proposals;
+        };
+        const search::Design first = tell(7, 3.0, 0.0)[7].design;
+        QVERIFY(search->ask()[0].design == first);
+        // None is better: nobody challenges.
+        tell(9, 1.0, 2.0);
+        QVERIFY(search->ask()[0].design == first);
+        // One is better, and is not the next time.
+        const search::Design lucky = tell(5, 2.5, 2.0)[5].design;
+        QVERIFY(search->ask()[0].design == first && search->ask()[1].design == lucky);
+        tell(1, 1.5, 2.0);
+        QVERIFY(search->ask()[0].design == first && search->ask()[1].design != lucky);
+        QCOMPARE(numberOf("exchanges"), 0.0);
+        // One is better twice, also where another one is better still.
+        const search::Design right = tell(5, 2.5, 2.0)[5].design;
+        tell(1, 2.75, 2.25);
+        QVERIFY(search->ask()[0].design == right);
+        QCOMPARE(numberOf("gain"), 0.5);
+        QCOMPARE(numberOf("exchanges"), 1.0);
+        for (std::size_t child = 1; child < search->ask().size(); ++child)
+            QVERIFY(search->ask()[child].design != right);
+    }
+
+    void exchangesOfAnotherSpaceAreRefused() {
+        const auto search = search::makeSearch(Method::exchange, someSpace(), someParameters());
+        search->tell(judge(search->ask()));
+        const auto other = search::makeSearch(Method::exchange, chainSpace(), someParameters());
+        QVERIFY(messageOf(other->load(search->save())).contains("in this design space"));
     }
 
     void designsAreTheirGenes() {

@@ -180,8 +180,15 @@ class PlanningTest : public QObject {
     }
 
     // Learning begins with them, and goes on after a stop as if there had been none.
+    void learningBeginsWithThem_data() {
+        QTest::addColumn<int>("search");
+        QTest::newRow("bred") << static_cast<int>(search::Method::genetic);
+        QTest::newRow("exchanged") << static_cast<int>(search::Method::exchange);
+    }
     void learningBeginsWithThem() {
+        QFETCH(int, search);
         study::StudyInputs inputs = sieveInputs("sorting");
+        inputs.settings.evolution.search = search::Method(search);
         inputs.settings.evolution.generations = 2;
         const auto designs = study::planDesigns(inputs, 3, {}, {});
         VERIFY_OK(designs);

@@ -260,7 +260,8 @@ class SettingsCheckTest : public QObject {
             "0.1 to 600.");
         row(
             "race for fewer than the statistics show", [](Settings& s) { s.evolution.racingShare = 0.25; },
-            "evolution.racingShare is 0.25; it must be from 0.3 to 1.");
+            "evolution.racingShare is 0.25; it must be from 0.3 to 1, as what breeds and what is shown is "
+            "the best 30 %, unless evolution.search is exchange.");
         row(
             "negative length", [](Settings& s) { s.track.segmentWidth = -3e-3; },
             "track.segmentWidth_mm is -3; it must be from 1 to 1000.");

@@ -114,6 +114,35 @@ class EstimateTest : public QObject {
         QCOMPARE(workflow::fitEvolution(sorting, kSeconds, cost)->trialsPerEvaluation, 100);
     }
 
+    // What is bred behind a plan gains little, what is exchanged much: it gets what time there is.
+    void aDraftHasTimeForExchanges() {
+        study::EvolutionSettings full;
+        full.search = search::Method::exchange;
+        full.firstGeneration = search::ga::FirstGeneration::planned;
+        full.populationSize = 32;
+        full.trialsPerEvaluation = 400;
+        full.plannedTraps = 30000;
+        full.generations = 2000;
+        const workflow::TrialCost cost{1e-4, 5e-4, 9};
+        int generations = 2;
+        int traps = 0;
+        for (const double seconds : {60.0, 150.0, 300.0, 600.0}) {
+            const auto draft = workflow::fitEvolution(full, seconds, cost);
+            QVERIFY(draft.has_value());
+            const double takes = workflow::learningTime(*draft, draft->generations, cost);
+            QVERIFY2(takes <= seconds && takes > 0.9 * seconds,
+                     qPrintable(QString("%1 of %2").arg(takes).arg(seconds)));
+            QCOMPARE(draft->populationSize, full.populationSize);
+            QVERIFY(draft->generations > generations && draft->plannedTraps >= traps);
+            generations = draft->generations;
+            traps = draft->plannedTraps;
+        }
+        QVERIFY(traps > 1000);
+        const auto all = workflow::fitEvolution(full, 360000.0, cost);
+        QVERIFY(all.has_value() && all->generations == full.generations);
+        QCOMPARE(all->plannedTraps, full.plannedTraps);
+    }
+
     // Tests of the operators that a draft must not break.
     void aDraftCanBeLearned() {
         study::Settings settings;

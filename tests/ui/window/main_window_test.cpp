@@ -71,6 +71,10 @@ class MainWindowTest : public QObject {
         user.choose("evolution.search", "Random");
         QVERIFY(user.session()->design().settings().evolution.search == search::Method::random);
         QVERIFY(user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
+        QVERIFY(user.find<QWidget>("row.evolution.firstGeneration")->isHidden());
+        user.choose("evolution.search", "Exchange");
+        QVERIFY(user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
+        QVERIFY(!user.find<QWidget>("row.evolution.firstGeneration")->isHidden());
         user.choose("evolution.search", "Genetic");
         QVERIFY(!user.find<QWidget>("row.evolution.tournamentSize")->isHidden());
     }
