@@ -189,14 +189,22 @@ void ExchangeSearch::tell(std::span<const Judgement> judgements) {
         parent_ = asked_[best];
     } else {
         std::size_t parent = 0;
-        if (!challenger_.empty() && rank(1) > rank(0)) {
-            gain_ = judgements[1].score - judgements[0].score;
+        const auto replaceBy = [&](std::size_t i) {
+            gain_ += judgements[i].score - judgements[parent].score;
             ++exchanges_;
-            parent_ = challenger_;
-            parent = 1;
-        }
+            parent_ = asked_[i];
+            parent = i;
+        };
+        if (!challenger_.empty() && rank(1) > rank(0)) replaceBy(1);
         challenger_.clear();
-        if (rank(best) > rank(parent)) challenger_ = asked_[best];
+        if (rank(best) > rank(parent)) {
+            const double error = std::hypot(judgements[best].error, judgements[parent].error);
+            if (judgements[best].score - judgements[parent].score > error) {
+                replaceBy(best);
+            } else {
+                challenger_ = asked_[best];
+            }
+        }
     }
     ++generation_;
 }

@@ -13,11 +13,12 @@ MethodInfo describeExchangeSearch(ga::StrategyScope scope);
 /// Goes on from one design, the parent, by exchanging a line of it or two (Dimension::line: a trap of a
 /// chain, a cross-section) in each child. A line is exchanged for one like it, for another one of the same
 /// design or of a known one, moved to another place, or drawn at random. The best child, if it is ahead of
-/// the parent, is the challenger, and meets the parent again in the next generation, where half of the
-/// children are its own; ahead there as well it is the parent from then on. So nothing that was lucky once is
-/// gone on from: the best of thirty is ahead by luck nearly always. Meant for a race whose trials are the
-/// same for all designs of a generation (evolution.commonRandomNumbers): what differs between two of them is
-/// then mostly the line that was exchanged. Design i of generation g draws from (seed, g, i, transition).
+/// the parent by more than the standard error of their difference, is the parent from then on; if by less, it
+/// is the challenger, and meets the parent again in the next generation, where half of the children are its
+/// own. The best of thirty is ahead by luck nearly always, and what was lucky once is hardly so twice. Meant
+/// for a race whose trials are the same for all designs of a generation (evolution.commonRandomNumbers): what
+/// differs between two of them is then mostly the line that was exchanged. Design i of generation g draws
+/// from (seed, g, i, transition).
 class ExchangeSearch : public Search {
  public:
     ExchangeSearch(DesignSpace space, const SearchParameters& parameters);
@@ -29,8 +30,8 @@ class ExchangeSearch : public Search {
     std::vector<Proposal> ask() override;
     /// Who has fewer trials than the others is behind those who have all.
     void tell(std::span<const Judgement> judgements) override;
-    /// gain: how much a challenger that took the parent's place was ahead of it in that generation, else 0;
-    /// exchanges: how many did so far.
+    /// gain: how much who took the parent's place was ahead of it in this generation, else 0; exchanges: how
+    /// many did so far.
     [[nodiscard]] std::vector<NamedNumber> report() const override;
     [[nodiscard]] std::string save() const override;
     base::Status load(std::string_view state) override;

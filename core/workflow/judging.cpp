@@ -57,17 +57,24 @@ Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& fi
         auto front = loadFront(file, inputs.settings.evolution, traded, count);
         if (!front || !front->empty()) return front;
     }
-    if (!study::isPlanned(inputs.settings.evolution)) return study::rankWinners(std::move(*winners), count);
-    constexpr study::IndividualId kBestPlanned{0, 0};
-    auto planned = file.loadIndividual(kBestPlanned);
-    if (!planned) return Failure{FailureKind::reading, planned.error().message};
+    // What many trials were spent on, whoever won its generation: the plan's best, and what exchanges went on
+    // from last.
+    const bool exchanges = inputs.settings.evolution.search == search::Method::exchange;
+    if (!exchanges && !study::isPlanned(inputs.settings.evolution))
+        return study::rankWinners(std::move(*winners), count);
+    study::IndividualId first{0, 0};
+    for (const study::Individual& winner : *winners) {
+        if (exchanges) first.generation = std::max(first.generation, winner.generation);
+    }
+    auto tried = file.loadIndividual(first);
+    if (!tried) return Failure{FailureKind::reading, tried.error().message};
     std::vector<study::Individual> candidates =
         study::rankWinners(std::move(*winners), std::max(1, count - 1));
     const bool isKnown = std::any_of(candidates.begin(), candidates.end(), [&](const auto& candidate) {
-        return candidate.record.design == planned->design;
+        return candidate.record.design == tried->design;
     });
     if (!isKnown && static_cast<int>(candidates.size()) < count)
-        candidates.push_back({kBestPlanned, std::move(*planned)});
+        candidates.push_back({first, std::move(*tried)});
     return candidates;
 }
 

@@ -16,9 +16,10 @@
 namespace trapwright::workflow {
 
 /// The winners that a selection simulates again; of a planned study also the plan's best chain, the first
-/// individual of generation 0: it was put together from very many trials, and a generation's winner is the
-/// luckiest of many by few. Of a study that trades two objectives those along its Pareto front
-/// (study::findParetoFront). A failure if settings or part cannot be used, or there are no generations.
+/// individual of generation 0, and of one that learns by exchanges instead what it went on from last: they
+/// were put together from very many trials, and a generation's winner is the luckiest of many by few. Of a
+/// study that trades two objectives those along its Pareto front (study::findParetoFront). A failure if
+/// settings or part cannot be used, or there are no generations.
 Result<std::vector<study::Individual>> findCandidates(const store::StudyFile& file,
                                                       const study::StudyInputs& inputs);
 

@@ -331,7 +331,7 @@ class SearchesTest : public QObject {
         };
         const auto tell = [&](std::size_t best, double score, double ofParent) {
             auto proposals = search->ask();
-            std::vector<search::Judgement> judgements(proposals.size(), {0.0, 10});
+            std::vector<search::Judgement> judgements(proposals.size(), {0.0, 10, 1.0});
             judgements[0].score = ofParent;
             judgements[best].score = score;
             judgements[8] = {50.0, 4};
@@ -357,6 +357,10 @@ class SearchesTest : public QObject {
         QCOMPARE(numberOf("exchanges"), 1.0);
         for (std::size_t child = 1; child < search->ask().size(); ++child)
             QVERIFY(search->ask()[child].design != right);
+        // One is better by more than chance would have it.
+        const search::Design better = tell(5, 4.0, 2.25)[5].design;
+        QVERIFY(search->ask()[0].design == better);
+        QCOMPARE(numberOf("gain"), 1.75);
     }
 
     void exchangesOfAnotherSpaceAreRefused() {

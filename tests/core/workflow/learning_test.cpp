@@ -122,6 +122,14 @@ class LearningTest : public QObject {
             QVERIFY(study::isSameIndividual(candidates->front(), winners->front()));
             QCOMPARE(std::count_if(candidates->begin(), candidates->end(), isFirst), count > 1 ? 1 : 0);
         }
+        // So is what exchanges went on from last.
+        inputs.settings.evolution.search = search::Method::exchange;
+        const auto exchanged = workflow::findCandidates(*study.file, inputs);
+        VERIFY_OK(exchanged);
+        const study::IndividualRecord parent = study.file->loadIndividual({5, 0}).value();
+        QVERIFY(std::ranges::any_of(*exchanged, [&](const study::Individual& one) {
+            return one.record.design == parent.design;
+        }));
     }
 
     // Of a study that trades two objectives tracks from one end of its front to the other are.
