@@ -14,18 +14,30 @@ constexpr double kLeastGain = 0.01;  // and than this share of all that was gain
 
 struct Window {
     double mean = 0.0;
-    double error = 0.0;  // standard error of it
+    double error = 0.0;  // standard error of it, from the scatter about a straight line
 };
 
+/// What rises all the time does not scatter.
 Window average(std::span<const double> values) {
     const auto count = static_cast<double>(values.size());
     Window window;
     for (const double value : values)
         window.mean += value / count;
+    double products = 0.0;
+    double places = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double place = static_cast<double>(i) - 0.5 * (count - 1.0);
+        products += place * values[i];
+        places += place * place;
+    }
+    const double slope = products / places;
     double squares = 0.0;
-    for (const double value : values)
-        squares += (value - window.mean) * (value - window.mean);
-    window.error = std::sqrt(squares / (count - 1.0) / count);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double place = static_cast<double>(i) - 0.5 * (count - 1.0);
+        const double off = values[i] - window.mean - slope * place;
+        squares += off * off;
+    }
+    window.error = std::sqrt(squares / (count - 2.0) / count);
     return window;
 }
 

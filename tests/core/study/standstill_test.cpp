@@ -53,6 +53,14 @@ class StandstillTest : public QObject {
             QVERIFY(!study::findStandstill(makeSummaries(rise(60, 60), 0.05, seed)));
     }
 
+    // By exchanges from a plan: a rise in the first generations is no scatter that hides it.
+    void whatRoseAtFirstDoesNotStandStillSinceThen() {
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            const auto since = study::findStandstill(makeSummaries(rise(8, 17), 0.05, seed));
+            QVERIFY(!since || *since > 0);
+        }
+    }
+
     void whatRoseStandsStillSinceThen() {
         // Noise is taken for a gain once in eighty times.
         int told = 0;
