@@ -206,7 +206,8 @@ void ExchangeSearch::tell(std::span<const Judgement> judgements) {
             }
         }
     }
-    ++generation_;
+    // A state may be of any generation.
+    if (generation_ < std::numeric_limits<std::uint32_t>::max()) ++generation_;
 }
 
 std::vector<NamedNumber> ExchangeSearch::report() const {
