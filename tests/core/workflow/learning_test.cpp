@@ -127,9 +127,8 @@ class LearningTest : public QObject {
         const auto exchanged = workflow::findCandidates(*study.file, inputs);
         VERIFY_OK(exchanged);
         const study::IndividualRecord parent = study.file->loadIndividual({5, 0}).value();
-        QVERIFY(std::ranges::any_of(*exchanged, [&](const study::Individual& one) {
-            return one.record.design == parent.design;
-        }));
+        QVERIFY(std::ranges::any_of(
+            *exchanged, [&](const study::Individual& one) { return one.record.design == parent.design; }));
     }
 
     // Of a study that trades two objectives tracks from one end of its front to the other are.
