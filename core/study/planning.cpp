@@ -59,6 +59,9 @@ constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
 constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
 
+/// At the end of a plan for purity, of chains of about seven traps; an estimate.
+constexpr std::int64_t kTrialsAtTheEndOfPurity = 37000;
+
 constexpr std::size_t kJudged = 16;   // chains that are judged by trials of whole tracks
 constexpr int kFirstOfJudged = 25;    // trials of each
 constexpr int kTrialsOfJudged = 400;  // of the best
@@ -201,7 +204,8 @@ class Planner {
     base::Status goOn(int round, int end, int rounds) {
         for (; round < end; ++round) {
             if (control_.stopRequested()) return base::Error{"The planning was stopped."};
-            tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round));
+            const std::int64_t atTheEnd = search_.problem().seeksPurity ? kTrialsAtTheEndOfPurity : 0;
+            tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round) + atTheEnd);
             if (const auto tried = tryTraps(round); !tried) return tried.error();
             if (round + 1 < end && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
             if (const auto improved = plan(kOnTheWay); !improved) return improved.error();
@@ -765,11 +769,11 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways)
     constexpr int kPlans = 12;
     constexpr int kMost = kMostShared;
     const int each = kShared * std::min(ways, kMost) + kOthers * std::max(0, ways - kMost) + kPlans;
-    // For purity parts are followed through longer, and at the end again: of chains of about seven traps.
+    // For purity parts are followed through longer, and at the end again.
     const bool isPure = seeksPurity(settings);
     const int followed = isPure ? 28 : 0;
-    const int atTheEnd = isPure ? 37000 : 0;
-    return kTrialsOfWays + std::int64_t{settings.plannedTraps} * (each + followed) + atTheEnd;
+    return kTrialsOfWays + std::int64_t{settings.plannedTraps} * (each + followed) +
+           (isPure ? kTrialsAtTheEndOfPurity : 0);
 }
 
 std::int64_t estimateJudgingTrials(const EvolutionSettings& settings) {
