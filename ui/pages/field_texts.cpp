@@ -79,7 +79,7 @@ const RawText kTexts[] = {
     {"evolution.orientationDistance", TEXT("Alike orientations"), TEXT("Whether orientations that look alike count as the same; the paper does not count them so."), {TEXT("Count as one"), TEXT("Stay apart")}},
     {"evolution.simulateOverlapping", TEXT("Overlapping tracks"), TEXT("Whether tracks that cross themselves are simulated, as in the paper, or scored worst at once."), {TEXT("Score worst"), TEXT("Simulate")}},
     {"evolution.racingTrials", TEXT("Racing trials"), TEXT("Trials for every individual before only the best get all; 0 gives all to everybody.")},
-    {"evolution.racingShare", TEXT("Racing share"), TEXT("Share of the population that gets all trials in a race.")},
+    {"evolution.racingShare", TEXT("Racing share"), TEXT("Share of the population that gets all trials in a race; 0.3 at least unless the search is by exchanges.")},
     {"evolution.commonRandomNumbers", TEXT("Starts of parts"), TEXT("Whether all individuals of a generation meet the same random starts."), {TEXT("Differ"), TEXT("Same for all")}},
     {"evolution.tradeOff", TEXT("Trade-off"), TEXT("Two of the objectives that pull against each other, such as purity and success. Instead of by their sum tracks are ranked by Pareto fronts (NSGA-II), so that the population spreads over all that there is to choose from.")},
     {"evolution.streamShare", TEXT("Share with streams"), TEXT("Where throughput is an objective: the share of the population, the best by single parts, that streams of parts are sent over in each generation.")},
