@@ -198,8 +198,10 @@ void ExchangeSearch::tell(std::span<const Judgement> judgements) {
         if (!challenger_.empty() && rank(1) > rank(0)) replaceBy(1);
         challenger_.clear();
         if (rank(best) > rank(parent)) {
+            // Of other trials, a score can be another one by itself: of few, nobody is known to be pure.
+            const bool isAlike = judgements[best].trials == judgements[parent].trials;
             const double error = std::hypot(judgements[best].error, judgements[parent].error);
-            if (judgements[best].score - judgements[parent].score > error) {
+            if (isAlike && judgements[best].score - judgements[parent].score > error) {
                 replaceBy(best);
             } else {
                 challenger_ = asked_[best];

@@ -13,12 +13,12 @@ MethodInfo describeExchangeSearch(ga::StrategyScope scope);
 /// Goes on from one design, the parent, by exchanging a line of it or two (Dimension::line: a trap of a
 /// chain, a cross-section) in each child. A line is exchanged for one like it, for another one of the same
 /// design or of a known one, moved to another place, or drawn at random. The best child, if it is ahead of
-/// the parent by more than the standard error of their difference, is the parent from then on; if by less, it
-/// is the challenger, and meets the parent again in the next generation, where half of the children are its
-/// own. The best of thirty is ahead by luck nearly always, and what was lucky once is hardly so twice. Meant
-/// for a race whose trials are the same for all designs of a generation (evolution.commonRandomNumbers): what
-/// differs between two of them is then mostly the line that was exchanged. Design i of generation g draws
-/// from (seed, g, i, transition).
+/// the parent by more than the standard error of their difference on the same trials, is the parent from then
+/// on; if by less, it is the challenger, and meets the parent again in the next generation, where half of the
+/// children are its own. The best of thirty is ahead by luck nearly always, and what was lucky once is hardly
+/// so twice. Meant for a race whose trials are the same for all designs of a generation
+/// (evolution.commonRandomNumbers): what differs between two of them is then mostly the line that was
+/// exchanged. Design i of generation g draws from (seed, g, i, transition).
 class ExchangeSearch : public Search {
  public:
     ExchangeSearch(DesignSpace space, const SearchParameters& parameters);

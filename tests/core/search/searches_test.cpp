@@ -361,6 +361,12 @@ class SearchesTest : public QObject {
         const search::Design better = tell(5, 4.0, 2.25)[5].design;
         QVERIFY(search->ask()[0].design == better);
         QCOMPARE(numberOf("gain"), 1.75);
+        // Where the parent left the race early that cannot be told.
+        std::vector<search::Judgement> judgements(search->ask().size(), {0.0, 4, 1.0});
+        judgements[5] = {40.0, 10, 1.0};
+        const search::Design pure = search->ask()[5].design;
+        search->tell(judgements);
+        QVERIFY(search->ask()[0].design == better && search->ask()[1].design == pure);
     }
 
     void exchangesOfAnotherSpaceAreRefused() {
