@@ -127,7 +127,8 @@ class MpiJobTest : public QObject {
         timer.start();
         ::kill(process, signal);
         const Ran ended = finish(*job);
-        QVERIFY2(timer.elapsed() < 30000, "It took longer than 30 s.");
+        // 15 s of silence, and what a busy machine takes besides.
+        QVERIFY2(timer.elapsed() < 90000, "It took longer than 90 s.");
         QVERIFY2(ended.code != 0, ended.all());
         if (signal == SIGSTOP) QVERIFY2(ended.errors.contains("Rank 2 on "), ended.errors);
         // What the job had saved is what one process learns, and it goes on.
