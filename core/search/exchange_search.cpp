@@ -185,9 +185,8 @@ void ExchangeSearch::tell(std::span<const Judgement> judgements) {
         if (rank(i) > rank(best)) best = i;
     }
     gain_ = 0.0;
-    if (generation_ == 0) {
-        parent_ = asked_[best];
-    } else {
+    if (generation_ == 0) parent_ = asked_[known_.empty() ? best : 0];
+    if (generation_ > 0 || !known_.empty()) {
         std::size_t parent = 0;
         const auto replaceBy = [&](std::size_t i) {
             gain_ += judgements[i].score - judgements[parent].score;

@@ -23,9 +23,10 @@ class ExchangeSearch : public Search {
  public:
     ExchangeSearch(DesignSpace space, const SearchParameters& parameters);
 
-    /// The first are in generation 0 as they are; all are known from then on, so that their lines are
-    /// exchanged for others. None: designs at random, from
-    /// nearly level to rough unless a first generation at random is asked for.
+    /// The first are in generation 0 as they are, the best first: it is the parent, which others have to be
+    /// ahead of as in any generation. All are known from then on, so that their lines are exchanged for
+    /// others. None: designs at random, from nearly level to rough unless a first generation at random is
+    /// asked for; their best is the parent.
     void begin(std::span<const Proposal> proposals) override;
     std::vector<Proposal> ask() override;
     /// Who has fewer trials than the others is behind those who have all.

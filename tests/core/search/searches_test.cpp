@@ -322,6 +322,22 @@ class SearchesTest : public QObject {
                  qPrintable(QString("%1, %2, %3").arg(little).arg(adopted).arg(moved)));
     }
 
+    // What a plan holds for the best was judged by many trials: it is not given up for one that was lucky.
+    void exchangesBeginWithTheFirstThatIsKnown() {
+        const auto source = search::makeSearch(Method::random, someSpace(), someParameters());
+        const std::vector<search::Proposal> begun(source->ask());
+        for (const double lead : {0.5, 2.0}) {
+            const auto search = search::makeSearch(Method::exchange, someSpace(), someParameters());
+            search->begin(begun);
+            std::vector<search::Judgement> judgements(search->ask().size(), {0.0, 10, 1.0});
+            judgements[3].score = lead;
+            search->tell(judgements);
+            const auto next = search->ask();
+            QVERIFY(next[0].design == begun[lead > 1.5 ? 3 : 0].design);
+            QCOMPARE(next[1].design == begun[3].design, lead < 1.5);
+        }
+    }
+
     // Who is best once meets the one of before on other trials, and takes its place if it is better again;
     // what was lucky in few trials is behind all that have more.
     void exchangesGoOnFromWhatIsBetterTwice() {
