@@ -36,7 +36,7 @@ MethodInfo describeExchangeSearch(ga::StrategyScope /*scope*/) {
         {},
         {{"gain", "gain",
           "How much the track that is gone on from now was ahead of the one before it; 0: it is still the "
-          "same.",
+          "same, or one of the two left the race early.",
           "Fitness", false, 3},
          {"exchanges", "exchanges", "How often the track that is gone on from was replaced so far.",
           "Exchanges", false, 0}}};
@@ -188,8 +188,12 @@ void ExchangeSearch::tell(std::span<const Judgement> judgements) {
     if (generation_ == 0) parent_ = asked_[known_.empty() ? best : 0];
     if (generation_ > 0 || !known_.empty()) {
         std::size_t parent = 0;
+        // Of other trials, a score can be another one by itself: of few, nobody is known to be pure.
+        const auto areOnSameTrials = [&](std::size_t i) {
+            return judgements[i].trials == judgements[parent].trials;
+        };
         const auto replaceBy = [&](std::size_t i) {
-            gain_ += judgements[i].score - judgements[parent].score;
+            if (areOnSameTrials(i)) gain_ += judgements[i].score - judgements[parent].score;
             ++exchanges_;
             parent_ = asked_[i];
             parent = i;
@@ -197,10 +201,8 @@ void ExchangeSearch::tell(std::span<const Judgement> judgements) {
         if (!challenger_.empty() && rank(1) > rank(0)) replaceBy(1);
         challenger_.clear();
         if (rank(best) > rank(parent)) {
-            // Of other trials, a score can be another one by itself: of few, nobody is known to be pure.
-            const bool isAlike = judgements[best].trials == judgements[parent].trials;
             const double error = std::hypot(judgements[best].error, judgements[parent].error);
-            if (isAlike && judgements[best].score - judgements[parent].score > error) {
+            if (areOnSameTrials(best) && judgements[best].score - judgements[parent].score > error) {
                 replaceBy(best);
             } else {
                 challenger_ = asked_[best];

@@ -31,8 +31,8 @@ class ExchangeSearch : public Search {
     std::vector<Proposal> ask() override;
     /// Who has fewer trials than the others is behind those who have all.
     void tell(std::span<const Judgement> judgements) override;
-    /// gain: how much who took the parent's place was ahead of it in this generation, else 0; exchanges: how
-    /// many did so far.
+    /// gain: how much who took the parent's place was ahead of it in this generation, on the same trials,
+    /// else 0; exchanges: how many did so far.
     [[nodiscard]] std::vector<NamedNumber> report() const override;
     [[nodiscard]] std::string save() const override;
     base::Status load(std::string_view state) override;

@@ -383,6 +383,12 @@ class SearchesTest : public QObject {
         const search::Design pure = search->ask()[5].design;
         search->tell(judgements);
         QVERIFY(search->ask()[0].design == better && search->ask()[1].design == pure);
+        // Nor what is gained where only one of the two has all trials.
+        judgements.assign(search->ask().size(), {0.0, 4, 1.0});
+        judgements[1] = {40.0, 10, 1.0};
+        search->tell(judgements);
+        QVERIFY(search->ask()[0].design == pure);
+        QCOMPARE(numberOf("gain"), 0.0);
     }
 
     void exchangesOfAnotherSpaceAreRefused() {
