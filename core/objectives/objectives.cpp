@@ -37,9 +37,10 @@ std::string Objective::title() const {
 }
 
 std::span<const Objective> allObjectives() {
-    static const std::array kObjectives = {
-        collisions(),   distance(), orientation(), wanted(),    disorder(), sorting(),        successShare(),
-        correctShare(), purity(),   throughput(),  worstHalf(), corners(),  conveyingSpeed(), printability()};
+    static const std::array kObjectives = {collisions(), distance(),       orientation(),  wanted(),
+                                           disorder(),   sorting(),        successShare(), correctShare(),
+                                           purity(),     yield(),          throughput(),   worstHalf(),
+                                           corners(),    conveyingSpeed(), printability()};
     return kObjectives;
 }
 

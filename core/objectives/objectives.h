@@ -33,6 +33,8 @@ inline constexpr std::string_view kCorners = "corners";
 inline constexpr std::string_view kSorting = "sorting";
 /// Of the objective that counts how few wrong ones there are of what comes to the end.
 inline constexpr std::string_view kPurity = "purity";
+/// Of the objective that counts how many right ones there are of what is fed, by their logarithm.
+inline constexpr std::string_view kYield = "yield";
 /// Of the objective that streams of parts are sent for.
 inline constexpr std::string_view kThroughput = "throughput";
 

@@ -42,12 +42,25 @@ int countReturned(const Evaluation& evaluation) {
     return count;
 }
 
+/// Of a share by Laplace's rule of succession, which is never 0 or 1: how many tenfolds it is from all.
+Measured measureDecades(double count, double of) {
+    const double share = (count + 1.0) / (of + 2.0);
+    return {std::log10(share), std::sqrt((1.0 - share) / (share * (of + 2.0))) / std::log(10.0)};
+}
+
 Measured measurePurity(const Evaluation& evaluation) {
     if (evaluation.outcomes.empty()) return {};
     const trial::Tally tally = countVerdicts(evaluation);
     const double parts = tally.trials() - countReturned(evaluation);
-    const double wrong = (parts - tally.success + 1.0) / (parts + 2.0);
-    return {-std::log10(wrong), std::sqrt((1.0 - wrong) / (wrong * (parts + 2.0))) / std::log(10.0)};
+    const Measured wrong = measureDecades(parts - tally.success, parts);
+    return {-wrong.value, wrong.error};
+}
+
+Measured measureYield(const Evaluation& evaluation) {
+    constexpr double kLeast = -8.0;  // less than any number of trials tells
+    if (evaluation.outcomes.empty()) return {kLeast};
+    const trial::Tally tally = countVerdicts(evaluation);
+    return measureDecades(tally.success, tally.trials());
 }
 
 Measured measureThroughput(const Evaluation& evaluation) {
@@ -171,6 +184,20 @@ Objective purity() {
         return evaluation.returns != trial::Returns::nowhere;
     };
     objective.measure = &measurePurity;
+    return objective;
+}
+
+Objective yield() {
+    Objective objective = purity();
+    objective.key = kYield;
+    objective.symbol = "Yield";
+    objective.name = "Yield";
+    objective.unit = "decades";
+    objective.help =
+        "The share of right parts, of all that are fed, by its decimal logarithm: -1 is a tenth of them, "
+        "-0.3 half of them. Higher is better.";
+    objective.measure = &measureYield;
+    objective.attainable = [](const Task&) { return 0.0; };
     return objective;
 }
 

@@ -43,6 +43,11 @@ inline constexpr double kBitsOfHalving = 1.0 / 6.0;
 /// stuck or is lost counts as wrong.
 Objective purity();
 
+/// For tracks that throw out what lies wrong, in decades: the decimal logarithm of the share of right parts
+/// of all that are fed, ((right + 1) / (all + 2)), 0 if all are right. Beside purity twice as many right ones
+/// are worth as much as half of the wrong ones, however few there are.
+Objective yield();
+
 /// Parts of streams that leave the track as wanted, of those that come to it (core/study/stream). Without
 /// streams nothing, so that a search may send them over its best tracks alone.
 Objective throughput();

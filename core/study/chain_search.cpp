@@ -75,7 +75,9 @@ double ChainSearch::worthOf(const WayShares& parts) const {
         // As so many trials would tell them: few parts that arrive say little, however right they are.
         const double wrong = std::max(0.0, staying - most);
         const double nines = -std::log10((wrong * kTrialsOfPurity + 1.0) / (staying * kTrialsOfPurity + 2.0));
-        return nines + problem_.rightAsNines * bitsOfHalving_ / objectives::kBitsOfHalving * most;
+        const double right =
+            problem_.seeksYield ? std::log10((most * kTrialsOfPurity + 1.0) / (kTrialsOfPurity + 2.0)) : most;
+        return nines + problem_.rightAsNines * bitsOfHalving_ / objectives::kBitsOfHalving * right;
     }
     return std::log2(most / staying + kLeast) + bitsOfHalving_ * std::log2(staying);
 }

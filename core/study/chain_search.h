@@ -45,6 +45,7 @@ struct ChainProblem {
     bool forgivesFalls = false;         // what falls off comes again
     bool seeksPurity = false;           // then: few wrong ones count by their nines, not by bits
     double rightAsNines = 1.0;          // then: what all right is worth besides
+    bool seeksYield = false;            // then: or ten times as many right ones
     double unseenTurns = 1.0;           // trials from each way that are taken to end in others
     std::vector<std::size_t> wanted{};  // ways in which parts shall lie; none: in any one
 
@@ -82,7 +83,8 @@ class ChainSearch {
     [[nodiscard]] WayShares pass(const WayShares& parts, const WayMatrix& chances) const;
     /// Minus the bits of objectives::sorting() where falls are forgiven, else of objectives::disorder();
     /// where ways are wanted, of the share that lies so. Where purity is sought as nines,
-    /// objectives::purity() as 2000 parts would tell it, and the share of right ones of all.
+    /// objectives::purity() as 2000 parts would tell it, and the share of right ones of all or, where yield
+    /// is sought, objectives::yield().
     [[nodiscard]] double worthOf(const WayShares& parts) const;
     /// Where parts are behind as many of these as there are places of their kind.
     [[nodiscard]] WayShares repeat(const KnownTrap& trap) const;

@@ -191,9 +191,15 @@ class Planner {
     /// is met by no trial that begins before all traps.
     base::Status planAtTheEnd() {
         if (!search_.problem().seeksPurity) return plan(kAtTheEnd);
+        const auto tellLeft = [&](int plans) {
+            tellProgress(control_.run.done() - doneBefore_ +
+                         plans * kTrialsAtTheEndOfPurity / (1 + kFollowedAtTheEnd));
+        };
+        tellLeft(1 + kFollowedAtTheEnd);
         if (const auto first = plan(kAtTheEndOfPurity); !first) return first.error();
         for (int again = 0; again < kFollowedAtTheEnd && places_.size() > 1; ++again) {
             if (search_.chains().empty()) break;
+            tellLeft(kFollowedAtTheEnd - again);
             if (const auto followed = followParts(); !followed) return followed.error();
             if (const auto planned = plan(kAtTheEndOfPurity); !planned) return planned.error();
         }
@@ -246,7 +252,9 @@ class Planner {
         const objectives::ObjectiveList summed = summedObjectives(settings().evolution);
         problem.seeksPurity = seeksPurity(settings().evolution);
         // Where right parts are not in the sum they decide between chains that are as pure.
-        if (!objectives::contains(summed, objectives::kSuccess)) problem.rightAsNines = 0.1;
+        problem.seeksYield = objectives::contains(summed, objectives::kYield);
+        if (!problem.seeksYield && !objectives::contains(summed, objectives::kSuccess))
+            problem.rightAsNines = 0.1;
         if (problem.seeksPurity) problem.unseenTurns = kUnseenTurnsOfPurity;
         problem.wanted = listWantedWays();
         problem.arriving.assign(problem.columns(), 0.0);

@@ -168,7 +168,7 @@ class CommandsTest : public QObject {
         const double width = track["spiralWidth_mm"].toDouble();
         QVERIFY2(width > 19.0 && width < 22.0, qPrintable(QString::number(width)));
         QVERIFY(track["segmentWidth_mm"].toDouble() > width + 4.4);
-        QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "F_C, purity, success");
+        QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "F_C, purity, yield");
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
         QCOMPARE(settings["evolution"].toObject()["search"].toString(), "exchange");
         for (const char* other : {"--sorting", "--paper"}) {

@@ -53,7 +53,7 @@ struct Judge {
 /// In all of these trials' scores, without being named in F.
 bool isScored(const objectives::Objective& objective) {
     return !objective.needsWanted && objective.key != "F_P" && objective.key != objectives::kThroughput &&
-           objective.key != objectives::kPurity;
+           objective.key != objectives::kPurity && objective.key != objectives::kYield;
 }
 
 Outcome finishedAfter(double way, double seconds, const base::Quaternion& rotation) {
@@ -374,6 +374,44 @@ class ObjectivesTest : public QObject {
         QVERIFY2(std::abs(nines + std::log10(share)) < 1e-9, qPrintable(QString::number(nines)));
     }
 
+    // Of what is fed, however much of it comes again.
+    void yieldCountsDecades_data() {
+        QTest::addColumn<int>("right");
+        QTest::addColumn<int>("wrong");
+        QTest::addColumn<int>("fallen");
+        QTest::addColumn<double>("share");
+        QTest::newRow("all right") << 98 << 0 << 0 << 0.99;
+        QTest::newRow("half of them come again") << 49 << 0 << 49 << 0.5;
+        QTest::newRow("half of them are wrong") << 49 << 49 << 0 << 0.5;
+        QTest::newRow("few") << 9 << 1 << 88 << 0.1;
+        QTest::newRow("none") << 0 << 0 << 98 << 0.01;
+    }
+    void yieldCountsDecades() {
+        QFETCH(int, right);
+        QFETCH(int, wrong);
+        QFETCH(int, fallen);
+        QFETCH(double, share);
+        std::vector<Outcome> outcomes(static_cast<std::size_t>(right + wrong + fallen),
+                                      finishedAfter(104e-3, 2.0, base::Quaternion::Identity()));
+        for (int i = 0; i < wrong + fallen; ++i) {
+            trial::PartOutcome& part = outcomes[static_cast<std::size_t>(i)].parts[0];
+            part.farthest.rotation = turn(90.0, base::Vec3::UnitX());
+            if (i >= wrong) part.ending = trial::Ending::fellOff;
+        }
+        const Judge judge;
+        Evaluation evaluation = judge.evaluation(outcomes);
+        evaluation.returns = trial::Returns::anywhere;
+        evaluation.wanted = trial::makeGoal(base::Quaternion::Identity());
+        const auto sum = objectives::readObjectives("yield").value();
+        const Fitness fitness = objectives::measureAll(evaluation, sum);
+        QVERIFY2(std::abs(fitness.total - std::log10(share)) < 1e-9,
+                 qPrintable(QString::number(fitness.total)));
+        // The binomial's error of the share, as the logarithm has it.
+        const double error =
+            std::sqrt(share * (1.0 - share) / (right + wrong + fallen + 2)) / share / std::log(10.0);
+        QVERIFY(std::abs(objectives::findScore(fitness, "yield")->error - error) < 1e-9);
+    }
+
     // Of studies whose parts do not come again it says nothing.
     void purityIsOfPartsThatComeAgain() {
         const Judge judge;
@@ -619,7 +657,7 @@ class ObjectivesTest : public QObject {
         const Fitness all = objectives::measureOthers(judge.evaluation(outcomes), some);
         QCOMPARE(all.total, 1.0);
         QCOMPARE(all.scores.size(),
-                 objectives::allObjectives().size() - 4);  // all but F_W, F_P, purity and throughput
+                 objectives::allObjectives().size() - 5);  // all but F_W, F_P, purity, yield and throughput
         QVERIFY(all == objectives::measureAll(judge.evaluation(outcomes), *list));
         const Fitness errors{0.0, {{"F_D", 1.0, 3.0}, {"success", 1.0, 4.0}, {"F_O", 1.0, 9.0}}};
         QCOMPARE(objectives::calcTotalError(errors, *list), 5.0);
@@ -630,7 +668,7 @@ class ObjectivesTest : public QObject {
         QTest::addColumn<QString>("told");
         QTest::newRow("unknown") << "F_C, F_Q"
                                  << "There is no objective named \"F_Q\". The objectives are: F_C, F_D, F_O, "
-                                    "F_W, disorder, sorting, success, correct, purity, throughput, "
+                                    "F_W, disorder, sorting, success, correct, purity, yield, throughput, "
                                     "worst_half, corners, conveying_speed, "
                                     "F_P. Write "
                                     "several with commas between them.";

@@ -120,6 +120,18 @@ class ChainSearchTest : public QObject {
         problem.rightAsNines = 0.1;
         QVERIFY(std::abs(ChainSearch(problem).worthOf({0.9, 0.1, 0, 0, 0, 0}) -
                          (std::log10(2002.0 / 201.0) + 0.09)) < 1e-9);
+        // Three times as many right ones are worth four times as many wrong ones where yield is sought.
+        problem.rightAsNines = 1.0;
+        const ChainSearch nines(problem);
+        problem.seeksYield = true;
+        const ChainSearch decades(problem);
+        problem.seeksYield = false;
+        QVERIFY(std::abs(decades.worthOf({0.9, 0.1, 0, 0, 0, 0}) -
+                         (std::log10(2002.0 / 201.0) + std::log10(1801.0 / 2002.0))) < 1e-9);
+        const study::WayShares few{0.05, 0.0005, 0, 0, 0, 0.9495};
+        const study::WayShares more{0.15, 0.005, 0, 0, 0, 0.845};
+        QVERIFY(nines.worthOf(few) > nines.worthOf(more) + 0.1);
+        QVERIFY(decades.worthOf(few) < decades.worthOf(more) - 0.1);
         // Bits have it the other way round where half of the parts go for a tenth of the wrong ones.
         problem.seeksPurity = false;
         const ChainSearch bits(problem);
