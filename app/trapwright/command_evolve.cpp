@@ -115,7 +115,7 @@ std::string describeStep(const study::Settings& settings) {
 /// A line; empty where nothing is wanted.
 std::string describeWanted(const OpenStudy& study) {
     if (!study.settings.target.isSet()) return "";
-    return fmt::format("Parts shall end {}.\n", study::describeTarget(study.settings.target, *study.part));
+    return fmt::format("Parts shall end {}.\n", study::describeTarget(study.settings, *study.part));
 }
 
 std::string describeStart(const OpenStudy& study, const study::StudyInputs& inputs) {

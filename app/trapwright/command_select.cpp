@@ -40,8 +40,8 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     auto record = selectAndSave(study->file, *inputs, console);
     if (!record) return record.error();
     if (study->settings.target.isSet())
-        console.print(fmt::format("Success: parts end {}.\n",
-                                  study::describeTarget(study->settings.target, *study->part)));
+        console.print(
+            fmt::format("Success: parts end {}.\n", study::describeTarget(study->settings, *study->part)));
     if (record->box) console.print("Conditions vary over the operating box.\n");
     console.print(study::formatSelection(*record));
     nlohmann::ordered_json document = {{"study", options.study}, {"selection", toJson(*record)}};

@@ -309,7 +309,7 @@ objectives::Evaluation makeEvaluation(const StudyInputs& inputs, const track::Tr
     evaluation.outcomes = outcomes;
     evaluation.distance = inputs.settings.evolution.orientationDistance;
     evaluation.tolerance = inputs.settings.validation.tolerance;
-    evaluation.wanted = findWanted(inputs.settings.target, *inputs.part);
+    evaluation.wanted = findWanted(inputs.settings, *inputs.part);
     evaluation.returns = inputs.settings.track.returns;
     return evaluation;
 }

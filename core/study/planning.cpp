@@ -225,7 +225,7 @@ class Planner {
     /// any one way, and what is wanted is left to the learning that follows.
     [[nodiscard]] std::vector<std::size_t> listWantedWays() const {
         std::vector<std::size_t> wanted;
-        const auto goal = findWanted(settings().target, *inputs_->part);
+        const auto goal = findWanted(settings(), *inputs_->part);
         for (std::size_t way = 0; goal && way < ways_.size(); ++way) {
             const double angle = trial::calcAngleToGoal(ways_[way], *goal, inputs_->part->symmetry);
             if (angle <= settings().validation.tolerance) wanted.push_back(way);

@@ -52,7 +52,7 @@ base::Result<CheckRecord> checkWinner(const StudyInputs& inputs, const trial::En
     if (!judged) return judged.error();
 
     const std::vector<trial::Outcome>& own = learned->front();
-    const trial::Goal goal = trial::findGoal(findWanted(inputs.settings.target, *inputs.part), own,
+    const trial::Goal goal = trial::findGoal(findWanted(inputs.settings, *inputs.part), own,
                                              inputs.part->symmetry, inputs.settings.validation.tolerance);
     const int overlaps = winner.record.overlaps;
     const std::vector<trial::BoxPlace> places = listPlaces(batches.front());

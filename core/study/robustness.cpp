@@ -261,7 +261,7 @@ base::Result<Robustness> measureRobustness(const StudyInputs& inputs,
             "box.frequency_percent, box.angle_deg, box.sizeBelow_mm, box.sizeAbove_mm, box.startOffset_mm, "
             "box.startSpeed_mm_s and box.roughness_deg are 0. Set what is not known exactly."};
     Measurement measurement(inputs, track, std::move(control));
-    measurement.goal = given ? given : findWanted(settings.target, *inputs.part);
+    measurement.goal = given ? given : findWanted(settings, *inputs.part);
     Robustness robustness;
 
     const BoxPlace asSet = placeAsSet(settings);

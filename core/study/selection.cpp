@@ -109,7 +109,7 @@ base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vect
     if (!outcomes) return outcomes.error();
 
     const objectives::ObjectiveList summed = summedObjectives(settings.evolution);
-    const std::optional<trial::Goal> wanted = findWanted(settings.target, *inputs.part);
+    const std::optional<trial::Goal> wanted = findWanted(settings, *inputs.part);
     SelectionRecord record{inputs.engine->name(), {}};
     record.box = boxOfJudging(settings);
     for (std::size_t i = 0; i < ranked.size(); ++i) {

@@ -391,7 +391,7 @@ base::Result<Streams> measureStreams(const StudyInputs& inputs,
     if (!problems.empty()) return base::Error{problems};
 
     std::optional<trial::Goal> goal = given;
-    if (!goal) goal = findWanted(inputs.settings.target, *inputs.part);
+    if (!goal) goal = findWanted(inputs.settings, *inputs.part);
     const double tolerance = inputs.settings.validation.tolerance;
     Streams streams;
     streams.settings = inputs.settings.stream;

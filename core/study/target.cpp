@@ -10,6 +10,8 @@
 
 #include "core/base/spelling.h"
 #include "core/study/number_text.h"
+#include "core/traps/groove.h"
+#include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
 
@@ -40,9 +42,21 @@ base::Quaternion turned(const base::Quaternion& pose, double heading) {
     return base::Quaternion(Eigen::AngleAxisd(heading, base::Vec3::UnitZ())) * pose;
 }
 
+/// How steep across the track what parts leave it on is at the most. [rad]
+double findLean(const TrackSettings& track) {
+    const auto traps = traps::readTraps(track.traps);
+    if (traps && traps->back()->endsInGroove) return traps::kRestingWall;
+    return track.spiral.width > 0.0 ? track.spiral.inclination : 0.0;
+}
+
 std::string nameOrientation(const base::Quaternion& q) {
     return fmt::format("the orientation (w, x, y, z) = ({:.3f}, {:.3f}, {:.3f}, {:.3f})", q.w(), q.x(), q.y(),
                        q.z());
+}
+
+/// As the track's end does.
+std::string describeLean(double lean) {
+    return fmt::format(", leaning across the track by up to {:g}°", lean / base::kDegree);
 }
 
 std::string nameGroups(std::span<const part::PoseGroup> groups, std::span<const int> named) {
@@ -133,7 +147,8 @@ std::vector<int> findWantedGroups(const TargetSettings& target, std::span<const 
     return named;
 }
 
-std::optional<trial::Goal> findWanted(const TargetSettings& target, const part::Part& part) {
+std::optional<trial::Goal> findWanted(const Settings& settings, const part::Part& part) {
+    const TargetSettings& target = settings.target;
     if (target.orientation) return trial::makeGoal(*target.orientation);
     if (!target.isSet()) return std::nullopt;
     const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
@@ -141,10 +156,11 @@ std::optional<trial::Goal> findWanted(const TargetSettings& target, const part::
     assert(heading.ok());
     trial::Goal goal;
     goal.orientations.clear();
+    const double lean = findLean(settings.track);
     for (const int group : findWantedGroups(target, groups)) {
         const auto pose = static_cast<std::size_t>(groups[static_cast<std::size_t>(group)].poses.front());
         const base::Quaternion& rotation = part.stablePoses[pose].rotation;
-        goal.orientations.push_back({*heading ? turned(rotation, **heading) : rotation, !*heading});
+        goal.orientations.push_back({*heading ? turned(rotation, **heading) : rotation, !*heading, lean});
     }
     assert(!goal.orientations.empty());
     return goal;
@@ -158,7 +174,8 @@ objectives::Task makeTask(const Settings& settings, const part::Part& part) {
     return task;
 }
 
-std::string describeTarget(const TargetSettings& target, const part::Part& part) {
+std::string describeTarget(const Settings& settings, const part::Part& part) {
+    const TargetSettings& target = settings.target;
     if (!target.isSet()) return "in whatever way most do";
     if (target.orientation) {
         std::string text = "in " + nameOrientation(*target.orientation);
@@ -170,9 +187,11 @@ std::string describeTarget(const TargetSettings& target, const part::Part& part)
     const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
     const auto heading = readHeading(target.heading);
     assert(heading.ok());
+    const double lean = findLean(settings.track);
     return fmt::format(
-        "in stable pose {}, {}", nameGroups(groups, findWantedGroups(target, groups)),
-        *heading ? fmt::format("turned to {:g}°", **heading / base::kDegree) : std::string("any heading"));
+        "in stable pose {}, {}{}", nameGroups(groups, findWantedGroups(target, groups)),
+        *heading ? fmt::format("turned to {:g}°", **heading / base::kDegree) : std::string("any heading"),
+        lean > 0.0 ? describeLean(lean) : "");
 }
 
 std::string describeGoal(const trial::Goal& goal, const part::Part& part) {
@@ -182,12 +201,13 @@ std::string describeGoal(const trial::Goal& goal, const part::Part& part) {
         if (!text.empty()) text += " or ";
         if (!one.anyHeading || groups.empty()) {
             text += nameOrientation(one.rotation);
-            continue;
+        } else {
+            const auto pose = static_cast<int>(part::findStablePose(part, one.rotation).index);
+            const int group = part::findPoseGroup(groups, pose);
+            text += fmt::format("stable pose {} in any heading",
+                                part::namePoses(groups[static_cast<std::size_t>(group)].poses));
         }
-        const auto pose = static_cast<int>(part::findStablePose(part, one.rotation).index);
-        const int group = part::findPoseGroup(groups, pose);
-        text += fmt::format("stable pose {} in any heading",
-                            part::namePoses(groups[static_cast<std::size_t>(group)].poses));
+        if (one.lean > 0.0) text += describeLean(one.lean);
     }
     return text;
 }
@@ -196,7 +216,9 @@ std::string goalToJson(const trial::Goal& goal) {
     nlohmann::json list = nlohmann::json::array();
     for (const trial::GoalOrientation& one : goal.orientations) {
         const base::Quaternion& q = one.rotation;
-        list.push_back({{"rotation", {q.w(), q.x(), q.y(), q.z()}}, {"any_heading", one.anyHeading}});
+        nlohmann::json& json = list.emplace_back(
+            nlohmann::json{{"rotation", {q.w(), q.x(), q.y(), q.z()}}, {"any_heading", one.anyHeading}});
+        if (one.lean > 0.0) json["lean_rad"] = one.lean;
     }
     return list.dump();
 }
@@ -212,10 +234,12 @@ base::Result<trial::Goal> goalFromJson(const std::string& text) {
         const nlohmann::json& q = one["rotation"];
         const bool areNumbers = q.is_array() && q.size() == 4 &&
                                 std::ranges::all_of(q, [](const auto& x) { return x.is_number(); });
-        if (!areNumbers || !one["any_heading"].is_boolean()) return damaged;
+        const nlohmann::json lean = one.value("lean_rad", nlohmann::json(0.0));
+        if (!areNumbers || !one["any_heading"].is_boolean() || !lean.is_number()) return damaged;
+        if (!(lean.get<double>() >= 0.0 && lean.get<double>() < 0.5 * base::kPi)) return damaged;
         goal.orientations.push_back(
             {base::Quaternion(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(), q[3].get<double>()),
-             one["any_heading"].get<bool>()});
+             one["any_heading"].get<bool>(), lean.get<double>()});
     }
     return goal;
 }

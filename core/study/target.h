@@ -26,8 +26,9 @@ std::vector<std::string> findTargetProblems(const Settings& settings);
 std::vector<std::string> findTargetPartProblems(const TargetSettings& target, const part::Part& part);
 
 /// What counts as success with this part; none: nothing is wanted. The settings must be without problems. Of
-/// poses one orientation for each group of alike ones that is named.
-std::optional<trial::Goal> findWanted(const TargetSettings& target, const part::Part& part);
+/// poses one orientation for each group of alike ones that is named, leaning as far as what parts leave the
+/// track on: a groove's wall, or a spiral's ledge.
+std::optional<trial::Goal> findWanted(const Settings& settings, const part::Part& part);
 
 /// The groups of alike stable poses of which one is named; indices into `groups`, rising.
 std::vector<int> findWantedGroups(const TargetSettings& target, std::span<const part::PoseGroup> groups);
@@ -37,8 +38,8 @@ std::vector<int> findWantedGroups(const TargetSettings& target, std::span<const 
 objectives::Task makeTask(const Settings& settings, const part::Part& part);
 
 /// How parts shall end, for people: "stable pose 3-4 in any heading", "the orientation (w, x, y, z) = ...";
-/// "in whatever way most do" if nothing is wanted.
-std::string describeTarget(const TargetSettings& target, const part::Part& part);
+/// "in whatever way most do" if nothing is wanted. How far they may lean is told, too.
+std::string describeTarget(const Settings& settings, const part::Part& part);
 
 /// What counted as success, for people: "the orientation (w, x, y, z) = ...", "stable pose 3-4 in any
 /// heading", several with "or" between them.

@@ -77,8 +77,8 @@ base::Result<ValidationRecord> validate(const StudyInputs& inputs, const Individ
     record.made.maker = makerOf(*inputs.engine);
     for (const std::vector<trial::Outcome>& own : *outcomes)
         record.made.outcomes.insert(record.made.outcomes.end(), own.begin(), own.end());
-    record.goal = trial::findGoal(given ? given : findWanted(settings.target, *inputs.part),
-                                  record.made.outcomes, inputs.part->symmetry, record.tolerance);
+    record.goal = trial::findGoal(given ? given : findWanted(settings, *inputs.part), record.made.outcomes,
+                                  inputs.part->symmetry, record.tolerance);
     for (int pose = 0; pose < poses; ++pose) {
         const std::vector<trial::Outcome>& own = (*outcomes)[static_cast<std::size_t>(pose)];
         record.rows.push_back(

@@ -16,13 +16,90 @@ double angleBetween(const base::Vec3& a, const base::Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// The nearest place to a direction on an arc through z across the track, of so much to either side, as an
+/// angle about the conveying direction.
+double nearestLean(const base::Vec3& direction, double lean) {
+    return std::clamp(std::atan2(-direction.y(), direction.z()), -lean, lean);
+}
+
+base::Vec3 leaningVertical(double lean) {
+    return {0.0, -std::sin(lean), std::cos(lean)};
+}
+
+/// calcTiltAngle of parts that may lean.
+double calcTiltBesideLean(const base::Quaternion& orientation, const GoalOrientation& goal,
+                          const part::SymmetryGroup& symmetry) {
+    if (symmetry.sphere) return 0.0;
+    const base::Vec3 wanted = verticalInPart(goal.rotation);
+    if (symmetry.continuous) {
+        // The wanted vertical may be anywhere around the axis: the verticals on the arc are at angles to it
+        // of which the least and the greatest are at the arc's ends or where the axis is above it.
+        const base::Vec3 axis = (orientation * symmetry.axis).normalized();
+        double low = base::kPi;
+        double high = 0.0;
+        for (const double lean :
+             {-goal.lean, goal.lean, nearestLean(axis, goal.lean), nearestLean(-axis, goal.lean)}) {
+            const double angle = angleBetween(leaningVertical(lean), axis);
+            low = std::min(low, angle);
+            high = std::max(high, angle);
+        }
+        const auto outside = [&](double angle) { return std::max({0.0, low - angle, angle - high}); };
+        const double fromAxis = angleBetween(wanted, symmetry.axis);
+        return symmetry.flip ? std::min(outside(fromAxis), outside(base::kPi - fromAxis)) : outside(fromAxis);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const base::Quaternion& g : symmetry.rotations) {
+        const base::Vec3 vertical = orientation * (g * wanted);
+        least = std::min(least, angleBetween(vertical, leaningVertical(nearestLean(vertical, goal.lean))));
+    }
+    return least;
+}
+
+/// calcOrientationAngle of parts that may lean.
+double calcAngleBesideLean(const base::Quaternion& orientation, const GoalOrientation& goal,
+                           const part::SymmetryGroup& symmetry) {
+    if (symmetry.sphere) return 0.0;
+    if (symmetry.continuous) {
+        const base::Vec3 axis = (orientation * symmetry.axis).normalized();
+        const auto angleTo = [&](const base::Vec3& wanted) {
+            const double around = std::remainder(
+                std::atan2(axis.z(), axis.y()) - std::atan2(wanted.z(), wanted.y()), 2.0 * base::kPi);
+            const Eigen::AngleAxisd leaning(std::clamp(around, -goal.lean, goal.lean), base::Vec3::UnitX());
+            return angleBetween(axis, leaning * wanted);
+        };
+        const base::Vec3 wanted = (goal.rotation * symmetry.axis).normalized();
+        return symmetry.flip ? std::min(angleTo(wanted), angleTo(-wanted)) : angleTo(wanted);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const base::Quaternion& g : symmetry.rotations) {
+        base::Quaternion turned = (orientation * g * goal.rotation.conjugate()).normalized();
+        if (turned.w() < 0.0) turned.coeffs() = -turned.coeffs();
+        // What of it is a turn about the conveying direction ("twist").
+        const double lean = std::clamp(2.0 * std::atan2(turned.x(), turned.w()), -goal.lean, goal.lean);
+        const base::Quaternion left = Eigen::AngleAxisd(-lean, base::Vec3::UnitX()) * turned;
+        least = std::min(least, 2.0 * std::atan2(left.vec().norm(), std::abs(left.w())));
+    }
+    return least;
+}
+
+double calcAngleTo(const GoalOrientation& goal, const base::Quaternion& orientation,
+                   const part::SymmetryGroup& symmetry) {
+    if (goal.lean > 0.0)
+        return goal.anyHeading ? calcTiltBesideLean(orientation, goal, symmetry)
+                               : calcAngleBesideLean(orientation, goal, symmetry);
+    return goal.anyHeading
+               ? calcTiltAngle(orientation, goal.rotation, symmetry)
+               : calcOrientationAngle(orientation, goal.rotation, symmetry, OrientationDistance::symmetric);
+}
+
 }  // namespace
 
 bool operator==(const Goal& a, const Goal& b) {
-    return std::ranges::equal(
-        a.orientations, b.orientations, [](const GoalOrientation& one, const GoalOrientation& other) {
-            return one.anyHeading == other.anyHeading && one.rotation.coeffs() == other.rotation.coeffs();
-        });
+    return std::ranges::equal(a.orientations, b.orientations,
+                              [](const GoalOrientation& one, const GoalOrientation& other) {
+                                  return one.anyHeading == other.anyHeading && one.lean == other.lean &&
+                                         one.rotation.coeffs() == other.rotation.coeffs();
+                              });
 }
 
 Goal makeGoal(const base::Quaternion& orientation) {
@@ -56,12 +133,8 @@ double calcTiltAngle(const base::Quaternion& orientation, const base::Quaternion
 double calcAngleToGoal(const base::Quaternion& orientation, const Goal& goal,
                        const part::SymmetryGroup& symmetry) {
     double least = std::numeric_limits<double>::infinity();
-    for (const GoalOrientation& one : goal.orientations) {
-        const double angle = one.anyHeading ? calcTiltAngle(orientation, one.rotation, symmetry)
-                                            : calcOrientationAngle(orientation, one.rotation, symmetry,
-                                                                   OrientationDistance::symmetric);
-        least = std::min(least, angle);
-    }
+    for (const GoalOrientation& one : goal.orientations)
+        least = std::min(least, calcAngleTo(one, orientation, symmetry));
     return least;
 }
 

@@ -14,6 +14,9 @@ namespace trapwright::trial {
 struct GoalOrientation {
     base::Quaternion rotation = base::Quaternion::Identity();  // part frame to the track's tangent frame
     bool anyHeading = false;                                   // also turned about the vertical
+    /// How far it may also be turned about the conveying direction, to either side: in a groove it lies on
+    /// one of two walls. Below 90 degrees. [rad]
+    double lean = 0.0;
 };
 
 /// What counts as success (decisions.md#wanted-orientation): a part that finishes within the tolerance of any
@@ -25,7 +28,8 @@ struct Goal {
     [[nodiscard]] const base::Quaternion& shown() const { return orientations.front().rotation; }
     /// Whether shown() is all of it.
     [[nodiscard]] bool isOneOrientation() const {
-        return orientations.size() == 1 && !orientations.front().anyHeading;
+        const GoalOrientation& first = orientations.front();
+        return orientations.size() == 1 && !first.anyHeading && first.lean == 0.0;
     }
 };
 
@@ -44,7 +48,7 @@ Goal findGoal(const std::optional<Goal>& wanted, std::span<const Outcome> outcom
 double calcTiltAngle(const base::Quaternion& orientation, const base::Quaternion& lying,
                      const part::SymmetryGroup& symmetry);
 
-/// How far an orientation is from the nearest one of the goal, modulo the part's symmetry. [rad]
+/// How far an orientation is from the nearest one of the goal, modulo the part's symmetry. In [0, pi]. [rad]
 double calcAngleToGoal(const base::Quaternion& orientation, const Goal& goal,
                        const part::SymmetryGroup& symmetry);
 

@@ -50,7 +50,7 @@ ExpectedExit PlacingScene::expected() const {
     const session::StudyDesign& design = runs_->design();
     return {track_, design.part(),
             study::findExpected(runs_->validations(), runs_->selections(), *printed_,
-                                study::findWanted(design.settings().target, *design.part()))};
+                                study::findWanted(design.settings(), *design.part()))};
 }
 
 void PlacingScene::setScene(scene::SceneView* scene) {

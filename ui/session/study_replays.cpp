@@ -31,9 +31,9 @@ bool isSame(const workflow::TrialsRequest& a, const workflow::TrialsRequest& b) 
 
 void judge(const workflow::StoredTrials& stored, const part::Part& part, const study::Settings& settings,
            ListedTrials& trials) {
-    trials.judged = workflow::judgeTrials(
-        trials.outcomes, part.symmetry, stored.goal ? stored.goal : study::findWanted(settings.target, part),
-        settings.validation.tolerance);
+    trials.judged = workflow::judgeTrials(trials.outcomes, part.symmetry,
+                                          stored.goal ? stored.goal : study::findWanted(settings, part),
+                                          settings.validation.tolerance);
 }
 
 }  // namespace

@@ -28,6 +28,13 @@ study::TargetSettings poses(const std::string& text, const std::string& heading 
     return {text, heading, {}};
 }
 
+/// What is wanted, on a track that ends level.
+study::Settings wish(const study::TargetSettings& target) {
+    study::Settings settings;
+    settings.target = target;
+    return settings;
+}
+
 /// 60 % lie as pose 1 of the block, 30 % as pose 2 in some heading, 10 % fall off.
 trial::PartOutcome threeWays(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
     trial::PartOutcome outcome = fake::waveLaw(batch, spec);
@@ -88,13 +95,13 @@ class TargetTest : public QObject {
 
     void alikePosesAreOne() {
         const part::Part part = cuboid();
-        QVERIFY(!study::findWanted({}, part));
-        const auto wanted = study::findWanted(poses("3"), part);
-        QVERIFY(*wanted == *study::findWanted(poses("3-4"), part));
-        QVERIFY(*wanted == *study::findWanted(poses("4"), part));
+        QVERIFY(!study::findWanted(wish({}), part));
+        const auto wanted = study::findWanted(wish(poses("3")), part);
+        QVERIFY(*wanted == *study::findWanted(wish(poses("3-4")), part));
+        QVERIFY(*wanted == *study::findWanted(wish(poses("4")), part));
         QCOMPARE(wanted->orientations.size(), std::size_t{1});
         QVERIFY(wanted->orientations[0].anyHeading);
-        QCOMPARE(study::findWanted(poses("6, 4"), part)->orientations.size(), std::size_t{2});
+        QCOMPARE(study::findWanted(wish(poses("6, 4")), part)->orientations.size(), std::size_t{2});
         // Either of the two is right.
         for (const std::size_t pose : {2U, 3U})
             QVERIFY(trial::calcAngleToGoal(part.stablePoses[pose].rotation, *wanted, part.symmetry) < 1e-6);
@@ -102,12 +109,12 @@ class TargetTest : public QObject {
         // With its symmetry switched off the part has six poses.
         part::Part plain = part;
         plain.symmetry = {};
-        QCOMPARE(study::findWanted(poses("3-4"), plain)->orientations.size(), std::size_t{2});
+        QCOMPARE(study::findWanted(wish(poses("3-4")), plain)->orientations.size(), std::size_t{2});
     }
 
     void aHeadingTurnsThePose() {
         const part::Part part = cuboid();
-        const trial::Goal goal = *study::findWanted(poses("1", "90"), part);
+        const trial::Goal goal = *study::findWanted(wish(poses("1", "90")), part);
         QVERIFY(goal.isOneOrientation());
         const base::Quaternion& pose = part.stablePoses[0].rotation;
         const auto angle = [&](double degrees) {
@@ -119,10 +126,38 @@ class TargetTest : public QObject {
         QVERIFY(std::abs(angle(60.0) - 30.0) < 1e-6);
     }
 
+    // What lies on a groove's wall lies as it is wanted; an orientation is meant as it stands.
+    void aPoseLeansAsTheTracksEndDoes() {
+        const part::Part part = cuboid();
+        study::Settings settings = wish(poses("1", "0"));
+        settings.track.traps = "groove, groove, 2 x gap";
+        const auto leaning = [&](double degrees) {
+            const base::Quaternion turn(Eigen::AngleAxisd(degrees * base::kDegree, base::Vec3::UnitX()));
+            const auto goal = study::findWanted(settings, part);
+            return trial::calcAngleToGoal(turn * part.stablePoses[0].rotation, *goal, part.symmetry) /
+                   base::kDegree;
+        };
+        QVERIFY(leaning(24.0) < 1e-6);
+        QVERIFY(leaning(-24.0) < 1e-6);
+        QVERIFY(std::abs(leaning(30.0) - 6.0) < 1e-6);
+        QCOMPARE(study::describeTarget(settings, part),
+                 std::string("in stable pose 1-2, turned to 0°, leaning across the track by up to 24°"));
+        settings.track.traps = "2 x ledge";
+        settings.track.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
+        QVERIFY(std::abs(leaning(24.0) - 14.0) < 1e-6);
+        settings.track.traps = "free-form";
+        settings.track.spiral = {};
+        QVERIFY(std::abs(leaning(24.0) - 24.0) < 1e-6);
+        settings.track.traps = "groove, groove, 2 x gap";
+        settings.target = {};
+        settings.target.orientation = part.stablePoses[0].rotation;
+        QVERIFY(std::abs(leaning(24.0) - 24.0) < 1e-6);
+    }
+
     void anOrientationIsItself() {
         study::TargetSettings target;
         target.orientation = base::Quaternion(0.5, 0.5, 0.5, 0.5);
-        QVERIFY(*study::findWanted(target, cuboid()) == trial::makeGoal(*target.orientation));
+        QVERIFY(*study::findWanted(wish(target), cuboid()) == trial::makeGoal(*target.orientation));
     }
 
     void whatCanBeAttainedIsKnownOfPartsAtRest() {
@@ -213,15 +248,15 @@ class TargetTest : public QObject {
 
     void itIsTold() {
         const part::Part part = cuboid();
-        QCOMPARE(study::describeTarget({}, part), std::string("in whatever way most do"));
-        QCOMPARE(study::describeTarget(poses("3,5"), part),
+        QCOMPARE(study::describeTarget(wish({}), part), std::string("in whatever way most do"));
+        QCOMPARE(study::describeTarget(wish(poses("3,5")), part),
                  std::string("in stable pose 3-4 or 5-6, any heading"));
-        QCOMPARE(study::describeTarget(poses("3", "90"), part),
+        QCOMPARE(study::describeTarget(wish(poses("3", "90")), part),
                  std::string("in stable pose 3-4, turned to 90°"));
         study::TargetSettings target;
         target.orientation = part.stablePoses[0].rotation;
-        QVERIFY(study::describeTarget(target, part).ends_with("0° from stable pose 1"));
-        QCOMPARE(study::describeGoal(*study::findWanted(poses("3,5"), part), part),
+        QVERIFY(study::describeTarget(wish(target), part).ends_with("0° from stable pose 1"));
+        QCOMPARE(study::describeGoal(*study::findWanted(wish(poses("3,5")), part), part),
                  std::string("stable pose 3-4 in any heading or stable pose 5-6 in any heading"));
         QVERIFY(study::describeGoal(trial::makeGoal(base::Quaternion::Identity()), part)
                     .starts_with("the orientation (w, x, y, z) = (1.000, 0.000"));
@@ -229,11 +264,13 @@ class TargetTest : public QObject {
 
     void goalsAsJsonAreExact() {
         const trial::Goal goal{{{base::Quaternion(0.1, 1.0 / 3.0, -0.7, 1e-17), true},
-                                {base::Quaternion(0.1 + 0.2, 0.0, 0.5, 1.0), false}}};
+                                {base::Quaternion(0.1 + 0.2, 0.0, 0.5, 1.0), false, 1.0 / 3.0}}};
         QVERIFY(*study::goalFromJson(study::goalToJson(goal)) == goal);
         for (const char* bad :
              {"", "[]", "{}", "[1]", R"([{"rotation": [1, 0, 0], "any_heading": true}])",
-              R"([{"rotation": [1, 0, 0, "x"], "any_heading": true}])", R"([{"rotation": [1, 0, 0, 0]}])"})
+              R"([{"rotation": [1, 0, 0, "x"], "any_heading": true}])", R"([{"rotation": [1, 0, 0, 0]}])",
+              R"([{"rotation": [1, 0, 0, 0], "any_heading": true, "lean_rad": "x"}])",
+              R"([{"rotation": [1, 0, 0, 0], "any_heading": true, "lean_rad": 2}])"})
             QVERIFY2(!study::goalFromJson(bad).ok(), bad);
     }
 

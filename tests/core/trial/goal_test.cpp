@@ -46,6 +46,32 @@ class GoalTest : public QObject {
         }
     }
 
+    void whatLeansIsAsNearAsAnyLeanBrings_data() { testing::addGroups(); }
+    void whatLeansIsAsNearAsAnyLeanBrings() {
+        QFETCH(part::SymmetryGroup, group);
+        const auto some = drawRotations(35, 12);
+        const auto others = drawRotations(36, 12);
+        constexpr int kLean = 24;
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            for (const bool anyHeading : {false, true}) {
+                const trial::Goal goal{{{others[i], anyHeading, kLean * base::kDegree}}};
+                const double angle = trial::calcAngleToGoal(some[i], goal, group);
+                // By trying all leans, and taking each back.
+                double least = base::kPi;
+                for (int lean = -10 * kLean; lean <= 10 * kLean; ++lean) {
+                    const base::Quaternion back = turn(-0.1 * lean, base::Vec3::UnitX()) * some[i];
+                    least = std::min(least, trial::calcAngleToGoal(back, {{{others[i], anyHeading}}}, group));
+                }
+                QVERIFY2(std::abs(angle - least) < 0.1 * base::kDegree,
+                         qPrintable(QString("%1 %2").arg(angle).arg(least)));
+                QVERIFY(angle <= least + 1e-9);
+            }
+        }
+        const trial::Goal leaning{{{base::Quaternion::Identity(), false, 0.1}}};
+        QVERIFY(!leaning.isOneOrientation());
+        QVERIFY(!(leaning == trial::makeGoal(base::Quaternion::Identity())));
+    }
+
     void theNearestOrientationCounts() {
         const part::SymmetryGroup none = testing::makeC1();
         const base::Quaternion side = turn(90.0, base::Vec3::UnitX());
