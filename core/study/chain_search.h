@@ -65,6 +65,9 @@ class ChainSearch {
     /// sought right parts count by as much more.
     void setBitsOfHalving(double bits) { bitsOfHalving_ = bits; }
 
+    /// Whether right parts count by their logarithm from now on, where purity is sought.
+    void seekYield(bool seeks) { problem_.seeksYield = seeks; }
+
     std::vector<KnownTrap>& traps() { return traps_; }
     [[nodiscard]] const std::vector<KnownTrap>& traps() const { return traps_; }
     /// The best chains that were found last, best first.

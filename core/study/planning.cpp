@@ -42,6 +42,7 @@ constexpr double kNearWay = 35.0 * base::kDegree;  // what is farther from all w
 constexpr std::size_t kTrapsInRound = 32;
 constexpr int kRoundsBetweenPlans = 6;
 constexpr int kRoundsOfIsland = 24;  // at least
+constexpr int kTrapsOfPlan = 500;    // at least, where two are made
 constexpr int kMostIslands = 8;
 constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
 constexpr int kFirstTrials = 6;         // from each way on average, of a trap that is new
@@ -80,6 +81,13 @@ constexpr double kUnseenTurnsOfPurity = 0.2;  // one would hide how few of many 
 
 bool seeksPurity(const EvolutionSettings& settings) {
     return objectives::contains(summedObjectives(settings), objectives::kPurity);
+}
+
+/// How many plans are made by themselves, with an equal share of the traps each. Where right ones count by
+/// their logarithm every other one goes by that, and the others by their share.
+int countPlans(const EvolutionSettings& settings) {
+    const bool seeksYield = objectives::contains(summedObjectives(settings), objectives::kYield);
+    return seeksYield && seeksPurity(settings) && settings.plannedTraps >= 2 * kTrapsOfPlan ? 2 : 1;
 }
 
 /// Trials of whole tracks by which chains are judged: of each, and of the best. Nines are told by many.
@@ -161,14 +169,37 @@ class Planner {
         if (ways_.empty()) return std::vector<search::Design>{};
         const int inRound = static_cast<int>(kTrapsInRound);
         const int rounds = (settings().evolution.plannedTraps + inRound - 1) / inRound;
+        const int plans = countPlans(settings().evolution);
+        // Plans that are worth the same by arithmetic end far apart, and none of the prices is the right one
+        // for all parts: trials of whole tracks decide between them.
+        std::vector<search::Design> designs;
+        for (int i = 0; i < plans; ++i) {
+            search_.seekYield(i % 2 == 1);
+            plansLeft_ = plans - i;
+            if (const auto found = planRounds(i * rounds / plans, (i + 1) * rounds / plans, rounds); !found)
+                return found.error();
+            const auto share = static_cast<std::size_t>(plans);
+            for (search::Design& design : listDesigns((most + share - 1) / share))
+                if (std::ranges::find(designs, design) == designs.end()) designs.push_back(std::move(design));
+            if (i + 1 == plans) break;
+            search_.leave(0);
+            met_.clear();
+        }
+        auto judged = judge(std::move(designs));
+        if (judged && judged->size() > most) judged->resize(most);
+        return judged;
+    }
+
+    /// From nothing, of so many rounds of all; the best chains are search_'s then.
+    base::Status planRounds(int first, int last, int rounds) {
         // What is found first decides in which ways traps lead, and what is tried next. So several plans
         // begin by themselves, and what is best of each is what the last part of the work begins with.
-        const int begun = 2 * rounds / 3;
+        const int begun = 2 * (last - first) / 3;
         const int islands = std::min(begun / kRoundsOfIsland, kMostIslands);
         std::vector<KnownTrap> found;
-        int round = 0;
+        int round = first;
         for (int island = 0; islands > 1 && island < islands; ++island) {
-            const int end = (island + 1) * begun / islands;
+            const int end = first + (island + 1) * begun / islands;
             // Where throwing parts out costs more, a plan turns as many as it can.
             search_.setBitsOfHalving(island % 2 == 0 ? kBitsOfDearHalving : objectives::kBitsOfHalving);
             if (const auto done = goOn(round, end, rounds); !done) return done.error();
@@ -182,9 +213,8 @@ class Planner {
         if (!search_.traps().empty()) {
             if (const auto joined = plan(kOnTheWay); !joined) return joined.error();
         }
-        if (const auto done = goOn(round, rounds, rounds); !done) return done.error();
-        if (const auto last = planAtTheEnd(); !last) return last.error();
-        return judge(listDesigns(most));
+        if (const auto done = goOn(round, last, rounds); !done) return done.error();
+        return planAtTheEnd();
     }
 
     /// Where purity is sought, again with what comes through the chain that was found: a part in a thousand
@@ -210,7 +240,8 @@ class Planner {
     base::Status goOn(int round, int end, int rounds) {
         for (; round < end; ++round) {
             if (control_.stopRequested()) return base::Error{"The planning was stopped."};
-            const std::int64_t atTheEnd = search_.problem().seeksPurity ? kTrialsAtTheEndOfPurity : 0;
+            const std::int64_t atTheEnd =
+                search_.problem().seeksPurity ? plansLeft_ * kTrialsAtTheEndOfPurity : 0;
             tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round) + atTheEnd);
             if (const auto tried = tryTraps(round); !tried) return tried.error();
             if (round + 1 < end && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
@@ -252,8 +283,8 @@ class Planner {
         const objectives::ObjectiveList summed = summedObjectives(settings().evolution);
         problem.seeksPurity = seeksPurity(settings().evolution);
         // Where right parts are not in the sum they decide between chains that are as pure.
-        problem.seeksYield = objectives::contains(summed, objectives::kYield);
-        if (!problem.seeksYield && !objectives::contains(summed, objectives::kSuccess))
+        if (!objectives::contains(summed, objectives::kYield) &&
+            !objectives::contains(summed, objectives::kSuccess))
             problem.rightAsNines = 0.1;
         if (problem.seeksPurity) problem.unseenTurns = kUnseenTurnsOfPurity;
         problem.wanted = listWantedWays();
@@ -718,6 +749,7 @@ class Planner {
     std::int64_t doneBefore_;
     double fallBefore_ = 0.0;                                 // of the grooves [m]
     int batches_ = 0;                                         // so far
+    int plansLeft_ = 1;                                       // with the one that is made
     std::vector<const traps::TrapKind*> kinds_;               // of the traps behind the grooves, each once
     std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind
     std::vector<std::size_t> places_;                         // kinds, along the track
@@ -781,7 +813,7 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways)
     const bool isPure = seeksPurity(settings);
     const int followed = isPure ? 28 : 0;
     return kTrialsOfWays + std::int64_t{settings.plannedTraps} * (each + followed) +
-           (isPure ? kTrialsAtTheEndOfPurity : 0);
+           (isPure ? countPlans(settings) * kTrialsAtTheEndOfPurity : 0);
 }
 
 std::int64_t estimateJudgingTrials(const EvolutionSettings& settings) {

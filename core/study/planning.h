@@ -26,7 +26,8 @@ std::string findPlanningProblem(const TrackSettings& settings);
 /// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
 /// ends, or by the share that lies as it is wanted where parts lie so behind the grooves; if the settings sum
 /// up the objective sorting by that of those that stay on the track. A long chain of ledges for purity, eight
-/// or more, ends with its last planned one twice more. None if parts come through no groove.
+/// or more, ends with its last planned one twice more. For purity and yield of 1000 traps or more two plans
+/// are made by themselves (decisions.md#returns). None if parts come through no groove.
 /// The best of them are judged by trials of whole tracks in the end, in a race, by what the study maximises.
 /// About evolution.plannedTraps traps are tried; the same settings give the same designs. `planned` is told
 /// of the work as of generation 0. Errors: traps that cannot be planned, engine, cancelled, or stopped: there

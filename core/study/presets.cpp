@@ -171,7 +171,7 @@ Settings ledgeMode(Settings settings, const part::Part& part) {
     track.segmentHeight = inProportion(100e-3);
     settings.simulation.start.lateral = std::min(settings.simulation.start.lateral, inProportion(2e-3));
     planLedges(settings.evolution);
-    settings.evolution.plannedTraps = 600;
+    settings.evolution.plannedTraps = 1200;
     return settings;
 }
 

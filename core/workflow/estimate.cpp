@@ -109,16 +109,22 @@ std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSetting
         return learningTime(fitted, fitted.generations, cost);
     };
     const double before = timeOf(0);
-    const auto trapsIn = [&](double time) { return std::floor((time - before) / (timeOf(1) - before)); };
+    const double each = timeOf(1) - before;
+    const auto trapsIn = [&](double time) {
+        const double count = std::clamp(std::floor((time - before) / each), 0.0, 1.0 * full.plannedTraps);
+        // Of more traps two plans may be made, each with its end.
+        const double more = timeOf(static_cast<int>(count)) - before - count * each;
+        return std::floor((time - before - more) / each);
+    };
     const int fewest = std::min(full.plannedTraps, kFewestTraps);
     double count = trapsIn(seconds);
     if (!(count >= fewest)) return std::nullopt;
     if (exchanges) count = std::max<double>(fewest, trapsIn(0.5 * seconds));
     const double left = seconds - timeOf(static_cast<int>(std::min<double>(count, full.plannedTraps)));
     if (exchanges) {
-        const double each = learningTime(fitted, 1, cost);
+        const double exchanging = learningTime(fitted, 1, cost);
         fitted.generations += static_cast<int>(
-            std::clamp<double>(std::floor(left / each), 0.0, full.generations - fitted.generations));
+            std::clamp<double>(std::floor(left / exchanging), 0.0, full.generations - fitted.generations));
     }
     return fitted;
 }

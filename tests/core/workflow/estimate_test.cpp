@@ -112,6 +112,15 @@ class EstimateTest : public QObject {
         QCOMPARE(draft->racingTrials, 200);
         QVERIFY(workflow::learningTime(*draft, draft->generations, cost) <= kSeconds);
         QCOMPARE(workflow::fitEvolution(sorting, kSeconds, cost)->trialsPerEvaluation, 100);
+        // Two plans have two ends.
+        pure.objectives = "F_C, purity, yield";
+        for (const double seconds : {200.0, 250.0, 300.0, 350.0, 400.0}) {
+            const auto two = workflow::fitEvolution(pure, seconds, cost);
+            QVERIFY(two.has_value());
+            const double takes = workflow::learningTime(*two, two->generations, cost);
+            QVERIFY2(takes <= seconds && takes > 0.7 * seconds,
+                     qPrintable(QString("%1 of %2").arg(takes).arg(seconds)));
+        }
     }
 
     // What is bred behind a plan gains little, what is exchanged much: it gets what time there is.
