@@ -42,13 +42,6 @@ base::Quaternion turned(const base::Quaternion& pose, double heading) {
     return base::Quaternion(Eigen::AngleAxisd(heading, base::Vec3::UnitZ())) * pose;
 }
 
-/// How steep across the track what parts leave it on is at the most. [rad]
-double findLean(const TrackSettings& track) {
-    const auto traps = traps::readTraps(track.traps);
-    if (traps && traps->back()->endsInGroove) return traps::kRestingWall;
-    return track.spiral.width > 0.0 ? track.spiral.inclination : 0.0;
-}
-
 std::string nameOrientation(const base::Quaternion& q) {
     return fmt::format("the orientation (w, x, y, z) = ({:.3f}, {:.3f}, {:.3f}, {:.3f})", q.w(), q.x(), q.y(),
                        q.z());
@@ -67,6 +60,12 @@ std::string nameGroups(std::span<const part::PoseGroup> groups, std::span<const 
 }
 
 }  // namespace
+
+double findLean(const TrackSettings& track) {
+    const auto traps = traps::readTraps(track.traps);
+    if (traps && traps->back()->endsInGroove) return traps::kRestingWall;
+    return track.spiral.width > 0.0 ? track.spiral.inclination : 0.0;
+}
 
 base::Result<std::vector<int>> readPoses(std::string_view text) {
     std::vector<int> poses;

@@ -25,9 +25,11 @@ std::vector<std::string> findTargetProblems(const Settings& settings);
 /// What is wrong with them for this part: poses that it does not have.
 std::vector<std::string> findTargetPartProblems(const TargetSettings& target, const part::Part& part);
 
+/// How steep across the track is what parts leave it on: a groove's walls, or a spiral's ledge. [rad]
+double findLean(const TrackSettings& track);
+
 /// What counts as success with this part; none: nothing is wanted. The settings must be without problems. Of
-/// poses one orientation for each group of alike ones that is named, leaning as far as what parts leave the
-/// track on: a groove's wall, or a spiral's ledge.
+/// poses one orientation for each group of alike ones that is named, which may lean by findLean().
 std::optional<trial::Goal> findWanted(const Settings& settings, const part::Part& part);
 
 /// The groups of alike stable poses of which one is named; indices into `groups`, rising.

@@ -41,6 +41,9 @@ QString alikeText(const part::SymmetryGroup& symmetry, const trial::Goal& goal) 
     QStringList sentences;
     if (goal.orientations.front().anyHeading)
         sentences += Texts::tr("In any heading, turned about the vertical, it is right as well.");
+    if (const double lean = goal.orientations.front().lean; lean > 0.0)
+        sentences += Texts::tr("It may lean across the track by up to %1°, as the track's end does.")
+                         .arg(lean / base::kDegree, 0, 'g', 3);
     if (goal.orientations.size() > 1)
         sentences += Texts::tr("This is one of %1 poses that are right.").arg(goal.orientations.size());
     if (const QString alike = symmetryText(symmetry); !alike.isEmpty()) sentences += alike;

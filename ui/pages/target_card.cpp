@@ -255,6 +255,10 @@ void TargetCard::refresh() {
     } else {
         told +=
             ' ' + tr("Success is the share of parts that end so, on every page; a perfect feeder has 100 %.");
+        const double lean = study::findLean(settings_.track);
+        if (!target.orientation && lean > 0.0)
+            told += ' ' + tr("They may lean across the track by up to %1°, as its end does.")
+                              .arg(look::numberText(lean / base::kDegree));
     }
     const std::vector<std::string> problems = study::findTargetPartProblems(target, *part_);
     if (!problems.empty())

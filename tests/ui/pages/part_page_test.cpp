@@ -251,6 +251,15 @@ class PartPageTest : public QObject {
         QVERIFY(user.text("target.told").startsWith(QString("Pose 3–4 or 5–6, any heading.")));
         press("target.pose3");
         QCOMPARE(settings().target.poses, std::string("5-6"));
+        // In a groove no part lies level.
+        QVERIFY(!user.text("target.told").contains("lean"));
+        study::Settings sorting = settings();
+        sorting.track.traps = "groove, groove, 2 x gap";
+        user.session()->design().changeSettings(sorting, "Traps");
+        QVERIFY2(user.text("target.told").contains(QString("lean across the track by up to 24°")),
+                 qPrintable(user.text("target.told")));
+        user.session()->design().undoStack()->undo();
+        QVERIFY(!user.text("target.told").contains("lean"));
 
         user.find<QCheckBox>("target.anyHeading")->click();
         QCOMPARE(settings().target.heading, std::string("0"));
