@@ -2,6 +2,7 @@
 
 #include <QString>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/study/records.h"
@@ -16,6 +17,7 @@ struct StudyCurves {
     std::vector<study::CheckRecord> checks;           // in any order; none if one engine does everything
     std::vector<double> trialsPerSecond;              // slot i for summaries[i]; NaN or missing: not known
     std::vector<objectives::Score> attainable{};      // objectives::listAttainable of the part
+    std::vector<std::string> summed{};                // keys of the objectives in F; none: not known
     std::optional<int> cornersFrom{};                 // the generation whose trials are harder from there on
     std::vector<std::vector<study::GenerationSummary>> members{};  // of several: instead of all but the name
 };

@@ -203,6 +203,23 @@ bool isWorthPlotting(const objectives::Objective& objective, const std::vector<S
     });
 }
 
+/// What is shown at first: what tracks are judged by, or else what those look at who look into the algorithm.
+/// What everybody reads is a choice, and a column of the tables. Where no surface ever overlapped, a line at
+/// 0 would only take room.
+objectives::ObjectiveList shownAtFirst(const std::vector<StudyCurves>& studies) {
+    objectives::ObjectiveList details;
+    objectives::ObjectiveList summed;
+    for (const objectives::Objective* objective : plottedObjectives(false)) {
+        if (!isMeasured(*objective, studies) || !isWorthPlotting(*objective, studies)) continue;
+        if (objective->isDetail) details.push_back(objective);
+        const bool isSummed = std::ranges::any_of(studies, [&](const StudyCurves& study) {
+            return std::ranges::find(study.summed, objective->key) != study.summed.end();
+        });
+        if (isSummed) summed.push_back(objective);
+    }
+    return summed.empty() ? details : summed;
+}
+
 std::optional<double> attainableOf(const StudyCurves& study, const objectives::Objective& objective) {
     for (const objectives::Score& score : study.attainable)
         if (score.key == objective.key) return score.value * objective.shownAs;
@@ -336,12 +353,11 @@ ChartSheet successSheet(const std::vector<StudyCurves>& studies) {
 
 ChartSheet fitnessSheet(const std::vector<StudyCurves>& studies) {
     ChartSheet sheet = makeSheet();
+    const objectives::ObjectiveList first = shownAtFirst(studies);
     for (const objectives::Objective* objective : plottedObjectives(false)) {
         if (!isMeasured(*objective, studies)) continue;
         const QString key = look::fromUtf8(objective->key);
-        // What everybody reads is a choice here, and a column of the tables. Where no surface ever
-        // overlapped, a line at 0 would only take room.
-        const bool on = objective->isDetail && isWorthPlotting(*objective, studies);
+        const bool on = objectives::contains(first, objective->key);
         sheet.legend.push_back(
             {key, look::fromUtf8(objective->name), look::fromUtf8(objective->help), std::nullopt, on});
         const AxisNames names = axisNames(*objective);

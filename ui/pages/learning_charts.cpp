@@ -3,6 +3,7 @@
 #include <QTabWidget>
 #include <algorithm>
 
+#include "core/study/evaluator.h"
 #include "core/study/selection.h"
 #include "ui/charts/study_chart.h"
 #include "ui/look/text.h"
@@ -148,19 +149,29 @@ study::ComparedStudy LearningCharts::own() const {
 
 charts::StudyCurves LearningCharts::ownCurves() const {
     const std::vector<study::GenerationSummary>& summaries = session_->runs().summaries();
+    std::vector<std::string> summed;
+    for (const objectives::Objective* objective :
+         study::summedObjectives(session_->design().settings().evolution))
+        summed.emplace_back(objective->key);
     return {look::toText(session_->path().stem()),
             summaries,
             session_->runs().checks(),
             speedsOf(summaries),
             session_->design().attainable(),
+            summed,
             session::findLaterCorners(session_->design().settings().evolution)};
 }
 
 charts::StudyCurves LearningCharts::otherCurves() const {
     if (others_.size() == 1) {
         const session::StoredCurves& other = others_.front();
-        return {QString::fromStdString(other.study.name), other.study.generations, other.checks,
-                speedsOf(other.study.generations),        other.attainable,        other.cornersFrom};
+        return {QString::fromStdString(other.study.name),
+                other.study.generations,
+                other.checks,
+                speedsOf(other.study.generations),
+                other.attainable,
+                {},
+                other.cornersFrom};
     }
     charts::StudyCurves all;
     all.name = tr("median and quartiles of %1 studies").arg(others_.size() + 1);

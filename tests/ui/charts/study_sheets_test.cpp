@@ -100,6 +100,17 @@ class StudySheetsTest : public QObject {
         QVERIFY(isOn(charts::fitnessSheet({study}), "F_O"));
     }
 
+    // What tracks are judged by is shown at first; success has a sheet of its own.
+    void whatIsSummedUpIsShownAtFirst() {
+        StudyCurves study = someStudy("a", 0.5);
+        study.summed = {"F_C", "sorting"};
+        const ChartSheet sheet = charts::fitnessSheet({study, someStudy("b", 0.4)});
+        QVERIFY(isOn(sheet, "sorting") && isOn(sheet, "F_C"));
+        QVERIFY(!isOn(sheet, "F_D") && !isOn(sheet, "F_O"));
+        study.summed = {"success"};
+        QVERIFY(isOn(charts::fitnessSheet({study}), "F_O"));
+    }
+
     // Where trials become harder there is a line, which nobody can switch off.
     void cornersFromAGenerationOnAreMarked() {
         StudyCurves study = someStudy("a", 0.5);
