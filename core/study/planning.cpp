@@ -222,8 +222,9 @@ class Planner {
     base::Status planAtTheEnd() {
         if (!search_.problem().seeksPurity) return plan(kAtTheEnd);
         const auto tellLeft = [&](int plans) {
-            tellProgress(control_.run.done() - doneBefore_ +
-                         plans * kTrialsAtTheEndOfPurity / (1 + kFollowedAtTheEnd));
+            // Another plan takes as much as this one.
+            const std::int64_t done = control_.run.done() - doneBefore_;
+            tellProgress(plansLeft_ * (done + plans * kTrialsAtTheEndOfPurity / (1 + kFollowedAtTheEnd)));
         };
         tellLeft(1 + kFollowedAtTheEnd);
         if (const auto first = plan(kAtTheEndOfPurity); !first) return first.error();
