@@ -425,7 +425,9 @@ class Planner {
     /// there at rest conveys as quickly as any other when it comes to the trap.
     void placeParts(trial::TrialBatch& batch, const std::vector<std::size_t>& ways) const {
         const track::Track& track = *batch.track;
-        const double x = track.sections[2].x + 0.1 * inputs_->part->boundingRadius;
+        // Without the track that is given the lead-in goes down to where that ends: off this slope.
+        const double behind = settings().track.given.empty() ? 0.1 : 1.1;
+        const double x = track.sections[2].x + behind * inputs_->part->boundingRadius;
         const double bottom = lowestAt(track, x);
         const base::Quaternion fall(Eigen::AngleAxisd(runUp_.fall, base::Vec3::UnitY()));
         constexpr double kAbove = 0.3e-3;  // so that it touches nothing when it is turned [m]

@@ -47,7 +47,24 @@ trial::PartOutcome sieveLaw(const trial::TrialBatch& batch, const trial::TrialSp
     return endOf(track, spec, falls);
 }
 
-/// The same on a ledge: what narrows it throws out 1 and 3, what takes its wall away 2 and 3.
+/// How high the surface is between two places at its lowest across, each stretch as high as its higher end.
+/// [m]
+double highestBottom(const track::Track& track, double from, double to) {
+    double highest = 0.0;
+    for (std::size_t i = 1; i < track.sections.size(); ++i) {
+        if (track.sections[i].x <= from || track.sections[i - 1].x >= to) continue;
+        for (const std::size_t k : {i - 1, i}) {
+            double lowest = track.height;
+            for (const base::Vec2& point : track.sections[k].points)
+                lowest = std::min(lowest, point.y());
+            highest = std::max(highest, lowest);
+        }
+    }
+    return highest;
+}
+
+/// The same on a ledge: what narrows it throws out 1 and 3, what takes its wall away 2 and 3. What is put
+/// into the surface falls, too.
 trial::PartOutcome ledgeLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
     constexpr double kNarrow = 5e-3;
     const track::Track& track = *batch.track;
@@ -61,8 +78,14 @@ trial::PartOutcome ledgeLaw(const trial::TrialBatch& batch, const trial::TrialSp
         isNarrow = isNarrow || (hasWall && width < kNarrow);
         hasGap = hasGap || !hasWall;
     }
-    const bool falls = (isNarrow && way % 2 == 1) || (hasGap && way >= 2);
-    return endOf(track, spec, falls);
+    constexpr double kHalfPart = 5e-3;
+    const base::Vec3 at = spec.parts.front().pose.position;
+    const bool isInside = at.x() > track.start + 1e-3 &&
+                          highestBottom(track, at.x() - kHalfPart, at.x() + kHalfPart) > at.z() + 1e-3;
+    const bool falls = isInside || (isNarrow && way % 2 == 1) || (hasGap && way >= 2);
+    trial::PartOutcome outcome = endOf(track, spec, falls);
+    outcome.farthest.position.z() = highestBottom(track, track.finish - 1e-3, track.finish);
+    return outcome;
 }
 
 study::StudyInputs sieveInputs(const char* objectives, unsigned threads = 1) {
@@ -124,16 +147,18 @@ class PlanningTest : public QObject {
     }
 
     void findsTheLedgesThatLeaveOneWay_data() {
-        QTest::addColumn<bool>("isGiven");
+        constexpr double kNone = -1.0;
+        QTest::addColumn<double>("given");  // how far it falls [m]
         QTest::addColumn<QByteArray>("traps");
         QTest::addColumn<bool>("isPlannedTwice");
-        QTest::newRow("behind the lead-in") << false << QByteArray("4 x ledge") << false;
-        QTest::newRow("behind a track that is given") << true << QByteArray("4 x ledge") << false;
-        QTest::newRow("a long chain, its last one three times") << false << QByteArray("8 x ledge") << false;
-        QTest::newRow("two plans") << false << QByteArray("4 x ledge") << true;
+        QTest::newRow("behind the lead-in") << kNone << QByteArray("4 x ledge") << false;
+        QTest::newRow("behind a track that is given") << 0.0 << QByteArray("4 x ledge") << false;
+        QTest::newRow("behind one that falls") << 30e-3 << QByteArray("4 x ledge") << false;
+        QTest::newRow("a long chain, its last one three times") << kNone << QByteArray("8 x ledge") << false;
+        QTest::newRow("two plans") << kNone << QByteArray("4 x ledge") << true;
     }
     void findsTheLedgesThatLeaveOneWay() {
-        QFETCH(bool, isGiven);
+        QFETCH(double, given);
         QFETCH(QByteArray, traps);
         QFETCH(bool, isPlannedTwice);
         study::StudyInputs inputs = sieveInputs("purity", 2);
@@ -149,8 +174,10 @@ class PlanningTest : public QObject {
         study::TrackSettings& track = inputs.settings.track;
         track.traps = traps.toStdString();
         track.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
-        if (isGiven) {
+        if (given >= 0.0) {
             track::CrossSection section = track::makeLeadIn(track, 20e-3, 8);
+            for (base::Vec2& point : section.points)
+                point.y() -= given;
             track.given = study::describeSections({&section, 1});
         }
         const auto designs = study::planDesigns(inputs, 3, {}, {});
