@@ -187,8 +187,8 @@ void addCreationOptions(Command command, CreationOptions& options) {
         command
             .addFlag(
                 "--ledges", options.ledges,
-                "A spiral's ledge that throws out all parts but those that lie one way, in proportion to "
-                "the part: none wrong, at the price of parts a minute")
+                "A track that lets one way pass, in proportion to the part: gaps that bring parts to it, and "
+                "ledges behind them that throw out the others")
             .excludes(paper)
             .excludes(sorting);
     const Option time =

@@ -67,6 +67,10 @@ constexpr std::size_t kJudged = 16;   // chains that are judged by trials of who
 constexpr int kFirstOfJudged = 25;    // trials of each
 constexpr int kTrialsOfJudged = 400;  // of the best
 
+// Of a chain whose ledges follow other traps.
+constexpr double kTrapsBefore = 0.75;   // of those that are tried
+constexpr double kRoomForLedges = 1.0;  // below what is before them: longest segments
+
 /// How well a plan is made.
 struct Care {
     std::size_t niches = 0;  // ways to lead parts to, each with its best chain, whose traps' likes are tried
@@ -96,6 +100,14 @@ std::pair<int, int> judgingTrials(const EvolutionSettings& settings) {
     const int times = seeksPurity(settings) ? kTimesOfPurity : 1;
     return {times * kFirstOfJudged, times * kTrialsOfJudged};
 }
+
+/// What a chain is for that ledges follow: as many parts as can be are to come to one way, whatever becomes
+/// of the others, which the ledges throw out.
+struct Aim {
+    double room = 0.0;          // how much lower than the chain the track still goes behind it [m]
+    bool isRightAlone = false;  // right ones of all that are fed count, by their bits
+};
+constexpr double kBitsOfRightAlone = 1.0;  // of halving: log2(right / staying) + log2(staying)
 
 /// What parts come to the first trap on, to lie down and to move on.
 struct RunUp {
@@ -143,9 +155,10 @@ double lowestAt(const track::Track& track, double x) {
 
 class Planner {
  public:
-    Planner(const StudyInputs& inputs, const traps::TrapChain& chain,
+    Planner(const StudyInputs& inputs, const traps::TrapChain& chain, const Aim& aim,
             std::function<void(const GenerationPlan&)> planned, const LearningControl& control)
         : inputs_(&inputs),
+          aim_(aim),
           specimens_(makeSpecimens(inputs.settings, inputs.part)),
           runUp_(makeRunUp(chain, inputs.settings.track)),
           planned_(std::move(planned)),
@@ -201,14 +214,14 @@ class Planner {
         for (int island = 0; islands > 1 && island < islands; ++island) {
             const int end = first + (island + 1) * begun / islands;
             // Where throwing parts out costs more, a plan turns as many as it can.
-            search_.setBitsOfHalving(island % 2 == 0 ? kBitsOfDearHalving : objectives::kBitsOfHalving);
+            if (!aim_.isRightAlone && island % 2 == 0) search_.setBitsOfHalving(kBitsOfDearHalving);
             if (const auto done = goOn(round, end, rounds); !done) return done.error();
             round = end;
             // What is of use joins the others', and the next plan begins with nothing.
             std::ranges::move(search_.leave(found.empty() ? kinds_.size() : 0), std::back_inserter(found));
             met_.clear();
+            search_.setBitsOfHalving(bitsOfHalving());
         }
-        search_.setBitsOfHalving(objectives::kBitsOfHalving);
         search_.traps() = std::move(found);
         if (!search_.traps().empty()) {
             if (const auto joined = plan(kOnTheWay); !joined) return joined.error();
@@ -280,7 +293,7 @@ class Planner {
         ChainProblem problem;
         problem.ways = ways_.size();
         problem.places = places_;
-        problem.forgivesFalls = forgivesFalls(settings().evolution);
+        problem.forgivesFalls = aim_.isRightAlone || forgivesFalls(settings().evolution);
         const objectives::ObjectiveList summed = summedObjectives(settings().evolution);
         problem.seeksPurity = seeksPurity(settings().evolution);
         // Where right parts are not in the sum they decide between chains that are as pure.
@@ -294,7 +307,7 @@ class Planner {
         starts_.resize(ways_.size() + 1);
         const double bottom = lowestAt(**track, (*track)->finish);
         fallBefore_ = settings().track.segmentHeight - bottom;
-        problem.mostFall = bottom;
+        problem.mostFall = bottom - aim_.room;
         for (const trial::Outcome& outcome : outcomes->front()) {
             const trial::PartOutcome& part = outcome.parts.front();
             const std::size_t column = findColumn(part);
@@ -309,6 +322,7 @@ class Planner {
             starts_.pop_back();
         problem.rows = starts_.size();
         search_ = ChainSearch(std::move(problem));
+        search_.setBitsOfHalving(bitsOfHalving());
         return base::success();
     }
 
@@ -340,6 +354,9 @@ class Planner {
 
  private:
     [[nodiscard]] const Settings& settings() const { return inputs_->settings; }
+    [[nodiscard]] double bitsOfHalving() const {
+        return aim_.isRightAlone ? kBitsOfRightAlone : objectives::kBitsOfHalving;
+    }
     void tellProgress(std::int64_t trials) const {
         if (!planned_) return;
         const EvolutionSettings& evolution = settings().evolution;
@@ -357,9 +374,7 @@ class Planner {
         if (kind == nullptr) return build(chain, design, settings().track);
         chain.push_back(kind);
         design.insert(design.end(), numbers.begin(), numbers.end());
-        TrackSettings shortened = settings().track;
-        shortened.given.clear();  // parts are put behind it
-        return build(chain, design, std::move(shortened));
+        return build(chain, design, withoutGiven());
     }
 
     base::Result<std::shared_ptr<const track::Track>> build(const traps::TrapChain& chain,
@@ -386,7 +401,14 @@ class Planner {
             chain.push_back(kinds_[trap.kind]);
             design.insert(design.end(), trap.numbers.begin(), trap.numbers.end());
         }
-        return build(chain, design, settings().track);
+        return build(chain, design, withoutGiven());
+    }
+
+    /// Parts are put behind what is given.
+    [[nodiscard]] TrackSettings withoutGiven() const {
+        TrackSettings shortened = settings().track;
+        shortened.given.clear();
+        return shortened;
     }
 
     trial::TrialBatch makeBatch(std::shared_ptr<const track::Track> track, int trials) {
@@ -413,8 +435,9 @@ class Planner {
         return nearest;
     }
 
-    const base::Pose& chooseStart(std::size_t way, base::Random& random) const {
-        const bool isMet = random.uniform() < 0.5 && way < met_.size() && !met_[way].empty();
+    /// `shareOfMet`: of those from behind other traps.
+    const base::Pose& chooseStart(std::size_t way, double shareOfMet, base::Random& random) const {
+        const bool isMet = random.uniform() < shareOfMet && way < met_.size() && !met_[way].empty();
         const std::vector<base::Pose>& own = isMet ? met_[way] : starts_[way];
         // All of a way may be nearer to another one.
         const std::vector<base::Pose>& from = own.empty() ? starts_.front() : own;
@@ -423,7 +446,7 @@ class Planner {
 
     /// Trials, each from its way, at the beginning of the second groove or of the first ledge: what is put
     /// there at rest conveys as quickly as any other when it comes to the trap.
-    void placeParts(trial::TrialBatch& batch, const std::vector<std::size_t>& ways) const {
+    void placeParts(trial::TrialBatch& batch, const std::vector<std::size_t>& ways, double shareOfMet) const {
         const track::Track& track = *batch.track;
         // Without the track that is given the lead-in goes down to where that ends: off this slope.
         const double behind = settings().track.given.empty() ? 0.1 : 1.1;
@@ -435,11 +458,24 @@ class Planner {
             trial::TrialSpec& spec = batch.trials[i];
             base::Random random(
                 {spec.stream.seed, 0, spec.stream.individual, spec.stream.trial, base::Purpose::planning});
-            const base::Pose& start = chooseStart(ways[i], random);
+            const base::Pose& start = chooseStart(ways[i], shareOfMet, random);
             base::Pose& pose = spec.parts.front().pose;
             pose.position = track.shape.toRoom({x, start.position.y(), bottom + start.position.z() + kAbove});
             pose.rotation = base::Quaternion(track.shape.tangentFrame(x)) * fall * start.rotation;
         }
+    }
+
+    /// Of so many parts the ways in which they come to the first trap.
+    [[nodiscard]] std::vector<std::size_t> shareWays(int trials) const {
+        const auto arriving = std::span(search_.problem().arriving).first(rows());
+        const double all = std::accumulate(arriving.begin(), arriving.end(), 0.0);
+        std::vector<std::size_t> ways;
+        double sum = 0.0;
+        for (std::size_t way = 0; way < arriving.size(); ++way) {
+            sum += arriving[way];
+            ways.resize(static_cast<std::size_t>(std::lround(trials * sum / all)), way);
+        }
+        return ways;
     }
 
     /// So many trials more of each trap, from each way.
@@ -458,7 +494,7 @@ class Planner {
             batches.push_back(makeBatch(*track, static_cast<int>(ways.size())));
         }
         base::parallelFor(batches.size(), inputs_->threads,
-                          [&](std::size_t i, unsigned /*worker*/) { placeParts(batches[i], from[i]); });
+                          [&](std::size_t i, unsigned /*worker*/) { placeParts(batches[i], from[i], 0.5); });
         const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
         if (!outcomes) return outcomes.error();
         for (std::size_t i = 0; i < works.size(); ++i) {
@@ -620,12 +656,14 @@ class Planner {
         std::vector<double> bottoms;
         const int trials = search_.problem().seeksPurity ? kTrialsOfFollowedForPurity : kTrialsOfFollowed;
         const int each = trials / static_cast<int>(search_.niches().size());
+        const bool isGiven = !settings().track.given.empty();
         for (const Chain& chain : search_.niches()) {
             for (std::size_t place = 1; place < places_.size(); ++place) {
                 const auto track = buildChain(std::span(chain.traps).first(place));
                 if (!track) return track.error();
                 bottoms.push_back(lowestAt(**track, (*track)->finish));
                 batches.push_back(makeBatch(*track, each));
+                if (isGiven) placeParts(batches.back(), shareWays(each), 0.0);
             }
         }
         const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
@@ -745,6 +783,7 @@ class Planner {
     }
 
     const StudyInputs* inputs_;
+    Aim aim_;
     Specimens specimens_;
     RunUp runUp_;
     std::function<void(const GenerationPlan&)> planned_;
@@ -763,26 +802,116 @@ class Planner {
     ChainSearch search_;
 };
 
+/// Of a chain whose ledges follow other traps what is before them and what they are; else all is before.
+std::pair<traps::TrapChain, traps::TrapChain> splitAtLedges(const traps::TrapChain& chain) {
+    const auto first =
+        chain.front()->isLedge ? chain.end() : std::ranges::find_if(chain, &traps::TrapKind::isLedge);
+    return {{chain.begin(), first}, {first, chain.end()}};
+}
+
+std::string keysOf(const traps::TrapChain& chain) {
+    std::vector<std::string_view> keys;
+    std::ranges::transform(chain, std::back_inserter(keys), &traps::TrapKind::key);
+    return fmt::format("{}", fmt::join(keys, ", "));
+}
+
+/// What is before the ledges is to bring as many parts as it can to one way; what is wrong then they throw
+/// out.
+EvolutionSettings evolutionBeforeLedges(EvolutionSettings evolution) {
+    evolution.objectives = "F_C, success";
+    evolution.tradeOff.clear();
+    evolution.plannedTraps = static_cast<int>(kTrapsBefore * evolution.plannedTraps);
+    return evolution;
+}
+
+EvolutionSettings evolutionOfLedges(EvolutionSettings evolution) {
+    evolution.plannedTraps -= evolutionBeforeLedges(evolution).plannedTraps;
+    return evolution;
+}
+
+StudyInputs inputsBeforeLedges(const StudyInputs& inputs, const traps::TrapChain& before) {
+    StudyInputs changed = inputs;
+    changed.settings.track.traps = keysOf(before);
+    changed.settings.evolution = evolutionBeforeLedges(inputs.settings.evolution);
+    return changed;
+}
+
+/// Ledges behind this design of what is before them, which is given then.
+base::Result<StudyInputs> inputsOfLedges(const StudyInputs& inputs, const StudyInputs& before,
+                                         const traps::TrapChain& ledges, const search::Design& design) {
+    const auto track = decodeTrack(before.settings.track, design);
+    if (!track) return track.error();
+    StudyInputs changed = inputs;
+    changed.settings.track.traps = keysOf(ledges);
+    const double begin = track->sections[static_cast<std::size_t>(track->firstTrapSection)].x;
+    std::vector<track::CrossSection> given(track->sections.begin() + track->firstTrapSection + 1,
+                                           track->sections.begin() + track->lastTrapSection + 1);
+    for (track::CrossSection& section : given)
+        section.x -= begin;
+    changed.settings.track.given = describeSections(given);
+    changed.settings.evolution = evolutionOfLedges(inputs.settings.evolution);
+    return changed;
+}
+
+Aim aimBeforeLedges(const TrackSettings& settings) {
+    return {kRoomForLedges * settings.maxSegmentLength, true};
+}
+
+/// First what is before the ledges, then ledges behind the best of it.
+base::Result<std::vector<search::Design>> planLedgesBehind(
+    const StudyInputs& inputs, const traps::TrapChain& before, const traps::TrapChain& ledges,
+    std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
+    const LearningControl& control) {
+    const std::int64_t begin = control.run.done();
+    const StudyInputs first = inputsBeforeLedges(inputs, before);
+    const int left = inputs.settings.evolution.plannedTraps - first.settings.evolution.plannedTraps;
+    const auto tellFirst = [&](GenerationPlan plan) {
+        // What the ledges take is not known before they are reached: as much for each as for what is before.
+        plan.trials += plan.trials * left / std::max(1, first.settings.evolution.plannedTraps);
+        if (planned) planned(plan);
+    };
+    auto turning =
+        Planner(first, before, aimBeforeLedges(inputs.settings.track), tellFirst, control).run(kJudged);
+    if (!turning || turning->empty()) return turning;
+    const auto second = inputsOfLedges(inputs, first, ledges, turning->front());
+    if (!second) return second.error();
+    const auto tellSecond = [&](GenerationPlan plan) {
+        plan.trials += plan.doneBefore - begin;
+        plan.doneBefore = begin;
+        if (planned) planned(plan);
+    };
+    auto designs = Planner(*second, ledges, {}, tellSecond, control).run(most);
+    if (!designs) return designs;
+    for (search::Design& design : *designs)
+        design.insert(design.begin(), turning->front().begin(), turning->front().end());
+    return designs;
+}
+
 }  // namespace
 
 std::string findPlanningProblem(const TrackSettings& settings) {
     const auto chain = traps::readTraps(settings.traps);
     if (!chain) return chain.error().message;
-    if (chain->size() > kLedgesBefore && std::ranges::all_of(*chain, &traps::TrapKind::isLedge)) return {};
+    const auto areLedges = [](const traps::TrapChain& traps) {
+        return traps.size() > kLedgesBefore && std::ranges::all_of(traps, &traps::TrapKind::isLedge);
+    };
+    if (areLedges(*chain)) return {};
     if (!settings.given.empty())
         return "Behind a trap that is given (track.given) only ledges are planned, as in \"4 x ledge\"; "
                "choose "
                "them or graded.";
     const std::string_view groove = traps::groove().key;
-    bool isRight = chain->size() > kGroovesBefore;
-    for (std::size_t i = 0; i < chain->size(); ++i) {
-        const traps::TrapKind& kind = *(*chain)[i];
+    const auto [before, ledges] = splitAtLedges(*chain);
+    bool isRight = before.size() > kGroovesBefore && (ledges.empty() || areLedges(ledges));
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const traps::TrapKind& kind = *before[i];
         isRight = isRight && (i < kGroovesBefore ? kind.key == groove : kind.endsInGroove);
     }
     if (isRight) return {};
     return fmt::format(
         "Traps can be planned that begin with two grooves and go on with drops, cut-outs and gaps, as in "
-        "\"groove, groove, 3 x gap\", or that are all ledges, as in \"4 x ledge\"; these are \"{}\".",
+        "\"groove, groove, 3 x gap\", with ledges behind them or not, or that are all ledges, as in \"4 x "
+        "ledge\"; these are \"{}\".",
         settings.traps);
 }
 
@@ -796,15 +925,23 @@ base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double bu
     constexpr int kTrials = 600;
     LearningControl counting;
     counting.run = control;
-    Planner planner(inputs, traps::readTraps(inputs.settings.track.traps).value(), {}, counting);
+    const auto [before, ledges] = splitAtLedges(traps::readTraps(inputs.settings.track.traps).value());
+    // Of ledges behind other traps a trial takes about as long.
+    const StudyInputs first = ledges.empty() ? inputs : inputsBeforeLedges(inputs, before);
+    Planner planner(first, before, ledges.empty() ? Aim{} : aimBeforeLedges(inputs.settings.track), {},
+                    counting);
     if (const auto found = planner.findWays(kTrials); !found) return found.error();
     const auto each = planner.timeTraps(budget);
     if (!each) return each.error();
-    return PlanningSample{static_cast<int>(planner.rows()), *each};
+    return PlanningSample{static_cast<int>(planner.rows()), *each, !ledges.empty()};
 }
 
-std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways) {
+std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways, bool ledgesFollow) {
     if (!isPlanned(settings)) return 0;
+    constexpr int kWaysToLedges = 4;  // few others are left
+    if (ledgesFollow)
+        return estimatePlanningTrials(evolutionBeforeLedges(settings), ways) +
+               estimatePlanningTrials(evolutionOfLedges(settings), std::min(ways, kWaysToLedges));
     // Of a trap by itself, from the ways that share trials and from each of the others, and what the plans
     // from time to time take.
     constexpr int kShared = 14;
@@ -819,8 +956,11 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways)
            (isPure ? countPlans(settings) * kTrialsAtTheEndOfPurity : 0);
 }
 
-std::int64_t estimateJudgingTrials(const EvolutionSettings& settings) {
+std::int64_t estimateJudgingTrials(const EvolutionSettings& settings, bool ledgesFollow) {
     if (!isPlanned(settings)) return 0;
+    if (ledgesFollow)
+        return estimateJudgingTrials(evolutionBeforeLedges(settings)) +
+               estimateJudgingTrials(evolutionOfLedges(settings));
     const std::size_t judged = std::min(kJudged, countPlanned(settings));
     const std::vector<int> none(judged, 0);
     const auto [first, most] = judgingTrials(settings);
@@ -838,8 +978,9 @@ base::Result<std::vector<search::Design>> planDesigns(
     if (const auto checked = checkInputs(inputs); !checked) return checked.error();
     if (const std::string problem = findPlanningProblem(inputs.settings.track); !problem.empty())
         return base::Error{problem};
-    const auto chain = traps::readTraps(inputs.settings.track.traps);
-    return Planner(inputs, *chain, planned, control).run(most);
+    const auto [before, ledges] = splitAtLedges(traps::readTraps(inputs.settings.track.traps).value());
+    if (!ledges.empty()) return planLedgesBehind(inputs, before, ledges, most, planned, control);
+    return Planner(inputs, before, {}, planned, control).run(most);
 }
 
 }  // namespace trapwright::study

@@ -20,7 +20,7 @@ namespace trapwright::study {
 
 /// Why a chain of these traps cannot be planned; empty if it can. It begins with two grooves, in which parts
 /// come to lie down and to move on, and goes on with drops, cut-outs and gaps; or all of it are ledges, of
-/// which the first is left whole, also behind a trap that is given.
+/// which the first is left whole, also behind a trap that is given; or ledges follow such grooves.
 std::string findPlanningProblem(const TrackSettings& settings);
 
 /// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
@@ -28,7 +28,9 @@ std::string findPlanningProblem(const TrackSettings& settings);
 /// up the objective sorting by that of those that stay on the track. A long chain of ledges for purity, eight
 /// or more, ends with its last planned one twice more. For purity and yield of 1000 traps or more two plans
 /// are made by themselves (decisions.md#returns). None if parts come through no groove.
-/// The best of them are judged by trials of whole tracks in the end, in a race, by what the study maximises.
+/// Where ledges follow grooves what is before them is planned first, with three of four traps, so that as
+/// many parts as can be come to one way, and then the ledges behind the best of it (decisions.md#ledges). The
+/// best of them are judged by trials of whole tracks in the end, in a race, by what the study maximises.
 /// About evolution.plannedTraps traps are tried; the same settings give the same designs. `planned` is told
 /// of the work as of generation 0. Errors: traps that cannot be planned, engine, cancelled, or stopped: there
 /// is no generation to wait for.
@@ -40,18 +42,19 @@ std::size_t countPlanned(const EvolutionSettings& settings);
 
 /// What a plan meets on this machine.
 struct PlanningSample {
-    int ways = 0;          // in which parts lie when they come to the first trap
-    double seconds = 0.0;  // of a trial of a trap by itself, all threads at work
+    int ways = 0;               // in which parts lie when they come to the first trap
+    double seconds = 0.0;       // of a trial of a trap by itself, all threads at work
+    bool ledgesFollow = false;  // grooves, which are planned first
 };
 /// Simulates some hundred parts up to the first trap, then traps at random for about `budget` seconds. The
 /// settings must be those of a planned study. Errors: engine, cancelled.
 base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double budget,
                                             const base::RunControl& control);
 /// Trials of traps by themselves that a plan takes where parts lie in so many ways; 0 if these settings plan
-/// none. An estimate.
-std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways);
+/// none. An estimate. `ledgesFollow`: as in PlanningSample.
+std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways, bool ledgesFollow = false);
 /// Trials of whole tracks by which a plan's best chains are judged; 0 if these settings plan none.
-std::int64_t estimateJudgingTrials(const EvolutionSettings& settings);
+std::int64_t estimateJudgingTrials(const EvolutionSettings& settings, bool ledgesFollow = false);
 
 /// Whether generation 0 is planned.
 bool isPlanned(const EvolutionSettings& settings);

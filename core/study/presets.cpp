@@ -5,6 +5,7 @@
 
 #include "core/base/resources.h"
 #include "core/study/track_design.h"
+#include "core/traps/groove.h"
 
 namespace trapwright::study {
 
@@ -45,6 +46,28 @@ void planLedges(EvolutionSettings& evolution) {
     evolution.objectives = "F_C, purity, yield";
     evolution.trialsPerEvaluation = 1920;
     evolution.racingTrials = 60;
+}
+
+constexpr double kInclinationOfLedges = 10.0 * base::kDegree;
+
+/// How high the wall of ledges is behind a groove so wide that it suits the part; whole half millimetres. [m]
+double wallOf(double width) {
+    constexpr double kHalfMillimetres = 2000.0;  // in a metre
+    return std::max(1.0, std::round(width / 6.0 * kHalfMillimetres)) / kHalfMillimetres;
+}
+
+/// Whether parts lie in a groove at its end, as behind a chain of gaps (core/traps/groove.h).
+bool endsInGroove(const track::Track& track) {
+    constexpr double kRounding = 1e-6;  // [m]
+    const auto& points = track.sections[static_cast<std::size_t>(track.lastTrapSection)].points;
+    const auto lowest =
+        std::ranges::min_element(points, {}, [](const base::Vec2& point) { return point.y(); });
+    if (lowest == points.begin() || lowest + 1 == points.end()) return false;
+    const double wall = std::tan(traps::kRestingWall);
+    return std::ranges::all_of(points, [&](const base::Vec2& point) {
+        const double height = wall * std::abs(point.x() - lowest->x());
+        return std::abs(point.y() - lowest->y() - height) < kRounding;
+    });
 }
 
 }  // namespace
@@ -165,20 +188,20 @@ Settings ledgeMode(Settings settings, const part::Part& part) {
     const auto inProportion = [&](double ofBracket) { return scaleLength(ofBracket, 9.4e-3, part); };
     settings = sortingMode(std::move(settings), part);
     TrackSettings& track = settings.track;
-    track.traps = "10 x ledge";
-    track.spiral = {inProportion(20e-3), inProportion(10e-3), 10.0 * base::kDegree};
-    track.segmentWidth = track.spiral.width + inProportion(10e-3);
-    track.segmentHeight = inProportion(100e-3);
-    settings.simulation.start.lateral = std::min(settings.simulation.start.lateral, inProportion(2e-3));
+    track.traps += ", 6 x ledge";
+    track.spiral = {0.0, wallOf(track.segmentWidth), kInclinationOfLedges};  // of the ledges; no lead-in
+    track.segmentHeight = inProportion(280e-3);
     planLedges(settings.evolution);
-    settings.evolution.plannedTraps = 1200;
+    settings.evolution.plannedTraps = 2000;
     return settings;
 }
 
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track) {
-    // Behind ledges more of them, along the same wall.
+    // Along a wall what lies one way passes; along the spiral's, or along one that begins where a groove
+    // ends.
     const bool isSpiral = track::spiralOf(track).width > 0.0;
-    settings.track.traps = isSpiral ? "4 x ledge" : "notched";
+    const bool isGroove = !isSpiral && endsInGroove(track);
+    settings.track.traps = isSpiral ? "4 x ledge" : isGroove ? "6 x ledge" : "notched";
     auto behind = placeBehind(track, settings.track);
     if (!behind) return behind.error();
     settings.track = *std::move(behind);
@@ -189,9 +212,10 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     evolution.tradeOff.clear();
     evolution.cornerShare = 0.0;
     evolution.cornersFrom = 0;
-    if (isSpiral) {
+    if (isSpiral || isGroove) {
         planLedges(evolution);
-        evolution.plannedTraps = 300;
+        evolution.plannedTraps = isSpiral ? 300 : 500;
+        if (isGroove) settings.track.spiral = {0.0, wallOf(track.width), kInclinationOfLedges};
         return settings;
     }
     evolution.firstGeneration = search::ga::FirstGeneration::graded;

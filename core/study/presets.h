@@ -34,15 +34,16 @@ Settings turningMode(Settings settings, const part::Part& part);
 /// plan, and time for parts to go all the way. Lengths are whole half millimetres.
 Settings sortingMode(Settings settings, const part::Part& part);
 
-/// Changes settings to those of a spiral whose ledges throw out all but one way, in proportion to the part:
-/// planned, judged by how few of the parts that leave it are wrong, and how many leave it
-/// (decisions.md#ledges). Lengths are whole half millimetres.
+/// Changes settings to those of a track that lets one way pass, in proportion to the part: gaps that bring as
+/// many parts as they can to one way (sortingMode), and ledges behind them that throw out the others;
+/// planned, then exchanged trap by trap, judged by how few of the parts that leave it are wrong, and how many
+/// leave it (decisions.md#ledges). Lengths are whole half millimetres.
 Settings ledgeMode(Settings settings, const part::Part& part);
 
 /// Settings that learn traps behind a track that is there, which throw out what still lies wrong, so that it
-/// comes again: ledges behind a track with a spiral, else a notched track, judged by how few of the parts
-/// that arrive are wrong, and how many arrive. Part, drive, contact, engine and seed stay. An error if other
-/// traps cannot follow that track (placeBehind).
+/// comes again: ledges behind a track with a spiral or one that ends in a groove, as gaps do, else a notched
+/// track, judged by how few of the parts that arrive are wrong, and how many arrive. Part, drive, contact,
+/// engine and seed stay. An error if other traps cannot follow that track (placeBehind).
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track);
 
 /// What the engines need of a pair of materials.

@@ -130,8 +130,11 @@ base::Result<TrackSettings> placeBehind(const track::Track& track, TrackSettings
     const auto inNanodegrees = [](double angle) {
         return std::round(1e9 * (angle / base::kDegree)) / 1e9 * base::kDegree;
     };
-    // In whole millimetres.
-    const double raised = std::ceil(1e3 * calcTypicalFall(settings) - 1e-6) * 1e-3;
+    // In whole millimetres. Ledges fall by steps, and their gaps have no floor.
+    const auto traps = trapsOf(settings);
+    const bool hasLedge = traps && std::ranges::any_of(*traps, &traps::TrapKind::isLedge);
+    const double fall = calcTypicalFall(settings) + (hasLedge ? settings.maxSegmentLength : 0.0);
+    const double raised = std::ceil(1e3 * fall - 1e-6) * 1e-3;
     for (track::CrossSection& section : given) {
         section.x = inNanometres(section.x - begin);
         for (base::Vec2& point : section.points)

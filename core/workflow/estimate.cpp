@@ -83,8 +83,9 @@ base::Result<double> timeLayout(const study::StudyInputs& inputs, double budget,
 
 /// Before there is a generation. [s]
 double planningTime(const study::EvolutionSettings& evolution, const TrialCost& cost) {
-    return static_cast<double>(study::estimatePlanningTrials(evolution, cost.ways)) * cost.planning +
-           static_cast<double>(study::estimateJudgingTrials(evolution)) * cost.learning;
+    const std::int64_t traps = study::estimatePlanningTrials(evolution, cost.ways, cost.ledgesFollow);
+    const std::int64_t chains = study::estimateJudgingTrials(evolution, cost.ledgesFollow);
+    return static_cast<double>(traps) * cost.planning + static_cast<double>(chains) * cost.learning;
 }
 
 /// As many traps as take `seconds` to plan with, and two generations, as those that are bred gain little.
@@ -151,6 +152,7 @@ base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budg
     if (!sample) return sample.error();
     cost.planning = sample->seconds;
     cost.ways = sample->ways;
+    cost.ledgesFollow = sample->ledgesFollow;
     return cost;
 }
 

@@ -11,9 +11,10 @@ namespace trapwright::workflow {
 /// What a trial costs on this machine as it is now [s of wall time, all threads at work, the building of
 /// tracks included].
 struct TrialCost {
-    double learning = 0.0;  // 0: not known
-    double planning = 0.0;  // of a trap by itself, before generation 0; 0 where none is planned
-    int ways = 0;           // in which parts come to a trap then
+    double learning = 0.0;      // 0: not known
+    double planning = 0.0;      // of a trap by itself, before generation 0; 0 where none is planned
+    int ways = 0;               // in which parts come to a trap then
+    bool ledgesFollow = false;  // as in study::PlanningSample
 };
 
 /// Times trials as this study learns by. Simulates for about `budget` seconds: random individuals, whose

@@ -158,16 +158,16 @@ class CommandsTest : public QObject {
         QVERIFY(both.errors.contains("--sorting"));
     }
 
-    // A spiral in proportion to the part, planned; also behind a track that is there.
+    // Gaps and ledges in proportion to the part, planned; ledges also behind a track that is there.
     void ledgeMode() {
         QCOMPARE(ask({"new", "ledges.trap", "--part", "bracket", "--ledges"}).code, 0);
         const QJsonObject settings = ask({"settings", "ledges.trap", "--json"}).json();
         const QJsonObject track = settings["track"].toObject();
-        QCOMPARE(track["traps"].toString(), "10 x ledge");
+        QCOMPARE(track["traps"].toString(), "groove, groove, 8 x gap, 6 x ledge");
         QCOMPARE(track["returns"].toString(), "anywhere");
-        const double width = track["spiralWidth_mm"].toDouble();
-        QVERIFY2(width > 19.0 && width < 22.0, qPrintable(QString::number(width)));
-        QVERIFY(track["segmentWidth_mm"].toDouble() > width + 4.4);
+        QCOMPARE(track["spiralWidth_mm"].toDouble(), 0.0);
+        const double wall = track["spiralWall_mm"].toDouble();
+        QVERIFY2(wall > 9.0 && wall < 11.5, qPrintable(QString::number(wall)));
         QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "F_C, purity, yield");
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
         QCOMPARE(settings["evolution"].toObject()["search"].toString(), "exchange");
@@ -186,13 +186,19 @@ class CommandsTest : public QObject {
                  "track.traps=groove, groove, gap", "--set", "evolution.firstGeneration=planned"});
         QVERIFY(gaps.code != 0);
         QVERIFY2(gaps.errors.contains("only ledges are planned"), gaps.errors.constData());
-        // Behind a spiral they are what is proposed.
-        const QByteArray spiral =
-            QByteArray(TRAPWRIGHT_SOURCE_DIR) + "/resources/tracks/bracket_ledges_track.json";
-        QCOMPARE(ask({"new", "spiral.trap", "--behind", spiral.constData(), "--part", "bracket"}).code, 0);
-        const QJsonObject more = ask({"settings", "spiral.trap", "--json"}).json();
-        QCOMPARE(more["track"].toObject()["traps"].toString(), "4 x ledge");
-        QCOMPARE(more["evolution"].toObject()["firstGeneration"].toString(), "planned");
+        // Behind a spiral and behind gaps they are what is proposed.
+        const std::pair<const char*, const char*> proposed[] = {{"bracket_ledges_track.json", "4 x ledge"},
+                                                                {"bracket_track.json", "6 x ledge"}};
+        for (const auto& [file, traps] : proposed) {
+            const QByteArray path = QByteArray(TRAPWRIGHT_SOURCE_DIR) + "/resources/tracks/" + file;
+            const QByteArray study = QByteArray("behind-") + file + ".trap";
+            QCOMPARE(ask({"new", study.constData(), "--behind", path.constData(), "--part", "bracket"}).code,
+                     0);
+            const QJsonObject more = ask({"settings", study.constData(), "--json"}).json();
+            QCOMPARE(more["track"].toObject()["traps"].toString(), traps);
+            QVERIFY(more["track"].toObject()["spiralInclination_deg"].toDouble() > 5.0);
+            QCOMPARE(more["evolution"].toObject()["firstGeneration"].toString(), "planned");
+        }
     }
 
     // What is learned goes by the part, how much of it by the time; what is set one by one comes after it.

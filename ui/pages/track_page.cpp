@@ -135,7 +135,8 @@ QWidget* TrackPage::makeHead() {
     QAction* sorting = menu->addAction(tr("Throw out what lies wrong, in proportion to the part"));
     sorting->setObjectName("preset.sorting");
     connect(sorting, &QAction::triggered, this, &TrackPage::useSorting);
-    QAction* ledges = menu->addAction(tr("Let only one way pass, on a ledge, in proportion to the part"));
+    QAction* ledges =
+        menu->addAction(tr("Let only one way pass, over gaps and ledges, in proportion to the part"));
     ledges->setObjectName("preset.ledges");
     connect(ledges, &QAction::triggered, this, &TrackPage::useLedges);
     menu->addSeparator();
@@ -165,9 +166,9 @@ QWidget* TrackPage::makeHead() {
     auto* behind = new QCheckBox(tr("Add a rejecting trap"), locked_);
     behind->setObjectName("track.forkBehind");
     behind->setToolTip(tr(
-        "The chosen track stays as it is, and a notched track, or ledges where it has a spiral, is learned "
-        "behind it that throws out what still lies wrong, so that it comes again: fewer wrong ones, at the "
-        "price of parts a minute"));
+        "The chosen track stays as it is, and a notched track, or ledges where it has a spiral or ends in a "
+        "groove, is learned behind it that throws out what still lies wrong, so that it comes again: fewer "
+        "wrong ones, at the price of parts a minute"));
     // One or the other, or neither.
     connect(withTracks, &QCheckBox::toggled, behind, [behind](bool on) {
         if (on) behind->setChecked(false);

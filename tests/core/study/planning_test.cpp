@@ -7,6 +7,7 @@
 
 #include "core/study/runner.h"
 #include "core/study/track_design.h"
+#include "core/traps/ledge.h"
 #include "tests/core/study/fake_engine.h"
 
 using namespace trapwright;
@@ -156,6 +157,8 @@ class PlanningTest : public QObject {
         QTest::newRow("behind one that falls") << 30e-3 << QByteArray("4 x ledge") << false;
         QTest::newRow("a long chain, its last one three times") << kNone << QByteArray("8 x ledge") << false;
         QTest::newRow("two plans") << kNone << QByteArray("4 x ledge") << true;
+        QTest::newRow("behind gaps that are planned")
+            << kNone << QByteArray("2 x groove, gap, 4 x ledge") << false;
     }
     void findsTheLedgesThatLeaveOneWay() {
         QFETCH(double, given);
@@ -194,7 +197,9 @@ class PlanningTest : public QObject {
                 Eigen::AngleAxisd(quarter * 0.5 * base::kPi, base::Vec3::UnitZ());
             QCOMPARE(ledgeLaw(batch, spec).ending == trial::Ending::finished, quarter == 0);
         }
-        const std::ptrdiff_t each = std::ssize(designs->front()) / (traps.front() - '0');
+        for (const search::Design& design : *designs)
+            QVERIFY(study::designSpace(track).check(design).ok());
+        const std::ptrdiff_t each = std::ssize(traps::ledge().dimensions(track));
         const auto end = designs->front().end();
         QCOMPARE(std::equal(end - each, end, end - 2 * each) && std::equal(end - each, end, end - 3 * each),
                  traps == "8 x ledge");
@@ -301,6 +306,9 @@ class PlanningTest : public QObject {
         QTest::newRow("drops, cut-outs and gaps") << "2 x groove, drop, 3 x cut-out, gap, drop" << true;
         QTest::newRow("ledges") << "4 x ledge" << true;
         QTest::newRow("one ledge, the run-up") << "ledge" << false;
+        QTest::newRow("ledges behind gaps") << "groove, groove, 3 x gap, 2 x ledge" << true;
+        QTest::newRow("one ledge behind gaps") << "groove, groove, 3 x gap, ledge" << false;
+        QTest::newRow("gaps behind ledges") << "groove, groove, gap, 2 x ledge, gap" << false;
         QTest::newRow("ledges and others") << "2 x ledge, step" << false;
         QTest::newRow("one groove") << "groove, 3 x cut-out" << false;
         QTest::newRow("nothing behind") << "groove, groove" << false;

@@ -152,8 +152,8 @@ class MainWindowTest : public QObject {
         user.action("edit.undo")->trigger();
         user.action("preset.ledges")->trigger();
         const study::Settings ledges = user.session()->design().settings();
-        QCOMPARE(ledges.track.traps, std::string("10 x ledge"));
-        QVERIFY(ledges.track.spiral.width > 0.0);
+        QCOMPARE(ledges.track.traps, std::string("groove, groove, 8 x gap, 6 x ledge"));
+        QVERIFY(ledges.track.spiral.wall > 1e-3);
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
         QVERIFY(user.session()->design().settings() == before);
