@@ -68,7 +68,7 @@ constexpr int kFirstOfJudged = 25;    // trials of each
 constexpr int kTrialsOfJudged = 400;  // of the best
 
 // Of a chain whose ledges follow other traps.
-constexpr double kTrapsBefore = 0.75;   // of those that are tried
+constexpr double kTrapsBefore = 0.5;    // of those that are tried
 constexpr double kRoomForLedges = 1.0;  // below what is before them: longest segments
 
 /// How well a plan is made.
@@ -824,8 +824,13 @@ EvolutionSettings evolutionBeforeLedges(EvolutionSettings evolution) {
     return evolution;
 }
 
+/// Most parts come the right way, so that their share tells what their logarithm does: one plan.
 EvolutionSettings evolutionOfLedges(EvolutionSettings evolution) {
     evolution.plannedTraps -= evolutionBeforeLedges(evolution).plannedTraps;
+    if (seeksPurity(evolution)) {
+        evolution.objectives = "F_C, purity, success";
+        evolution.tradeOff.clear();
+    }
     return evolution;
 }
 

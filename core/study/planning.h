@@ -28,7 +28,7 @@ std::string findPlanningProblem(const TrackSettings& settings);
 /// up the objective sorting by that of those that stay on the track. A long chain of ledges for purity, eight
 /// or more, ends with its last planned one twice more. For purity and yield of 1000 traps or more two plans
 /// are made by themselves (decisions.md#returns). None if parts come through no groove.
-/// Where ledges follow grooves what is before them is planned first, with three of four traps, so that as
+/// Where ledges follow grooves what is before them is planned first, with half of the traps, so that as
 /// many parts as can be come to one way, and then the ledges behind the best of it (decisions.md#ledges). The
 /// best of them are judged by trials of whole tracks in the end, in a race, by what the study maximises.
 /// About evolution.plannedTraps traps are tried; the same settings give the same designs. `planned` is told

@@ -192,7 +192,7 @@ Settings ledgeMode(Settings settings, const part::Part& part) {
     track.spiral = {0.0, wallOf(track.segmentWidth), kInclinationOfLedges};  // of the ledges; no lead-in
     track.segmentHeight = inProportion(280e-3);
     planLedges(settings.evolution);
-    settings.evolution.plannedTraps = 2000;
+    settings.evolution.plannedTraps = 3000;
     return settings;
 }
 
@@ -214,8 +214,10 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     evolution.cornersFrom = 0;
     if (isSpiral || isGroove) {
         planLedges(evolution);
-        evolution.plannedTraps = isSpiral ? 300 : 500;
-        if (isGroove) settings.track.spiral = {0.0, wallOf(track.width), kInclinationOfLedges};
+        evolution.plannedTraps = isSpiral ? 300 : 1500;
+        if (isSpiral) return settings;
+        evolution.objectives = "F_C, purity, success";  // most parts come the right way
+        settings.track.spiral = {0.0, wallOf(track.width), kInclinationOfLedges};
         return settings;
     }
     evolution.firstGeneration = search::ga::FirstGeneration::graded;

@@ -24,9 +24,11 @@ double within(double low, double high, double share) {
     return low + (high - low) * share;
 }
 
-/// How wide the ledge is of which cuts are told. [m]
+/// How wide the ledge is of which cuts are told, beside its wall. What decides is how far a part's centre of
+/// mass is from the wall; told of a wide track hardly any cut would be near that. [m]
 double widthOf(const TrapParameters& parameters) {
-    return parameters.spiral.width > 0.0 ? parameters.spiral.width : 0.5 * parameters.segmentWidth;
+    if (parameters.spiral.width > 0.0) return parameters.spiral.width;
+    return 0.5 * std::min(parameters.segmentWidth, parameters.maxSegmentLength);
 }
 
 /// Where the whole ledge is that goes on from a section.
