@@ -372,8 +372,9 @@ void TrackPage::refresh() {
     form_->setVisible("track.bowlRadius_mm", bowl);
     form_->setVisible("track.conveying", bowl);
     const bool spiral = settings.track.spiral.width > 0.0;
-    form_->setVisible("track.spiralWall_mm", spiral);
-    form_->setVisible("track.spiralInclination_deg", spiral);
+    const bool hasLedge = spiral || settings.track.traps.find("ledge") != std::string::npos;
+    form_->setVisible("track.spiralWall_mm", hasLedge);
+    form_->setVisible("track.spiralInclination_deg", hasLedge);
     form_->setVisible("track.chuteAngle_deg", settings.track.chute.length > 0.0);
     const bool freeForm = settings.track.traps.find("free-form") != std::string::npos;
     for (const char* key : {"track.crossSections", "track.encoding"})
