@@ -3,804 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <iterator>
-#include <numeric>
-#include <set>
-#include <tuple>
 #include <utility>
 
-#include "core/base/parallel.h"
-#include "core/objectives/success_share.h"
-#include "core/search/racing.h"
-#include "core/search/ranking.h"
-#include "core/study/chain_search.h"
-#include "core/study/evaluator.h"
-#include "core/study/orientation_shares.h"
-#include "core/study/selection.h"
-#include "core/study/target.h"
+#include "core/study/chain_planner.h"
 #include "core/study/track_design.h"
-#include "core/study/trial_batches.h"
-#include "core/track/track_builder.h"
 #include "core/traps/groove.h"
 #include "core/traps/trap_chain.h"
-#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
 namespace {
 
-constexpr int kGroovesBefore = 2;      // the first turns parts along the track, the second is the run-up
-constexpr int kLedgesBefore = 1;       // the run-up: what comes before goes over to it
-constexpr std::size_t kLastAgain = 2;  // ledges behind a long chain that are its last one again
-constexpr std::size_t kLongChain = 7;  // of so many at least
-constexpr int kTrialsOfWays = 3000;    // that tell the ways
-constexpr std::size_t kMostWays = 14;  // others are one together
-constexpr int kLeastOfWay = 40;        // trials that end so
-constexpr double kNearWay = 35.0 * base::kDegree;  // what is farther from all ways is none of them
-constexpr std::size_t kTrapsInRound = 32;
-constexpr int kRoundsBetweenPlans = 6;
-constexpr int kRoundsOfIsland = 24;  // at least
-constexpr int kTrapsOfPlan = 500;    // at least, where two are made
-constexpr int kMostIslands = 8;
-constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
-constexpr int kFirstTrials = 6;         // from each way on average, of a trap that is new
-constexpr int kMoreTrials = 24;         // of one that is promising
-constexpr std::size_t kMostShared = 8;  // ways that count for the sum of these trials
-constexpr double kMostFromWay = 0.3;    // of these trials
-constexpr int kTrialsOfFollowed = 300;  // behind each trap, shared by the best chains
-constexpr int kTrialsOfFollowedForPurity = 900;
-constexpr std::size_t kFewOfWay = 3;       // of these, that lie so behind a trap
-constexpr std::size_t kMostTraps = 900;    // that are kept
-constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
-constexpr double kMutants = 0.65;          // of new traps, that are like one in use
-constexpr double kLevel = 0.25;            // of angles, cuts and steps of new traps: none, or the middle
-constexpr double kRedrawn = 0.15;          // of a mutant's changes
-constexpr double kMostStuck = 0.05;        // of a trap that is of use
-constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
-
-/// At the end of a plan for purity, of chains of about seven traps; an estimate.
-constexpr std::int64_t kTrialsAtTheEndOfPurity = 37000;
-
-constexpr std::size_t kJudged = 16;   // chains that are judged by trials of whole tracks
-constexpr int kFirstOfJudged = 25;    // trials of each
-constexpr int kTrialsOfJudged = 400;  // of the best
-
 // Of a chain whose ledges follow other traps.
 constexpr double kTrapsBefore = 0.5;    // of those that are tried
 constexpr double kRoomForLedges = 1.0;  // below what is before them: longest segments
-
-/// How well a plan is made.
-struct Care {
-    std::size_t niches = 0;  // ways to lead parts to, each with its best chain, whose traps' likes are tried
-    int trials = 0;          // of each trap that is used, by the ways in which parts come to it
-    int inARow = 0;          // plans at most, while what they use is measured
-};
-constexpr Care kOnTheWay{3, 300, 4};
-constexpr Care kAtTheEnd{1, 1000, 12};
-constexpr Care kAtTheEndOfPurity{1, 2500, 5};
-constexpr int kFollowedAtTheEnd = 2;
-constexpr double kUnseenTurnsOfPurity = 0.2;  // one would hide how few of many are turned
-
-bool seeksPurity(const EvolutionSettings& settings) {
-    return objectives::contains(summedObjectives(settings), objectives::kPurity);
-}
-
-/// How many plans are made by themselves, with an equal share of the traps each. Where right ones count by
-/// their logarithm every other one goes by that, and the others by their share.
-int countPlans(const EvolutionSettings& settings) {
-    const bool seeksYield = objectives::contains(summedObjectives(settings), objectives::kYield);
-    return seeksYield && seeksPurity(settings) && settings.plannedTraps >= 2 * kTrapsOfPlan ? 2 : 1;
-}
-
-/// Trials of whole tracks by which chains are judged: of each, and of the best. Nines are told by many.
-std::pair<int, int> judgingTrials(const EvolutionSettings& settings) {
-    constexpr int kTimesOfPurity = 5;
-    const int times = seeksPurity(settings) ? kTimesOfPurity : 1;
-    return {times * kFirstOfJudged, times * kTrialsOfJudged};
-}
-
-/// What a chain is for that ledges follow: as many parts as can be are to come to one way, whatever becomes
-/// of the others, which the ledges throw out.
-struct Aim {
-    double room = 0.0;          // how much lower than the chain the track still goes behind it [m]
-    bool isRightAlone = false;  // right ones of all that are fed count, by their bits
-};
-constexpr double kBitsOfRightAlone = 1.0;  // of halving: log2(right / staying) + log2(staying)
-
-/// What parts come to the first trap on, to lie down and to move on.
-struct RunUp {
-    traps::TrapChain traps;
-    search::Design design;
-    double fall = 0.0;  // of the surface along the track, where parts are put [rad]
-};
-
-/// The traps at the beginning of a chain that are none to be planned.
-int countBefore(const traps::TrapChain& chain) {
-    return chain.front()->isLedge ? kLedgesBefore : kGroovesBefore;
-}
-
-RunUp makeRunUp(const traps::TrapChain& chain, const TrackSettings& settings) {
-    const int before = countBefore(chain);
-    RunUp runUp{{chain.begin(), chain.begin() + before}, {}, 0.0};
-    if (!chain.front()->isLedge) {
-        runUp.fall = traps::kRestingFall;
-        for (int i = 0; i < before; ++i)
-            std::ranges::copy(traps::restingGroove(settings), std::back_inserter(runUp.design));
-        return runUp;
-    }
-    // All numbers in the middle: a ledge that is not cut.
-    for (const search::Dimension& dimension : traps::designSpace(runUp.traps, settings).dimensions)
-        runUp.design.push_back(search::roundToBits(0.5, dimension.bits));
-    return runUp;
-}
-
-/// What a trap is still to be tried.
-struct Work {
-    KnownTrap* trap = nullptr;
-    std::vector<int> trials;  // from each way
-};
-
-double lowestAt(const track::Track& track, double x) {
-    for (std::size_t i = 1; i < track.sections.size(); ++i) {
-        const track::CrossSection& from = track.sections[i - 1];
-        const track::CrossSection& to = track.sections[i];
-        if (x > to.x && i + 1 < track.sections.size()) continue;
-        const double share = std::clamp((x - from.x) / (to.x - from.x), 0.0, 1.0);
-        return std::lerp(traps::findLowest(from), traps::findLowest(to), share);
-    }
-    return traps::findLowest(track.sections.back());
-}
-
-class Planner {
- public:
-    Planner(const StudyInputs& inputs, const traps::TrapChain& chain, const Aim& aim,
-            std::function<void(const GenerationPlan&)> planned, const LearningControl& control)
-        : inputs_(&inputs),
-          aim_(aim),
-          specimens_(makeSpecimens(inputs.settings, inputs.part)),
-          runUp_(makeRunUp(chain, inputs.settings.track)),
-          planned_(std::move(planned)),
-          control_(control),
-          doneBefore_(control_.run.done()) {
-        for (std::size_t i = runUp_.traps.size(); i < chain.size(); ++i) {
-            auto found = std::find(kinds_.begin(), kinds_.end(), chain[i]);
-            if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), chain[i]);
-            places_.push_back(static_cast<std::size_t>(found - kinds_.begin()));
-        }
-        for (const traps::TrapKind* kind : kinds_)
-            dimensions_.push_back(kind->dimensions(settings().track));
-        if (!chain.front()->isLedge || !seeksPurity(settings().evolution) || places_.size() < kLongChain)
-            return;
-        lastAgain_ = kLastAgain;
-        places_.resize(places_.size() - kLastAgain);
-    }
-
-    base::Result<std::vector<search::Design>> run(std::size_t most) {
-        if (const auto found = findWays(kTrialsOfWays); !found) return found.error();
-        if (ways_.empty()) return std::vector<search::Design>{};
-        const int inRound = static_cast<int>(kTrapsInRound);
-        const int rounds = (settings().evolution.plannedTraps + inRound - 1) / inRound;
-        const int plans = countPlans(settings().evolution);
-        // Plans that are worth the same by arithmetic end far apart, and none of the prices is the right one
-        // for all parts: trials of whole tracks decide between them.
-        std::vector<search::Design> designs;
-        for (int i = 0; i < plans; ++i) {
-            search_.seekYield(i % 2 == 1);
-            plansLeft_ = plans - i;
-            if (const auto found = planRounds(i * rounds / plans, (i + 1) * rounds / plans, rounds); !found)
-                return found.error();
-            const auto share = static_cast<std::size_t>(plans);
-            for (search::Design& design : listDesigns((most + share - 1) / share))
-                if (std::ranges::find(designs, design) == designs.end()) designs.push_back(std::move(design));
-            if (i + 1 == plans) break;
-            search_.leave(0);
-            met_.clear();
-        }
-        auto judged = judge(std::move(designs));
-        if (judged && judged->size() > most) judged->resize(most);
-        return judged;
-    }
-
-    /// From nothing, of so many rounds of all; the best chains are search_'s then.
-    base::Status planRounds(int first, int last, int rounds) {
-        // What is found first decides in which ways traps lead, and what is tried next. So several plans
-        // begin by themselves, and what is best of each is what the last part of the work begins with.
-        const int begun = 2 * (last - first) / 3;
-        const int islands = std::min(begun / kRoundsOfIsland, kMostIslands);
-        std::vector<KnownTrap> found;
-        int round = first;
-        for (int island = 0; islands > 1 && island < islands; ++island) {
-            const int end = first + (island + 1) * begun / islands;
-            // Where throwing parts out costs more, a plan turns as many as it can.
-            if (!aim_.isRightAlone && island % 2 == 0) search_.setBitsOfHalving(kBitsOfDearHalving);
-            if (const auto done = goOn(round, end, rounds); !done) return done.error();
-            round = end;
-            // What is of use joins the others', and the next plan begins with nothing.
-            std::ranges::move(search_.leave(found.empty() ? kinds_.size() : 0), std::back_inserter(found));
-            met_.clear();
-            search_.setBitsOfHalving(bitsOfHalving());
-        }
-        search_.traps() = std::move(found);
-        if (!search_.traps().empty()) {
-            if (const auto joined = plan(kOnTheWay); !joined) return joined.error();
-        }
-        if (const auto done = goOn(round, last, rounds); !done) return done.error();
-        return planAtTheEnd();
-    }
-
-    /// Where purity is sought, again with what comes through the chain that was found: a part in a thousand
-    /// is met by no trial that begins before all traps.
-    base::Status planAtTheEnd() {
-        if (!search_.problem().seeksPurity) return plan(kAtTheEnd);
-        const auto tellLeft = [&](int plans) {
-            // Another plan takes as much as this one.
-            const std::int64_t done = control_.run.done() - doneBefore_;
-            tellProgress(plansLeft_ * (done + plans * kTrialsAtTheEndOfPurity / (1 + kFollowedAtTheEnd)));
-        };
-        tellLeft(1 + kFollowedAtTheEnd);
-        if (const auto first = plan(kAtTheEndOfPurity); !first) return first.error();
-        for (int again = 0; again < kFollowedAtTheEnd && places_.size() > 1; ++again) {
-            if (search_.chains().empty()) break;
-            tellLeft(kFollowedAtTheEnd - again);
-            if (const auto followed = followParts(); !followed) return followed.error();
-            if (const auto planned = plan(kAtTheEndOfPurity); !planned) return planned.error();
-        }
-        return base::success();
-    }
-
-    /// Rounds of traps, planned with from time to time.
-    base::Status goOn(int round, int end, int rounds) {
-        for (; round < end; ++round) {
-            if (control_.stopRequested()) return base::Error{"The planning was stopped."};
-            const std::int64_t atTheEnd =
-                search_.problem().seeksPurity ? plansLeft_ * kTrialsAtTheEndOfPurity : 0;
-            tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round) + atTheEnd);
-            if (const auto tried = tryTraps(round); !tried) return tried.error();
-            if (round + 1 < end && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
-            if (const auto improved = plan(kOnTheWay); !improved) return improved.error();
-            if (round + 1 == end || search_.chains().empty()) continue;
-            if (const auto followed = followParts(); !followed) return followed.error();
-        }
-        return base::success();
-    }
-
-    /// Of the ways in which parts lie in a groove. None if none of them is wanted: then parts are brought to
-    /// any one way, and what is wanted is left to the learning that follows.
-    [[nodiscard]] std::vector<std::size_t> listWantedWays() const {
-        std::vector<std::size_t> wanted;
-        const auto goal = findWanted(settings(), *inputs_->part);
-        for (std::size_t way = 0; goal && way < ways_.size(); ++way) {
-            const double angle = trial::calcAngleToGoal(ways_[way], *goal, inputs_->part->symmetry);
-            if (angle <= settings().validation.tolerance) wanted.push_back(way);
-        }
-        return wanted;
-    }
-
-    /// From so many trials.
-    base::Status findWays(int trials) {
-        const auto track = buildWith(nullptr, {});
-        if (!track) return track.error();
-        const trial::TrialBatch batch = makeBatch(*track, trials);
-        tellProgress(trials);
-        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);
-        if (!outcomes) return outcomes.error();
-        for (const EndMode& mode :
-             findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, kMostWays)) {
-            if (mode.count * kTrialsOfWays >= kLeastOfWay * trials) ways_.push_back(mode.orientation);
-        }
-        ChainProblem problem;
-        problem.ways = ways_.size();
-        problem.places = places_;
-        problem.forgivesFalls = aim_.isRightAlone || forgivesFalls(settings().evolution);
-        const objectives::ObjectiveList summed = summedObjectives(settings().evolution);
-        problem.seeksPurity = seeksPurity(settings().evolution);
-        // Where right parts are not in the sum they decide between chains that are as pure.
-        if (!objectives::contains(summed, objectives::kYield) &&
-            !objectives::contains(summed, objectives::kSuccess))
-            problem.rightAsNines = 0.1;
-        if (problem.seeksPurity) problem.unseenTurns = kUnseenTurnsOfPurity;
-        problem.wanted = listWantedWays();
-        problem.arriving.assign(problem.columns(), 0.0);
-        search_ = ChainSearch(problem);  // findColumn() asks it
-        starts_.resize(ways_.size() + 1);
-        const double bottom = lowestAt(**track, (*track)->finish);
-        fallBefore_ = settings().track.segmentHeight - bottom;
-        problem.mostFall = bottom - aim_.room;
-        for (const trial::Outcome& outcome : outcomes->front()) {
-            const trial::PartOutcome& part = outcome.parts.front();
-            const std::size_t column = findColumn(part);
-            problem.arriving[column] += 1.0 / trials;
-            if (column >= starts_.size()) continue;
-            base::Pose start = part.farthest;
-            start.position.z() -= bottom;
-            starts_[column].push_back(start);
-        }
-        // Too few to be tried from count as the most frequent way.
-        if (static_cast<int>(starts_.back().size()) * kTrialsOfWays < kLeastOfWay * trials)
-            starts_.pop_back();
-        problem.rows = starts_.size();
-        search_ = ChainSearch(std::move(problem));
-        search_.setBitsOfHalving(bitsOfHalving());
-        return base::success();
-    }
-
-    /// Seconds of a trial of traps at random, by so many traps as take about `budget` seconds; 0 if parts
-    /// come through no groove.
-    base::Result<double> timeTraps(double budget) {
-        using Clock = std::chrono::steady_clock;
-        if (ways_.empty()) return 0.0;
-        base::Random random({settings().evolution.seed, 0, 0, 0, base::Purpose::planning});
-        for (std::size_t count = kTrapsInRound / 4;; count *= 2) {
-            std::vector<KnownTrap> tried;
-            for (std::size_t i = 0; i < count; ++i)
-                tried.push_back(drawTrap(i % kinds_.size(), random));
-            std::vector<Work> works;
-            works.reserve(count);
-            for (KnownTrap& trap : tried)
-                works.push_back({&trap, shareTrials(kFirstTrials)});
-            const std::int64_t before = control_.run.done();
-            const Clock::time_point begin = Clock::now();
-            if (const auto measured = measure(works); !measured) return measured.error();
-            const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-            if (2.0 * seconds < budget && count < kMostTraps) continue;
-            return seconds / static_cast<double>(std::max<std::int64_t>(1, control_.run.done() - before));
-        }
-    }
-
-    /// That traps are tried from: the ways, and the others together.
-    [[nodiscard]] std::size_t rows() const { return starts_.size(); }
-
- private:
-    [[nodiscard]] const Settings& settings() const { return inputs_->settings; }
-    [[nodiscard]] double bitsOfHalving() const {
-        return aim_.isRightAlone ? kBitsOfRightAlone : objectives::kBitsOfHalving;
-    }
-    void tellProgress(std::int64_t trials) const {
-        if (!planned_) return;
-        const EvolutionSettings& evolution = settings().evolution;
-        const int population = evolution.populationSize;
-        // Of a race about half.
-        const int share = evolution.racingTrials > 0 ? 2 : 1;
-        const std::int64_t later = std::int64_t{population} * evolution.trialsPerEvaluation / share;
-        planned_({0, population, population, trials, doneBefore_, std::max<std::int64_t>(1, later)});
-    }
-
-    base::Result<std::shared_ptr<const track::Track>> buildWith(const traps::TrapKind* kind,
-                                                                std::span<const double> numbers) const {
-        traps::TrapChain chain = runUp_.traps;
-        search::Design design = runUp_.design;
-        if (kind == nullptr) return build(chain, design, settings().track);
-        chain.push_back(kind);
-        design.insert(design.end(), numbers.begin(), numbers.end());
-        return build(chain, design, withoutGiven());
-    }
-
-    base::Result<std::shared_ptr<const track::Track>> build(const traps::TrapChain& chain,
-                                                            const search::Design& design,
-                                                            TrackSettings shortened) const {
-        // Parts must be seen as they go on: they creep along a level lead-out, and lie better behind it.
-        shortened.leadOutSegments = 1;
-        // What a trap does with a part that lies in the groove before it depends on neither; but on a ledge
-        // parts lie as they come up the spiral.
-        if (!chain.front()->isLedge) shortened.spiral = {};
-        shortened.chute = {};
-        shortened.maxSegmentLength = 2.0 * inputs_->part->boundingRadius;
-        auto track = decodeChain(settings().track, chain, design, shortened);
-        if (!track) return track.error();
-        return std::make_shared<const track::Track>(std::move(track).value());
-    }
-
-    [[nodiscard]] base::Result<std::shared_ptr<const track::Track>> buildChain(
-        std::span<const std::size_t> used) const {
-        traps::TrapChain chain = runUp_.traps;
-        search::Design design = runUp_.design;
-        for (const std::size_t i : used) {
-            const KnownTrap& trap = search_.traps()[i];
-            chain.push_back(kinds_[trap.kind]);
-            design.insert(design.end(), trap.numbers.begin(), trap.numbers.end());
-        }
-        return build(chain, design, withoutGiven());
-    }
-
-    /// Parts are put behind what is given.
-    [[nodiscard]] TrackSettings withoutGiven() const {
-        TrackSettings shortened = settings().track;
-        shortened.given.clear();
-        return shortened;
-    }
-
-    trial::TrialBatch makeBatch(std::shared_ptr<const track::Track> track, int trials) {
-        // Behind those of all individuals of generation 0.
-        const int individual = settings().evolution.populationSize + batches_++;
-        return makeLearningBatch(makeScene(settings(), specimens_, std::move(track)), {0, individual},
-                                 trials);
-    }
-
-    [[nodiscard]] std::size_t findColumn(const trial::PartOutcome& part) const {
-        if (part.ending == trial::Ending::fellOff) return search_.problem().fallen();
-        if (part.ending != trial::Ending::finished) return search_.problem().stuck();
-        std::size_t nearest = ways_.size();
-        double least = kNearWay;
-        for (std::size_t way = 0; way < ways_.size(); ++way) {
-            const double angle =
-                trial::calcOrientationAngle(part.farthest.rotation, ways_[way], inputs_->part->symmetry,
-                                            trial::OrientationDistance::symmetric);
-            if (angle < least) {
-                least = angle;
-                nearest = way;
-            }
-        }
-        return nearest;
-    }
-
-    /// `shareOfMet`: of those from behind other traps.
-    const base::Pose& chooseStart(std::size_t way, double shareOfMet, base::Random& random) const {
-        const bool isMet = random.uniform() < shareOfMet && way < met_.size() && !met_[way].empty();
-        const std::vector<base::Pose>& own = isMet ? met_[way] : starts_[way];
-        // All of a way may be nearer to another one.
-        const std::vector<base::Pose>& from = own.empty() ? starts_.front() : own;
-        return from[random.below(static_cast<std::uint32_t>(from.size()))];
-    }
-
-    /// Trials, each from its way, at the beginning of the second groove or of the first ledge: what is put
-    /// there at rest conveys as quickly as any other when it comes to the trap.
-    void placeParts(trial::TrialBatch& batch, const std::vector<std::size_t>& ways, double shareOfMet) const {
-        const track::Track& track = *batch.track;
-        // Without the track that is given the lead-in goes down to where that ends: off this slope.
-        const double behind = settings().track.given.empty() ? 0.1 : 1.1;
-        const double x = track.sections[2].x + behind * inputs_->part->boundingRadius;
-        const double bottom = lowestAt(track, x);
-        const base::Quaternion fall(Eigen::AngleAxisd(runUp_.fall, base::Vec3::UnitY()));
-        constexpr double kAbove = 0.3e-3;  // so that it touches nothing when it is turned [m]
-        for (std::size_t i = 0; i < batch.trials.size(); ++i) {
-            trial::TrialSpec& spec = batch.trials[i];
-            base::Random random(
-                {spec.stream.seed, 0, spec.stream.individual, spec.stream.trial, base::Purpose::planning});
-            const base::Pose& start = chooseStart(ways[i], shareOfMet, random);
-            base::Pose& pose = spec.parts.front().pose;
-            pose.position = track.shape.toRoom({x, start.position.y(), bottom + start.position.z() + kAbove});
-            pose.rotation = base::Quaternion(track.shape.tangentFrame(x)) * fall * start.rotation;
-        }
-    }
-
-    /// Of so many parts the ways in which they come to the first trap.
-    [[nodiscard]] std::vector<std::size_t> shareWays(int trials) const {
-        const auto arriving = std::span(search_.problem().arriving).first(rows());
-        const double all = std::accumulate(arriving.begin(), arriving.end(), 0.0);
-        std::vector<std::size_t> ways;
-        double sum = 0.0;
-        for (std::size_t way = 0; way < arriving.size(); ++way) {
-            sum += arriving[way];
-            ways.resize(static_cast<std::size_t>(std::lround(trials * sum / all)), way);
-        }
-        return ways;
-    }
-
-    /// So many trials more of each trap, from each way.
-    base::Status measure(std::span<const Work> works) {
-        std::vector<trial::TrialBatch> batches;
-        std::vector<std::vector<std::size_t>> from;
-        batches.reserve(works.size());
-        for (const Work& work : works) {
-            const auto track = buildWith(kinds_[work.trap->kind], work.trap->numbers);
-            if (!track) return track.error();
-            work.trap->fall =
-                settings().track.segmentHeight - lowestAt(**track, (*track)->finish) - fallBefore_;
-            std::vector<std::size_t>& ways = from.emplace_back();
-            for (std::size_t way = 0; way < rows(); ++way)
-                ways.insert(ways.end(), static_cast<std::size_t>(work.trials[way]), way);
-            batches.push_back(makeBatch(*track, static_cast<int>(ways.size())));
-        }
-        base::parallelFor(batches.size(), inputs_->threads,
-                          [&](std::size_t i, unsigned /*worker*/) { placeParts(batches[i], from[i], 0.5); });
-        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
-        if (!outcomes) return outcomes.error();
-        for (std::size_t i = 0; i < works.size(); ++i) {
-            KnownTrap& trap = *works[i].trap;
-            for (std::size_t k = 0; k < from[i].size(); ++k)
-                trap.counts[from[i][k]][findColumn((*outcomes)[i][k].parts.front())] += 1.0;
-            trap.chances = search_.calcChances(trap.counts);
-        }
-        return base::success();
-    }
-
-    static double drawNumber(const search::Dimension& dimension, base::Random& random) {
-        const bool isLevel = dimension.isRelief && random.uniform() < kLevel;
-        return search::roundToBits(isLevel ? 0.5 : random.uniform(), dimension.bits);
-    }
-
-    [[nodiscard]] KnownTrap makeTrap(std::size_t kind, std::vector<double> numbers) const {
-        WayMatrix counts(rows(), WayShares(search_.problem().columns(), 0.0));
-        return {kind, std::move(numbers), std::move(counts), {}, 0.0};
-    }
-
-    KnownTrap drawTrap(std::size_t kind, base::Random& random) const {
-        KnownTrap trap = makeTrap(kind, {});
-        for (const search::Dimension& dimension : dimensions_[kind])
-            trap.numbers.push_back(drawNumber(dimension, random));
-        return trap;
-    }
-
-    KnownTrap mutate(const KnownTrap& parent, base::Random& random) const {
-        KnownTrap trap = makeTrap(parent.kind, parent.numbers);
-        const std::vector<search::Dimension>& dimensions = dimensions_[parent.kind];
-        const std::uint32_t changes = 1 + random.below(3);
-        const double step = std::exp(random.uniform(std::log(0.01), std::log(0.25)));
-        for (std::uint32_t change = 0; change < changes; ++change) {
-            const std::size_t i = random.below(static_cast<std::uint32_t>(dimensions.size()));
-            double& number = trap.numbers[i];
-            number = random.uniform() < kRedrawn
-                         ? drawNumber(dimensions[i], random)
-                         : search::roundToBits(std::clamp(number + step * random.normal(), 0.0, 1.0),
-                                               dimensions[i].bits);
-        }
-        return trap;
-    }
-
-    /// A round of new traps: all a few times, and those that do something more often.
-    base::Status tryTraps(int round) {
-        base::Random random(
-            {settings().evolution.seed, 0, static_cast<std::uint32_t>(round), 0, base::Purpose::planning});
-        std::vector<KnownTrap> tried;
-        for (std::size_t i = 0; i < kTrapsInRound; ++i) {
-            if (search_.traps().empty() && i < kinds_.size()) {
-                // All numbers in the middle: a cut-out that cuts nothing lets a chain do with fewer.
-                KnownTrap typical = drawTrap(i, random);
-                for (std::size_t k = 0; k < typical.numbers.size(); ++k)
-                    typical.numbers[k] = search::roundToBits(0.5, dimensions_[i][k].bits);
-                tried.push_back(std::move(typical));
-            } else if (!search_.used().empty() && random.uniform() < kMutants) {
-                const std::vector<std::size_t>& parents =
-                    random.boolean() ? search_.used() : search_.sieves();
-                tried.push_back(
-                    mutate(search_.traps()[parents[random.below(static_cast<std::uint32_t>(parents.size()))]],
-                           random));
-            } else {
-                tried.push_back(drawTrap(i % kinds_.size(), random));
-            }
-        }
-        std::vector<Work> works;
-        works.reserve(tried.size());
-        for (KnownTrap& trap : tried)
-            works.push_back({&trap, shareTrials(kFirstTrials)});
-        if (const auto measured = measure(works); !measured) return measured.error();
-        works.clear();
-        for (const std::size_t i : choosePromising(tried, search_.traps().empty() ? kinds_.size() : 0))
-            works.push_back({&tried[i], shareTrials(kMoreTrials)});
-        if (works.empty()) return base::success();
-        if (const auto measured = measure(works); !measured) return measured.error();
-        for (const Work& work : works)
-            search_.traps().push_back(std::move(*work.trap));
-        return base::success();
-    }
-
-    /// Trials from each way, `each` on average: the more, the larger a share of the parts lies so before any
-    /// trap, as what is not known of a way counts by how many come in it.
-    [[nodiscard]] std::vector<int> shareTrials(int each) const {
-        WayShares most(search_.problem().arriving.begin(),
-                       search_.problem().arriving.begin() + std::ssize(starts_));
-        for (const Chain& chain : search_.niches()) {
-            for (const WayShares& coming : search_.listComing(chain))
-                std::transform(coming.begin(), coming.end(), most.begin(), most.begin(),
-                               [](double a, double b) { return std::max(a, b); });
-        }
-        const double sum = std::accumulate(most.begin(), most.end(), 0.0);
-        const double all = each * static_cast<double>(std::min(rows(), kMostShared));
-        std::vector<int> trials;
-        for (const double share : most)
-            trials.push_back(std::max(each / 3, static_cast<int>(std::lround(all * share / sum))));
-        return trials;
-    }
-
-    /// The traps to look at closer: the first `sure` ones, those that would be of most use in the best chains
-    /// of today, and those that bring most order by themselves; none that gets parts stuck.
-    [[nodiscard]] std::vector<std::size_t> choosePromising(const std::vector<KnownTrap>& tried,
-                                                           std::size_t sure) const {
-        const ChainProblem& problem = search_.problem();
-        std::set<std::size_t> chosen;
-        for (std::size_t i = 0; i < sure; ++i)
-            chosen.insert(i);
-        std::vector<std::size_t> fit;
-        std::vector<double> alone(tried.size());
-        for (std::size_t i = sure; i < tried.size(); ++i) {
-            const WayShares once = search_.pass(problem.arriving, tried[i].chances);
-            alone[i] = std::max(search_.worthOf(once), search_.worthOf(search_.repeat(tried[i])));
-            if (once[problem.stuck()] - problem.arriving[problem.stuck()] <= kMostStuck) fit.push_back(i);
-        }
-        const auto choose = [&](const std::vector<double>& worth, std::size_t count) {
-            std::stable_sort(fit.begin(), fit.end(),
-                             [&](std::size_t a, std::size_t b) { return worth[a] > worth[b]; });
-            chosen.insert(fit.begin(),
-                          fit.begin() + static_cast<std::ptrdiff_t>(std::min(count, fit.size())));
-        };
-        choose(alone, search_.niches().empty() ? 2 * kPromising : kPromising);
-        for (std::size_t niche = 0; niche < search_.niches().size(); ++niche) {
-            std::vector<double> inChain(tried.size());
-            for (const std::size_t i : fit)
-                inChain[i] = search_.worthInChain(tried[i], search_.niches()[niche]);
-            // The best chain's share is what the others leave.
-            choose(inChain, niche > 0 ? 1 : kPromising + 1 - search_.niches().size());
-        }
-        return {chosen.begin(), chosen.end()};
-    }
-
-    /// Finds the best chains, and measures what they use, until that is known well enough.
-    base::Status plan(const Care& care) {
-        search_.findSieves();
-        if (search_.traps().size() > kMostTraps) search_.forget(kinds_.size(), kLatestTraps);
-        for (int again = 0; again < care.inARow; ++again) {
-            search_.findChains(care.niches);
-            if (search_.chains().empty()) return base::success();
-            search_.findSieves();
-            const std::vector<std::size_t>& sieves = search_.sieves();
-            std::set<std::size_t> looked(search_.used().begin(), search_.used().end());
-            looked.insert(sieves.begin(), sieves.begin() + std::min<std::ptrdiff_t>(2, std::ssize(sieves)));
-            std::vector<Work> works;
-            for (const std::size_t i : looked) {
-                Work work = findUncertain(i, care.trials);
-                if (work.trap != nullptr) works.push_back(std::move(work));
-            }
-            if (works.empty()) break;
-            if (const auto measured = measure(works); !measured) return measured.error();
-        }
-        search_.findChains(care.niches);
-        return base::success();
-    }
-
-    /// Parts before each trap of the best chains: what their traps do is counted with them from then on,
-    /// beside those of the plain groove, as within its way a part lies as the traps before have laid it.
-    base::Status followParts() {
-        std::vector<trial::TrialBatch> batches;
-        std::vector<double> bottoms;
-        const int trials = search_.problem().seeksPurity ? kTrialsOfFollowedForPurity : kTrialsOfFollowed;
-        const int each = trials / static_cast<int>(search_.niches().size());
-        const bool isGiven = !settings().track.given.empty();
-        for (const Chain& chain : search_.niches()) {
-            for (std::size_t place = 1; place < places_.size(); ++place) {
-                const auto track = buildChain(std::span(chain.traps).first(place));
-                if (!track) return track.error();
-                bottoms.push_back(lowestAt(**track, (*track)->finish));
-                batches.push_back(makeBatch(*track, each));
-                if (isGiven) placeParts(batches.back(), shareWays(each), 0.0);
-            }
-        }
-        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
-        if (!outcomes) return outcomes.error();
-        met_.assign(rows(), {});
-        std::vector<std::vector<base::Pose>> farthest;  // of each way, along one chain
-        for (std::size_t i = 0; i < batches.size(); ++i) {
-            std::vector<std::vector<base::Pose>> here(rows());
-            for (const trial::Outcome& outcome : (*outcomes)[i]) {
-                const std::size_t column = findColumn(outcome.parts.front());
-                if (column >= rows()) continue;
-                here[column].push_back(outcome.parts.front().farthest);
-                here[column].back().position.z() -= bottoms[i];
-            }
-            // Parts that lie one way, or in none that has a name, are of many kinds. Where the last wrong one
-            // counts, those that come through are what is to be thrown out.
-            if (search_.problem().seeksPurity) {
-                const std::size_t place = i % (places_.size() - 1);
-                if (place == 0) farthest.assign(rows(), {});
-                for (std::size_t row = 0; row < rows(); ++row) {
-                    if (here[row].size() >= kFewOfWay) farthest[row] = std::move(here[row]);
-                    here[row].clear();
-                }
-                if (place + 2 == places_.size()) here.swap(farthest);
-            }
-            for (std::size_t row = 0; row < rows(); ++row)
-                std::ranges::move(here[row], std::back_inserter(met_[row]));
-        }
-        for (const std::size_t i : std::set<std::size_t>(search_.used().begin(), search_.used().end())) {
-            for (WayShares& counts : search_.traps()[i].counts)
-                for (double& count : counts)
-                    count *= 0.5;
-        }
-        return base::success();
-    }
-
-    /// Trials that tell more of a trap, from the ways in which parts come to it in the chains that use it;
-    /// none if all of them are known well.
-    Work findUncertain(std::size_t index, int trials) {
-        WayShares coming(rows(), 0.0);
-        bool isUsed = false;
-        for (const Chain& chain : search_.niches()) {
-            const std::vector<WayShares> before = search_.listComing(chain);
-            for (std::size_t place = 0; place < chain.traps.size(); ++place) {
-                if (chain.traps[place] != index) continue;
-                isUsed = true;
-                for (std::size_t way = 0; way < rows(); ++way)
-                    coming[way] = std::max(coming[way], before[place][way]);
-            }
-        }
-        if (!isUsed) coming = search_.problem().arriving;
-        Work work{nullptr, std::vector<int>(rows(), 0)};
-        for (std::size_t way = 0; way < rows(); ++way) {
-            const WayShares& counts = search_.traps()[index].counts[way];
-            const auto known = static_cast<int>(std::accumulate(counts.begin(), counts.end(), 0.0));
-            const auto wanted = static_cast<int>(std::min(kMostFromWay, coming[way]) * trials);
-            if (known >= wanted) continue;
-            work.trials[way] = wanted - known;
-            work.trap = &search_.traps()[index];
-        }
-        return work;
-    }
-
-    /// The last ledge lets right parts pass, and throws out again what it should have thrown out, which no
-    /// arithmetic of shares below a thousandth tells. Where the track is too low for that: ledges not cut.
-    void repeatLast(search::Design& design, const Chain& chain) const {
-        const KnownTrap& last = search_.traps()[chain.traps.back()];
-        double fall = chain.fall;
-        for (std::size_t again = 0; again < lastAgain_; ++again) {
-            fall += last.fall;
-            const search::Design& numbers = fall <= search_.problem().mostFall ? last.numbers : runUp_.design;
-            design.insert(design.end(), numbers.begin(), numbers.end());
-        }
-    }
-
-    [[nodiscard]] std::vector<search::Design> listDesigns(std::size_t most) const {
-        std::vector<search::Design> designs;
-        for (const Chain& chain : search_.chains()) {
-            if (designs.size() == most) break;
-            search::Design design = runUp_.design;
-            for (const std::size_t i : chain.traps) {
-                const std::vector<double>& numbers = search_.traps()[i].numbers;
-                design.insert(design.end(), numbers.begin(), numbers.end());
-            }
-            repeatLast(design, chain);
-            if (std::find(designs.begin(), designs.end(), design) == designs.end())
-                designs.push_back(std::move(design));
-        }
-        return designs;
-    }
-
-    /// The best by arithmetic are judged again by trials of whole tracks, as a generation is, in a race
-    /// (core/ search/racing.h): what a trap does to parts depends a little on the traps before it, and the
-    /// one that looks best of many is often one that was lucky. The others follow as they were.
-    base::Result<std::vector<search::Design>> judge(std::vector<search::Design> designs) {
-        const std::size_t judged = std::min(designs.size(), kJudged);
-        StudyInputs race = *inputs_;
-        std::tie(race.settings.evolution.racingTrials, race.settings.evolution.trialsPerEvaluation) =
-            judgingTrials(settings().evolution);
-        race.settings.evolution.racingShare = search::kTopShare;
-        std::vector<search::Proposal> proposals(judged);
-        for (std::size_t i = 0; i < judged; ++i)
-            proposals[i].design = designs[i];
-        const auto tell = [&](const GenerationPlan& plan) {
-            tellProgress(plan.doneBefore - doneBefore_ + plan.trials);
-        };
-        const auto judgement = evaluateGeneration(race, 0, proposals, tell, control_.run);
-        if (!judgement) return judgement.error();
-        std::vector<double> totals;
-        for (const IndividualRecord& record : judgement->individuals)
-            totals.push_back(record.fitness.total);
-        const std::vector<search::Design> before = designs;
-        const std::vector<std::size_t> ranking = search::rankByFitness(totals);
-        std::transform(ranking.begin(), ranking.end(), designs.begin(),
-                       [&](std::size_t i) { return before[i]; });
-        return designs;
-    }
-
-    const StudyInputs* inputs_;
-    Aim aim_;
-    Specimens specimens_;
-    RunUp runUp_;
-    std::function<void(const GenerationPlan&)> planned_;
-    LearningControl control_;
-    std::int64_t doneBefore_;
-    double fallBefore_ = 0.0;                                 // of the grooves [m]
-    int batches_ = 0;                                         // so far
-    int plansLeft_ = 1;                                       // with the one that is made
-    std::vector<const traps::TrapKind*> kinds_;               // of the traps behind the grooves, each once
-    std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind
-    std::vector<std::size_t> places_;                         // kinds, along the track
-    std::size_t lastAgain_ = 0;                               // places behind them
-    std::vector<base::Quaternion> ways_;                      // in which parts lie
-    std::vector<std::vector<base::Pose>> starts_;  // of each way, and of others; z from the groove's bottom
-    std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chains
-    ChainSearch search_;
-};
 
 /// Of a chain whose ledges follow other traps what is before them and what they are; else all is before.
 std::pair<traps::TrapChain, traps::TrapChain> splitAtLedges(const traps::TrapChain& chain) {
@@ -858,7 +75,7 @@ base::Result<StudyInputs> inputsOfLedges(const StudyInputs& inputs, const StudyI
     return changed;
 }
 
-Aim aimBeforeLedges(const TrackSettings& settings) {
+ChainAim aimBeforeLedges(const TrackSettings& settings) {
     return {kRoomForLedges * settings.maxSegmentLength, true};
 }
 
@@ -876,7 +93,7 @@ base::Result<std::vector<search::Design>> planLedgesBehind(
         if (planned) planned(plan);
     };
     auto turning =
-        Planner(first, before, aimBeforeLedges(inputs.settings.track), tellFirst, control).run(kJudged);
+        planChain(first, before, aimBeforeLedges(inputs.settings.track), kJudgedChains, tellFirst, control);
     if (!turning || turning->empty()) return turning;
     const auto second = inputsOfLedges(inputs, first, ledges, turning->front());
     if (!second) return second.error();
@@ -885,7 +102,7 @@ base::Result<std::vector<search::Design>> planLedgesBehind(
         plan.doneBefore = begin;
         if (planned) planned(plan);
     };
-    auto designs = Planner(*second, ledges, {}, tellSecond, control).run(most);
+    auto designs = planChain(*second, ledges, {}, most, tellSecond, control);
     if (!designs) return designs;
     for (search::Design& design : *designs)
         design.insert(design.begin(), turning->front().begin(), turning->front().end());
@@ -903,8 +120,7 @@ std::string findPlanningProblem(const TrackSettings& settings) {
     if (areLedges(*chain)) return {};
     if (!settings.given.empty())
         return "Behind a trap that is given (track.given) only ledges are planned, as in \"4 x ledge\"; "
-               "choose "
-               "them or graded.";
+               "choose them or graded.";
     const std::string_view groove = traps::groove().key;
     const auto [before, ledges] = splitAtLedges(*chain);
     bool isRight = before.size() > kGroovesBefore && (ledges.empty() || areLedges(ledges));
@@ -927,18 +143,13 @@ bool isPlanned(const EvolutionSettings& settings) {
 
 base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double budget,
                                             const base::RunControl& control) {
-    constexpr int kTrials = 600;
-    LearningControl counting;
-    counting.run = control;
     const auto [before, ledges] = splitAtLedges(traps::readTraps(inputs.settings.track.traps).value());
     // Of ledges behind other traps a trial takes about as long.
     const StudyInputs first = ledges.empty() ? inputs : inputsBeforeLedges(inputs, before);
-    Planner planner(first, before, ledges.empty() ? Aim{} : aimBeforeLedges(inputs.settings.track), {},
-                    counting);
-    if (const auto found = planner.findWays(kTrials); !found) return found.error();
-    const auto each = planner.timeTraps(budget);
-    if (!each) return each.error();
-    return PlanningSample{static_cast<int>(planner.rows()), *each, !ledges.empty()};
+    const ChainAim aim = ledges.empty() ? ChainAim{} : aimBeforeLedges(inputs.settings.track);
+    const auto sample = sampleChain(first, before, aim, budget, control);
+    if (!sample) return sample.error();
+    return PlanningSample{sample->ways, sample->seconds, !ledges.empty()};
 }
 
 std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways, bool ledgesFollow) {
@@ -947,18 +158,7 @@ std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways,
     if (ledgesFollow)
         return estimatePlanningTrials(evolutionBeforeLedges(settings), ways) +
                estimatePlanningTrials(evolutionOfLedges(settings), std::min(ways, kWaysToLedges));
-    // Of a trap by itself, from the ways that share trials and from each of the others, and what the plans
-    // from time to time take.
-    constexpr int kShared = 14;
-    constexpr int kOthers = 2;
-    constexpr int kPlans = 12;
-    constexpr int kMost = kMostShared;
-    const int each = kShared * std::min(ways, kMost) + kOthers * std::max(0, ways - kMost) + kPlans;
-    // For purity parts are followed through longer, and at the end again.
-    const bool isPure = seeksPurity(settings);
-    const int followed = isPure ? 28 : 0;
-    return kTrialsOfWays + std::int64_t{settings.plannedTraps} * (each + followed) +
-           (isPure ? countPlans(settings) * kTrialsAtTheEndOfPurity : 0);
+    return estimateTrapTrials(settings, ways);
 }
 
 std::int64_t estimateJudgingTrials(const EvolutionSettings& settings, bool ledgesFollow) {
@@ -966,11 +166,7 @@ std::int64_t estimateJudgingTrials(const EvolutionSettings& settings, bool ledge
     if (ledgesFollow)
         return estimateJudgingTrials(evolutionBeforeLedges(settings)) +
                estimateJudgingTrials(evolutionOfLedges(settings));
-    const std::size_t judged = std::min(kJudged, countPlanned(settings));
-    const std::vector<int> none(judged, 0);
-    const auto [first, most] = judgingTrials(settings);
-    return search::countRacingTrials(none, static_cast<int>(judged),
-                                     search::makeRacingStages(judged, first, most, search::kTopShare));
+    return estimateJudgingOf(settings, countPlanned(settings));
 }
 
 std::size_t countPlanned(const EvolutionSettings& settings) {
@@ -985,7 +181,7 @@ base::Result<std::vector<search::Design>> planDesigns(
         return base::Error{problem};
     const auto [before, ledges] = splitAtLedges(traps::readTraps(inputs.settings.track.traps).value());
     if (!ledges.empty()) return planLedgesBehind(inputs, before, ledges, most, planned, control);
-    return Planner(inputs, before, {}, planned, control).run(most);
+    return planChain(inputs, before, {}, most, planned, control);
 }
 
 }  // namespace trapwright::study

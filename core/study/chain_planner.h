@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/search/design_space.h"
+#include "core/study/evaluator.h"
+#include "core/traps/trap_chain.h"
+
+namespace trapwright::study {
+
+/// The plan of one chain of traps, all of grooves or all of ledges: its traps are tried by themselves, chains
+/// are put together from what they do (chain_search.h), and the best are judged by trials of whole tracks.
+/// What is planned, and of which chains, says planning.h.
+
+/// The traps at the beginning of a chain that are none to be planned. Of grooves the first turns parts along
+/// the track, the second is the run-up; of ledges the run-up: what comes before goes over to it.
+inline constexpr std::size_t kGroovesBefore = 2;
+inline constexpr std::size_t kLedgesBefore = 1;
+/// Chains that are judged in the end.
+inline constexpr std::size_t kJudgedChains = 16;
+
+/// What a chain is for that ledges follow: as many parts as can be are to come to one way, whatever becomes
+/// of the others, which the ledges throw out.
+struct ChainAim {
+    double room = 0.0;          // how much lower than the chain the track still goes behind it [m]
+    bool isRightAlone = false;  // right ones of all that are fed count, by their bits
+};
+
+/// Whether the settings sum up the objective purity.
+bool seeksPurity(const EvolutionSettings& settings);
+
+/// The best designs of this chain, at most `most`, best first; none if parts come through no groove. The
+/// settings' chain is it. Errors: as of planDesigns.
+base::Result<std::vector<search::Design>> planChain(const StudyInputs& inputs, const traps::TrapChain& chain,
+                                                    const ChainAim& aim, std::size_t most,
+                                                    std::function<void(const GenerationPlan&)> planned,
+                                                    const LearningControl& control);
+
+/// What such a plan meets on this machine.
+struct ChainSample {
+    int ways = 0;          // in which parts lie when they come to the first trap
+    double seconds = 0.0;  // of a trial of a trap by itself, all threads at work
+};
+/// Simulates some hundred parts up to the first trap, then traps at random for about `budget` seconds.
+/// Errors: engine, cancelled.
+base::Result<ChainSample> sampleChain(const StudyInputs& inputs, const traps::TrapChain& chain,
+                                      const ChainAim& aim, double budget, const base::RunControl& control);
+
+/// Trials of traps by themselves that a plan takes where parts lie in so many ways. An estimate.
+std::int64_t estimateTrapTrials(const EvolutionSettings& settings, int ways);
+/// Trials of whole tracks by which the best of so many designs are judged.
+std::int64_t estimateJudgingOf(const EvolutionSettings& settings, std::size_t designs);
+
+}  // namespace trapwright::study
