@@ -308,9 +308,16 @@ Attempt<store::StudyFile> createFrom(const std::string& path, const std::string&
 
 /// A study with part and settings of another one, and its track before traps of its own.
 Attempt<store::StudyFile> createBehind(const std::string& path, const std::string& other,
-                                       const SettingOptions& options, const Console& console) {
+                                       const CreationOptions& creation, const SettingOptions& options,
+                                       const Console& console) {
     const auto from = store::StudyFile::openReadOnly(other);
     if (!from) return describeStudyFailure(from.error(), ExitCode::badInput);
+    if (creation.preset || !creation.part.part.empty() || creation.contact || creation.surface ||
+        creation.settingsFile)
+        return Failure{ExitCode::usage,
+                       fmt::format("--behind {}: part and settings are those of the study; give none, or a "
+                                   "track's file.",
+                                   other)};
     auto design = workflow::loadDesign(*from);
     if (!design) return Failure{ExitCode::badInput, design.error().message};
     const auto individual = findIndividual(*from, {});
@@ -328,15 +335,8 @@ Attempt<store::StudyFile> createBehind(const std::string& path, const std::strin
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& options, const Console& console) {
     if (creation.beginWith) return createFrom(path, *creation.beginWith, options, console);
-    if (creation.behind && !isTrackFile(*creation.behind)) {
-        if (creation.preset || !creation.part.part.empty() || creation.contact || creation.surface ||
-            creation.settingsFile)
-            return Failure{ExitCode::usage,
-                           fmt::format("--behind {}: part and settings are those of the study; give none, or "
-                                       "a track's file.",
-                                       *creation.behind)};
-        return createBehind(path, *creation.behind, options, console);
-    }
+    if (creation.behind && !isTrackFile(*creation.behind))
+        return createBehind(path, *creation.behind, creation, options, console);
     auto settings = startingSettings(creation);
     if (!settings) return settings.error();
     PartRequest request = completeRequest(creation.part, *settings, creation);

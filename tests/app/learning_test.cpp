@@ -293,6 +293,9 @@ class LearningTest : public QObject {
                  both.all());
         const Ran nowhere = learn({"new", "no.trap", "--behind", "nowhere.trap"});
         QVERIFY2(nowhere.code == 3 && nowhere.errors.contains("nowhere.trap"), nowhere.all());
+        // Which of both it would be is not known.
+        const Ran noTrack = learn({"new", "no.trap", "--behind", "nowhere.json", "--part", "cone"});
+        QVERIFY2(noTrack.code == 3 && noTrack.errors.contains("nowhere.json"), noTrack.all());
         const Ran planned =
             learn({"new", "no.trap", "--behind", "first.trap", "--set", "evolution.firstGeneration=planned"});
         QVERIFY2(planned.code == 2 && planned.errors.contains("track.given"), planned.all());
