@@ -41,7 +41,7 @@ void setTicks(QCategoryAxis* axis, const std::vector<Tick>& ticks, const Range& 
 }
 
 bool isPickable(const Curve& curve) {
-    return curve.isScattered && !curve.pointNames.isEmpty();
+    return curve.isScattered && curve.pointName != nullptr && !curve.points.empty();
 }
 
 }  // namespace

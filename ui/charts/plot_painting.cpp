@@ -48,7 +48,7 @@ QStringList Plot::readOff() const {
     if (point_) {
         const Curve& curve = sheet_.curves[point_->curve];
         const QPointF& value = curve.points[point_->index];
-        return {curve.pointNames.value(static_cast<qsizetype>(point_->index)),
+        return {curve.pointName(point_->index),
                 QStringLiteral("%1: %2").arg(sheet_.xTitle, numberText(value.x(), sheet_.decimals)),
                 QStringLiteral("%1: %2").arg(sheet_.yTitle, numberText(value.y(), sheet_.decimals))};
     }

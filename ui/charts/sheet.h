@@ -4,6 +4,7 @@
 #include <QString>
 #include <QStringList>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -38,7 +39,9 @@ struct Curve {
     std::vector<stats::Interval> band{};  // slot i about points[i], drawn as an area; empty: none
     QStringList bandColumns{};            // in CSV, of its low and its high end
     bool isScattered = false;             // points by themselves, x in any order
-    QStringList pointNames{};             // of a scattered curve whose points can be picked
+    /// Of points[i], where the points of a scattered curve can be picked. Of many points only the one that is
+    /// pointed at is asked for.
+    std::function<QString(std::size_t)> pointName{};
 };
 
 /// A place on the x axis that means something.

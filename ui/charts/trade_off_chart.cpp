@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "ui/look/text.h"
 
@@ -33,6 +34,12 @@ QString titleOf(const objectives::Objective& objective) {
 
 QString nameOf(const study::IndividualId& track) {
     return Text::tr("Generation %1, individual %2").arg(track.generation).arg(track.individual);
+}
+
+/// Names points by these tracks; copies share them.
+std::function<QString(std::size_t)> namedBy(std::vector<study::IndividualId> tracks) {
+    return [shared = std::make_shared<const std::vector<study::IndividualId>>(std::move(tracks))](
+               std::size_t i) { return nameOf((*shared)[i]); };
 }
 
 QPointF placeOf(const TradeOff& tradeOff, const study::ScorePair& track) {
@@ -81,10 +88,12 @@ ChartSheet tradeOffSheet(const TradeOff& tradeOff) {
     plot.leastWidth = plot.leastHeight = std::pow(10.0, 1 - plot.decimals);
 
     Curve front = scattered(Text::tr("Pareto front"), "front", kFront);
+    std::vector<study::IndividualId> onFront;
     for (const std::size_t i : tradeOff.front) {
         front.points.push_back(placeOf(tradeOff, tradeOff.tracks[i]));
-        front.pointNames.append(nameOf(tradeOff.tracks[i]));
+        onFront.push_back(tradeOff.tracks[i]);
     }
+    front.pointName = namedBy(std::move(onFront));
     Curve border;
     border.name = front.name;
     border.keys = {"front"};
@@ -94,15 +103,16 @@ ChartSheet tradeOffSheet(const TradeOff& tradeOff) {
     Curve shown = scattered(Text::tr("in the scene"), "shown", kShown);
     for (const study::ScorePair& track : tradeOff.tracks) {
         all.points.push_back(placeOf(tradeOff, track));
-        all.pointNames.append(nameOf(track));
         if (tradeOff.shown && study::isSameIndividual(track, *tradeOff.shown))
             shown.points.push_back(all.points.back());
     }
+    all.pointName = namedBy({tradeOff.tracks.begin(), tradeOff.tracks.end()});
     Curve measured = scattered(Text::tr("measured anew"), "measured", kMeasured);
-    for (const study::ScorePair& track : tradeOff.measured) {
+    for (const study::ScorePair& track : tradeOff.measured)
         measured.points.push_back(placeOf(tradeOff, track));
-        measured.pointNames.append(Text::tr("%1, %2 trials anew").arg(nameOf(track)).arg(track.trials));
-    }
+    measured.pointName = [anew = tradeOff.measured](std::size_t i) {
+        return Text::tr("%1, %2 trials anew").arg(nameOf(anew[i])).arg(anew[i].trials);
+    };
     // Painted one over the other, what matters last.
     plot.curves = {std::move(all), std::move(border), std::move(front), std::move(measured),
                    std::move(shown)};

@@ -302,7 +302,7 @@ class EvolvePageTest : public QObject {
         // The front's other end is not the best winner, or it has one point alone.
         const charts::Curve front = curves[2];
         QVERIFY(!front.points.empty());
-        const QString name = front.pointNames.back();
+        const QString name = front.pointName(front.points.size() - 1);
         QTest::mouseClick(plot->viewport(), Qt::LeftButton, {},
                           plot->toWidget(front.points.back()).toPoint());
         const auto generation = [&] { return user.text("filmStrip.caption").section(',', 0, 0); };
