@@ -1,6 +1,6 @@
 #include "ui/charts/study_chart.h"
 
-#include <limits>
+#include <utility>
 
 #include "ui/charts/study_sheets.h"
 
@@ -8,39 +8,28 @@ namespace trapwright::charts {
 
 StudyChart::StudyChart(const QString& name, const QString& title, SheetMaker make, QWidget* parent)
     : CurveChart(name, title, parent), make_(make) {
-    update();
+    setStudies({});
 }
 
 void StudyChart::setStudies(std::vector<StudyCurves> studies) {
+    shareStudies(std::make_shared<const std::vector<StudyCurves>>(std::move(studies)));
+}
+
+void StudyChart::shareStudies(std::shared_ptr<const std::vector<StudyCurves>> studies) {
     studies_ = std::move(studies);
-    update();
-}
-
-void StudyChart::appendGeneration(const study::GenerationSummary& summary, double trialsPerSecond) {
-    if (studies_.empty()) studies_.emplace_back();
-    StudyCurves& study = studies_.front();
-    study.trialsPerSecond.resize(study.summaries.size(), std::numeric_limits<double>::quiet_NaN());
-    study.trialsPerSecond.push_back(trialsPerSecond);
-    study.summaries.push_back(summary);
-    update();
-}
-
-void StudyChart::appendCheck(const study::CheckRecord& check) {
-    if (studies_.empty()) studies_.emplace_back();
-    studies_.front().checks.push_back(check);
-    update();
+    studiesChanged();
 }
 
 void StudyChart::setEmptyTexts(const QString& before, const QString& without) {
     before_ = before;
     without_ = without;
-    update();
+    studiesChanged();
 }
 
-void StudyChart::update() {
-    const bool begun = !studies_.empty() && !studies_.front().summaries.empty();
+void StudyChart::studiesChanged() {
+    const bool begun = !studies().empty() && !studies().front().summaries.empty();
     if (!before_.isEmpty()) setEmptyText(begun ? without_ : before_);
-    setSheet(make_(studies_));
+    setSheet(make_(studies()));
 }
 
 SuccessChart::SuccessChart(QWidget* parent) : StudyChart("success", tr("Success"), &successSheet, parent) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "ui/charts/curve_chart.h"
@@ -18,23 +19,20 @@ class StudyChart : public CurveChart {
 
     /// One study, or two: the second is drawn lighter, with other dashes.
     void setStudies(std::vector<StudyCurves> studies);
-    [[nodiscard]] const std::vector<StudyCurves>& studies() const { return studies_; }
-
-    /// One more generation of the first study, and one more check. Cheap.
-    void appendGeneration(const study::GenerationSummary& summary, double trialsPerSecond);
-    void appendCheck(const study::CheckRecord& check);
+    /// The same, of somebody who shows them in several charts and tells when there is more of them.
+    void shareStudies(std::shared_ptr<const std::vector<StudyCurves>> studies);
+    void studiesChanged();
+    [[nodiscard]] const std::vector<StudyCurves>& studies() const { return *studies_; }
 
  protected:
     /// What is shown instead of curves: `before` the first generation, `without` where generations have none.
     void setEmptyTexts(const QString& before, const QString& without);
 
  private:
-    void update();
-
     SheetMaker make_;
     QString before_;
     QString without_;
-    std::vector<StudyCurves> studies_;
+    std::shared_ptr<const std::vector<StudyCurves>> studies_;
 };
 
 /// Success of each generation's winner with its bounds, and the mean of the top 30 %.

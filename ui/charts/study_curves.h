@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,13 @@ struct StudyCurves {
     std::vector<std::string> summed{};                // keys of the objectives in F; none: not known
     std::optional<int> cornersFrom{};                 // the generation whose trials are harder from there on
     std::vector<std::vector<study::GenerationSummary>> members{};  // of several: instead of all but the name
+
+    /// One more generation.
+    void append(const study::GenerationSummary& summary, double rate) {
+        trialsPerSecond.resize(summaries.size(), std::numeric_limits<double>::quiet_NaN());
+        trialsPerSecond.push_back(rate);
+        summaries.push_back(summary);
+    }
 };
 
 }  // namespace trapwright::charts

@@ -73,12 +73,14 @@ void LearningCharts::setSession(const StudySession* session) {
         const study::GenerationSummary& summary = session_->runs().summaries().back();
         // The median of several has this study in it.
         if (others_.size() > 1) return showStudies();
+        shown_->front().append(summary, summary.trialsPerSecond());
         for (charts::StudyChart* chart : charts_)
-            chart->appendGeneration(summary, summary.trialsPerSecond());
+            chart->studiesChanged();
     });
     connect(&session_->runs(), &StudyRuns::checkSaved, this, [this] {
+        shown_->front().checks.push_back(session_->runs().checks().back());
         for (charts::StudyChart* chart : charts_)
-            chart->appendCheck(session_->runs().checks().back());
+            chart->studiesChanged();
     });
     connect(&session_->design(), &StudyDesign::partChanged, this, &LearningCharts::showStudies);
     connect(&session_->design(), &StudyDesign::settingsChanged, this, &LearningCharts::showStudies);
@@ -183,13 +185,13 @@ charts::StudyCurves LearningCharts::otherCurves() const {
 }
 
 void LearningCharts::showStudies() {
-    std::vector<charts::StudyCurves> studies;
+    shown_ = std::make_shared<std::vector<charts::StudyCurves>>();
     if (session_) {
-        studies.push_back(ownCurves());
-        if (!others_.empty()) studies.push_back(otherCurves());
+        shown_->push_back(ownCurves());
+        if (!others_.empty()) shown_->push_back(otherCurves());
     }
     for (charts::StudyChart* chart : charts_)
-        chart->setStudies(studies);
+        chart->shareStudies(shown_);
 }
 
 }  // namespace trapwright::pages

@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QPointer>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "ui/charts/study_curves.h"
@@ -51,6 +52,7 @@ class LearningCharts : public QObject {
     std::vector<session::StoredCurves> others_;
     session::NewestTask reading_;
     std::vector<charts::StudyChart*> charts_;
+    std::shared_ptr<std::vector<charts::StudyCurves>> shown_;  // by all of them
     std::size_t firstDetail_ = 0;  // of charts_: this and all after it show the algorithm
 };
 

@@ -31,6 +31,12 @@ StudyCurves someStudy(int generations) {
     return curves;
 }
 
+void goOn(charts::StudyChart& chart, const study::GenerationSummary& summary, double rate) {
+    std::vector<StudyCurves> studies = chart.studies();
+    studies.front().append(summary, rate);
+    chart.setStudies(std::move(studies));
+}
+
 void showChart(QWidget& chart) {
     chart.resize(640, 300);
     chart.show();
@@ -110,7 +116,7 @@ class StudyChartTest : public QObject {
         const Plot* plot = chart.shownPlots().back();
         QVERIFY(plot->xRange().contains(0.0) && plot->xRange().contains(19.0));
         QVERIFY(plot->yRange().contains(0.0) && plot->yRange().contains(1.25));
-        chart.appendGeneration(sample::summary(20, 1.9), 90.0);
+        goOn(chart, sample::summary(20, 1.9), 90.0);
         QVERIFY(plot->xRange().contains(20.0));
         QVERIFY(plot->yRange().contains(1.9));
         QVERIFY(plot->isFitted());
@@ -130,7 +136,7 @@ class StudyChartTest : public QObject {
         QVERIFY(isClose(chart.shownPlots().back()->xRange().low, plot->xRange().low));
         // Zoomed in, the view stays where it is when a generation comes.
         const Range zoomed = plot->xRange();
-        chart.appendGeneration(sample::summary(101), 90.0);
+        goOn(chart, sample::summary(101), 90.0);
         QVERIFY(isClose(plot->xRange().low, zoomed.low) && isClose(plot->xRange().high, zoomed.high));
         wheel(plot, place, -30);
         QVERIFY(plot->isFitted());
@@ -224,7 +230,7 @@ class StudyChartTest : public QObject {
         distance.click();
         QCOMPARE(chart.shownPlots().size(), std::size_t{1});
         // What the user chose stays when data come, also the other way.
-        chart.appendGeneration(sample::summary(20), 90.0);
+        goOn(chart, sample::summary(20), 90.0);
         QCOMPARE(chart.shownPlots().size(), std::size_t{2});  // now there are collisions
         legendItem(chart, "F_C").click();
         QCOMPARE(chart.shownPlots().size(), std::size_t{1});
@@ -353,20 +359,22 @@ class StudyChartTest : public QObject {
         charts::SpeedChart chart;
         chart.setStudies({study});
         QVERIFY(!chart.saveCsvAction()->isEnabled());
-        chart.appendGeneration(sample::summary(5), 120.0);
+        goOn(chart, sample::summary(5), 120.0);
         QVERIFY(chart.saveCsvAction()->isEnabled());
         QCOMPARE(chart.csv(), QString("Generation,Trials per second\n5,120\n"));
     }
 
     void appendingIsCheap() {
         FitnessChart chart;
-        chart.setStudies({someStudy(1)});
+        const auto studies = std::make_shared<std::vector<StudyCurves>>(1, someStudy(1));
+        chart.shareStudies(studies);
         showChart(chart);
         // The processor's time: how busy the machine is does not matter.
         std::clock_t worst = 0;
         for (int g = 1; g < 500; ++g) {
             const std::clock_t begin = std::clock();
-            chart.appendGeneration(sample::summary(g, 0.002 * g), 100.0);
+            studies->front().append(sample::summary(g, 0.002 * g), 100.0);
+            chart.studiesChanged();
             QApplication::processEvents();
             worst = std::max(worst, std::clock() - begin);
         }
