@@ -149,6 +149,8 @@ class CommandsTest : public QObject {
         QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
         QCOMPARE(settings["evolution"].toObject()["populationSize"].toInt(), 7);
+        // What a selection does not give up learning does not either.
+        QCOMPARE(settings["evolution"].toObject()["learningStuckTime_s"].toDouble(), 1.5);
         const double longest = settings["track"].toObject()["maxSegmentLength_mm"].toDouble();
         const double width = settings["track"].toObject()["segmentWidth_mm"].toDouble();
         QVERIFY2(longest > 28.0 && longest < 34.0, qPrintable(QString::number(longest)));
@@ -198,6 +200,7 @@ class CommandsTest : public QObject {
             QCOMPARE(more["track"].toObject()["traps"].toString(), traps);
             QVERIFY(more["track"].toObject()["spiralInclination_deg"].toDouble() > 5.0);
             QCOMPARE(more["evolution"].toObject()["firstGeneration"].toString(), "planned");
+            QCOMPARE(more["evolution"].toObject()["learningStuckTime_s"].toDouble(), 1.5);
         }
     }
 
