@@ -1,7 +1,5 @@
 #include "core/study/chain_planner.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -740,7 +738,7 @@ class ChainPlanner {
     }
 
     /// The best by arithmetic are judged again by trials of whole tracks, as a generation is, in a race
-    /// (core/ search/racing.h): what a trap does to parts depends a little on the traps before it, and the
+    /// (core/search/racing.h): what a trap does to parts depends a little on the traps before it, and the
     /// one that looks best of many is often one that was lucky. The others follow as they were.
     base::Result<std::vector<search::Design>> judge(std::vector<search::Design> designs) {
         const std::size_t judged = std::min(designs.size(), kJudgedChains);
