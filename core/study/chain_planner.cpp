@@ -1,11 +1,18 @@
 #include "core/study/chain_planner.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -41,11 +48,12 @@ constexpr int kRoundsOfIsland = 24;  // at least
 constexpr int kTrapsOfPlan = 500;    // at least, where two are made
 constexpr int kMostIslands = 8;
 constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
-constexpr int kFirstTrials = 6;         // from each way on average, of a trap that is new
-constexpr int kMoreTrials = 24;         // of one that is promising
-constexpr std::size_t kMostShared = 8;  // ways that count for the sum of these trials
-constexpr double kMostFromWay = 0.3;    // of these trials
-constexpr int kTrialsOfFollowed = 300;  // behind each trap, shared by the best chains
+constexpr std::size_t kTrialsThen = 200;  // from each way, of what follows the chain
+constexpr int kFirstTrials = 6;           // from each way on average, of a trap that is new
+constexpr int kMoreTrials = 24;           // of one that is promising
+constexpr std::size_t kMostShared = 8;    // ways that count for the sum of these trials
+constexpr double kMostFromWay = 0.3;      // of these trials
+constexpr int kTrialsOfFollowed = 300;    // behind each trap, shared by the best chains
 constexpr int kTrialsOfFollowedForPurity = 900;
 constexpr std::size_t kFewOfWay = 3;       // of these, that lie so behind a trap
 constexpr std::size_t kMostTraps = 900;    // that are kept
@@ -56,8 +64,14 @@ constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
 constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
 
-/// At the end of a plan for purity, of chains of about seven traps; an estimate.
-constexpr std::int64_t kTrialsAtTheEndOfPurity = 37000;
+// Of a chain that is put together by trials.
+struct StageOfPlace {
+    std::size_t chains;  // that differ in the trap at one place
+    int trials;          // of each, up to that trap
+};
+constexpr std::array<StageOfPlace, 3> kStagesOfPlace{{{16, 60}, {6, 240}, {3, 800}}};
+constexpr int kTrapsOfFullStages = 1500;  // planned; fewer: fewer trials
+constexpr int kLeastOfStage = 12;         // trials
 
 // Of whole tracks, of the chains that are judged.
 constexpr int kFirstOfJudged = 25;    // trials of each
@@ -89,6 +103,29 @@ std::pair<int, int> judgingTrials(const EvolutionSettings& settings) {
     return {times * kFirstOfJudged, times * kTrialsOfJudged};
 }
 
+int trialsOfStage(const EvolutionSettings& settings, const StageOfPlace& stage) {
+    const double share = std::min(1.0, settings.plannedTraps / double{kTrapsOfFullStages});
+    return std::max(kLeastOfStage, static_cast<int>(share * stage.trials));
+}
+
+/// Whether one of the chains that are judged is put together by trials. A plan for purity follows parts along
+/// its chains instead, and gained nothing by it.
+bool isPutTogether(const EvolutionSettings& settings) {
+    return !seeksPurity(settings);
+}
+
+/// Trials after the last trap was tried by itself, of chains of about seven traps; an estimate.
+std::int64_t estimateEnd(const EvolutionSettings& settings) {
+    constexpr std::int64_t kPurity = 37000;
+    if (!isPutTogether(settings)) return kPurity;
+    constexpr int kTraps = 7;
+    std::int64_t trials = 0;
+    for (const StageOfPlace& stage : kStagesOfPlace)
+        trials += static_cast<std::int64_t>(stage.chains) * trialsOfStage(settings, stage);
+    return kTraps * trials;
+}
+
+constexpr std::string_view kStopped = "The planning was stopped.";
 constexpr double kBitsOfRightAlone = 1.0;  // of halving: log2(right / staying) + log2(staying)
 
 /// What parts come to the first trap on, to lie down and to move on.
@@ -103,6 +140,14 @@ std::size_t countBefore(const traps::TrapChain& chain) {
     return chain.front()->isLedge ? kLedgesBefore : kGroovesBefore;
 }
 
+/// All numbers in the middle: a ledge that is not cut.
+search::Design makePlain(const traps::TrapChain& traps, const TrackSettings& settings) {
+    search::Design design;
+    for (const search::Dimension& dimension : traps::designSpace(traps, settings).dimensions)
+        design.push_back(search::roundToBits(0.5, dimension.bits));
+    return design;
+}
+
 RunUp makeRunUp(const traps::TrapChain& chain, const TrackSettings& settings) {
     const std::size_t before = countBefore(chain);
     RunUp runUp{{chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(before)}, {}, 0.0};
@@ -112,9 +157,7 @@ RunUp makeRunUp(const traps::TrapChain& chain, const TrackSettings& settings) {
             std::ranges::copy(traps::restingGroove(settings), std::back_inserter(runUp.design));
         return runUp;
     }
-    // All numbers in the middle: a ledge that is not cut.
-    for (const search::Dimension& dimension : traps::designSpace(runUp.traps, settings).dimensions)
-        runUp.design.push_back(search::roundToBits(0.5, dimension.bits));
+    runUp.design = makePlain(runUp.traps, settings);
     return runUp;
 }
 
@@ -143,6 +186,7 @@ class ChainPlanner {
           aim_(aim),
           specimens_(makeSpecimens(inputs.settings, inputs.part)),
           runUp_(makeRunUp(chain, inputs.settings.track)),
+          then_(aim.then.empty() ? search::Design() : makePlain(aim.then, inputs.settings.track)),
           planned_(std::move(planned)),
           control_(control),
           doneBefore_(control_.run.done()) {
@@ -174,6 +218,9 @@ class ChainPlanner {
             if (const auto found = planRounds(i * rounds / plans, (i + 1) * rounds / plans, rounds); !found)
                 return found.error();
             const auto share = static_cast<std::size_t>(plans);
+            const auto tried = putTogether();
+            if (!tried) return tried.error();
+            if (*tried) designs.push_back(designOf(**tried));
             for (search::Design& design : listDesigns((most + share - 1) / share))
                 if (std::ranges::find(designs, design) == designs.end()) designs.push_back(std::move(design));
             if (i + 1 == plans) break;
@@ -219,7 +266,8 @@ class ChainPlanner {
         const auto tellLeft = [&](int plans) {
             // Another plan takes as much as this one.
             const std::int64_t done = control_.run.done() - doneBefore_;
-            tellProgress(plansLeft_ * (done + plans * kTrialsAtTheEndOfPurity / (1 + kFollowedAtTheEnd)));
+            tellProgress(plansLeft_ *
+                         (done + plans * estimateEnd(settings().evolution) / (1 + kFollowedAtTheEnd)));
         };
         tellLeft(1 + kFollowedAtTheEnd);
         if (const auto first = plan(kAtTheEndOfPurity); !first) return first.error();
@@ -235,10 +283,9 @@ class ChainPlanner {
     /// Rounds of traps, planned with from time to time.
     base::Status goOn(int round, int end, int rounds) {
         for (; round < end; ++round) {
-            if (control_.stopRequested()) return base::Error{"The planning was stopped."};
-            const std::int64_t atTheEnd =
-                search_.problem().seeksPurity ? plansLeft_ * kTrialsAtTheEndOfPurity : 0;
-            tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round) + atTheEnd);
+            if (control_.stopRequested()) return base::Error{std::string(kStopped)};
+            tellProgress((control_.run.done() - doneBefore_) * rounds / std::max(1, round) +
+                         plansLeft_ * estimateEnd(settings().evolution));
             if (const auto tried = tryTraps(round); !tried) return tried.error();
             if (round + 1 < end && round % kRoundsBetweenPlans != kRoundsBetweenPlans - 1) continue;
             if (const auto improved = plan(kOnTheWay); !improved) return improved.error();
@@ -248,13 +295,13 @@ class ChainPlanner {
         return base::success();
     }
 
-    /// Of the ways in which parts lie in a groove. None if none of them is wanted: then parts are brought to
-    /// any one way, and what is wanted is left to the learning that follows.
-    [[nodiscard]] std::vector<std::size_t> listWantedWays() const {
+    /// None if none of them is wanted: then parts are brought to any one way, and what is wanted is left to
+    /// the learning that follows.
+    [[nodiscard]] std::vector<std::size_t> listWanted(std::span<const base::Quaternion> ways) const {
         std::vector<std::size_t> wanted;
         const auto goal = findWanted(settings(), *inputs_->part);
-        for (std::size_t way = 0; goal && way < ways_.size(); ++way) {
-            const double angle = trial::calcAngleToGoal(ways_[way], *goal, inputs_->part->symmetry);
+        for (std::size_t way = 0; goal && way < ways.size(); ++way) {
+            const double angle = trial::calcAngleToGoal(ways[way], *goal, inputs_->part->symmetry);
             if (angle <= settings().validation.tolerance) wanted.push_back(way);
         }
         return wanted;
@@ -283,7 +330,7 @@ class ChainPlanner {
             !objectives::contains(summed, objectives::kSuccess))
             problem.rightAsNines = 0.1;
         if (problem.seeksPurity) problem.unseenTurns = kUnseenTurnsOfPurity;
-        problem.wanted = listWantedWays();
+        problem.wanted = listWanted(ways_);
         problem.arriving.assign(problem.columns(), 0.0);
         search_ = ChainSearch(problem);  // findColumn() asks it
         starts_.resize(ways_.size() + 1);
@@ -303,8 +350,39 @@ class ChainPlanner {
         if (static_cast<int>(starts_.back().size()) * kTrialsOfWays < kLeastOfWay * trials)
             starts_.pop_back();
         problem.rows = starts_.size();
-        search_ = ChainSearch(std::move(problem));
+        search_ = ChainSearch(problem);
+        if (!aim_.then.empty()) {
+            if (const auto found = findWaysThen(problem); !found) return found.error();
+            search_ = ChainSearch(std::move(problem));
+        }
         search_.setBitsOfHalving(bitsOfHalving());
+        return base::success();
+    }
+
+    /// How parts lie behind what follows the chain, from each way before it.
+    base::Status findWaysThen(ChainProblem& problem) {
+        traps::TrapChain chain = runUp_.traps;
+        chain.insert(chain.end(), aim_.then.begin(), aim_.then.end());
+        search::Design design = runUp_.design;
+        design.insert(design.end(), then_.begin(), then_.end());
+        const auto track = build(chain, design, withoutGiven());
+        if (!track) return track.error();
+        std::vector<std::size_t> from;
+        for (std::size_t way = 0; way < rows(); ++way)
+            from.insert(from.end(), kTrialsThen, way);
+        trial::TrialBatch batch = makeBatch(*track, static_cast<int>(from.size()));
+        placeParts(batch, from, 0.0);
+        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);
+        if (!outcomes) return outcomes.error();
+        std::vector<base::Quaternion> ways;
+        for (const EndMode& mode :
+             findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, ways_.size()))
+            ways.push_back(mode.orientation);
+        problem.wanted = listWanted(ways);
+        WayMatrix counts(rows(), WayShares(problem.columns(), 0.0));
+        for (std::size_t i = 0; i < from.size(); ++i)
+            counts[from[i]][findColumn(outcomes->front()[i].parts.front(), ways)] += 1.0;
+        problem.then = search_.calcChances(counts);
         return base::success();
     }
 
@@ -401,13 +479,17 @@ class ChainPlanner {
     }
 
     [[nodiscard]] std::size_t findColumn(const trial::PartOutcome& part) const {
+        return findColumn(part, ways_);
+    }
+    [[nodiscard]] std::size_t findColumn(const trial::PartOutcome& part,
+                                         std::span<const base::Quaternion> ways) const {
         if (part.ending == trial::Ending::fellOff) return search_.problem().fallen();
         if (part.ending != trial::Ending::finished) return search_.problem().stuck();
-        std::size_t nearest = ways_.size();
+        std::size_t nearest = search_.problem().ways;
         double least = kNearWay;
-        for (std::size_t way = 0; way < ways_.size(); ++way) {
+        for (std::size_t way = 0; way < ways.size(); ++way) {
             const double angle =
-                trial::calcOrientationAngle(part.farthest.rotation, ways_[way], inputs_->part->symmetry,
+                trial::calcOrientationAngle(part.farthest.rotation, ways[way], inputs_->part->symmetry,
                                             trial::OrientationDistance::symmetric);
             if (angle < least) {
                 least = angle;
@@ -682,6 +764,57 @@ class ChainPlanner {
         return base::success();
     }
 
+    /// A chain whose traps are chosen one after the other, in a race of those that arithmetic holds for the
+    /// best, by trials of all that is before and of the trap; what follows is told by arithmetic. None if no
+    /// chain was found, or none is wanted.
+    base::Result<std::optional<Chain>> putTogether() {
+        std::optional<Chain> best;
+        if (search_.chains().empty() || !isPutTogether(settings().evolution)) return best;
+        Chain begun{{}, search_.problem().arriving, 0.0, 0.0};
+        for (std::size_t place = 0; place < places_.size(); ++place) {
+            if (control_.stopRequested()) return base::Error{std::string(kStopped)};
+            const auto told = search_.complete(begun);
+            if (!told) break;
+            std::vector<Chain> chains = search_.exchangeNext(begun, *told, kStagesOfPlace.front().chains);
+            for (const StageOfPlace& stage : kStagesOfPlace) {
+                chains.resize(std::min(chains.size(), stage.chains));
+                const int trials = trialsOfStage(settings().evolution, stage);
+                if (const auto tried = tryBeginnings(chains, place + 1, trials); !tried) return tried.error();
+            }
+            best = std::move(chains.front());
+            begun = {{best->traps.begin(), best->traps.begin() + std::ssize(begun.traps) + 1},
+                     best->parts,
+                     best->worth,
+                     begun.fall + search_.traps()[best->traps[place]].fall};
+        }
+        return best;
+    }
+
+    /// So many of the traps of each chain, all with the same parts: where these are behind them, and what the
+    /// chain is worth then. Best first.
+    base::Status tryBeginnings(std::vector<Chain>& chains, std::size_t count, int trials) {
+        std::vector<trial::TrialBatch> batches;
+        const int individual = batches_;
+        for (const Chain& chain : chains) {
+            const auto track = buildChain(std::span(chain.traps).first(count));
+            if (!track) return track.error();
+            batches_ = individual;
+            batches.push_back(makeBatch(*track, trials));
+            if (!settings().track.given.empty()) placeParts(batches.back(), shareWays(trials), 0.0);
+        }
+        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
+        if (!outcomes) return outcomes.error();
+        for (std::size_t i = 0; i < chains.size(); ++i) {
+            WayShares parts(search_.problem().columns(), 0.0);
+            for (const trial::Outcome& outcome : (*outcomes)[i])
+                parts[findColumn(outcome.parts.front())] += 1.0 / static_cast<double>((*outcomes)[i].size());
+            chains[i].worth = search_.worthOf(search_.passOn(parts, chains[i], count));
+            chains[i].parts = std::move(parts);
+        }
+        std::ranges::stable_sort(chains, std::greater(), &Chain::worth);
+        return base::success();
+    }
+
     /// Trials that tell more of a trap, from the ways in which parts come to it in the chains that use it;
     /// none if all of them are known well.
     Work findUncertain(std::size_t index, int trials) {
@@ -721,16 +854,21 @@ class ChainPlanner {
         }
     }
 
+    [[nodiscard]] search::Design designOf(const Chain& chain) const {
+        search::Design design = runUp_.design;
+        for (const std::size_t i : chain.traps) {
+            const std::vector<double>& numbers = search_.traps()[i].numbers;
+            design.insert(design.end(), numbers.begin(), numbers.end());
+        }
+        repeatLast(design, chain);
+        return design;
+    }
+
     [[nodiscard]] std::vector<search::Design> listDesigns(std::size_t most) const {
         std::vector<search::Design> designs;
         for (const Chain& chain : search_.chains()) {
             if (designs.size() == most) break;
-            search::Design design = runUp_.design;
-            for (const std::size_t i : chain.traps) {
-                const std::vector<double>& numbers = search_.traps()[i].numbers;
-                design.insert(design.end(), numbers.begin(), numbers.end());
-            }
-            repeatLast(design, chain);
+            search::Design design = designOf(chain);
             if (std::find(designs.begin(), designs.end(), design) == designs.end())
                 designs.push_back(std::move(design));
         }
@@ -747,8 +885,12 @@ class ChainPlanner {
             judgingTrials(settings().evolution);
         race.settings.evolution.racingShare = search::kTopShare;
         std::vector<search::Proposal> proposals(judged);
-        for (std::size_t i = 0; i < judged; ++i)
+        for (const traps::TrapKind* kind : aim_.then)
+            race.settings.track.traps += fmt::format(", {}", kind->key);
+        for (std::size_t i = 0; i < judged; ++i) {
             proposals[i].design = designs[i];
+            proposals[i].design.insert(proposals[i].design.end(), then_.begin(), then_.end());
+        }
         const auto tell = [&](const GenerationPlan& plan) {
             tellProgress(plan.doneBefore - doneBefore_ + plan.trials);
         };
@@ -768,6 +910,7 @@ class ChainPlanner {
     ChainAim aim_;
     Specimens specimens_;
     RunUp runUp_;
+    search::Design then_;  // of aim_.then
     std::function<void(const GenerationPlan&)> planned_;
     LearningControl control_;
     std::int64_t doneBefore_;
@@ -819,8 +962,10 @@ std::int64_t estimateTrapTrials(const EvolutionSettings& settings, int ways) {
     // For purity parts are followed through longer, and at the end again.
     const bool isPure = seeksPurity(settings);
     const int followed = isPure ? 28 : 0;
+    constexpr double kLonger = 2.5;  // half a chain than a trap by itself
+    const double end = (isPutTogether(settings) ? kLonger : 1.0) * static_cast<double>(estimateEnd(settings));
     return kTrialsOfWays + std::int64_t{settings.plannedTraps} * (each + followed) +
-           (isPure ? countPlans(settings) * kTrialsAtTheEndOfPurity : 0);
+           countPlans(settings) * std::llround(end);
 }
 
 std::int64_t estimateJudgingOf(const EvolutionSettings& settings, std::size_t designs) {

@@ -28,6 +28,7 @@ inline constexpr std::size_t kJudgedChains = 16;
 struct ChainAim {
     double room = 0.0;          // how much lower than the chain the track still goes behind it [m]
     bool isRightAlone = false;  // right ones of all that are fed count, by their bits
+    traps::TrapChain then{};    // goes on behind it as plain as it can be: how parts lie there counts
 };
 
 /// Whether the settings sum up the objective purity.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -15,6 +16,7 @@ constexpr std::size_t kBeamOfWay = 10;  // of these, in which parts lie one way 
 constexpr std::size_t kImproved = 5;    // chains of these whose traps are exchanged for better ones
 constexpr std::size_t kSieves = 12;
 constexpr double kTrialsOfPurity = 2000.0;
+constexpr double kAlike = 0.02;  // traps that leave all but half of so many parts in the same ways
 
 void sortByWorth(std::vector<Chain>& chains) {
     std::stable_sort(chains.begin(), chains.end(),
@@ -57,6 +59,10 @@ WayShares ChainSearch::pass(const WayShares& parts, const WayMatrix& chances) co
 }
 
 double ChainSearch::worthOf(const WayShares& parts) const {
+    return worthOfEnd(problem_.then.empty() ? parts : pass(parts, problem_.then));
+}
+
+double ChainSearch::worthOfEnd(const WayShares& parts) const {
     constexpr double kLeast = 1.0 / 256.0;
     const auto ways = std::span(parts).first(problem_.ways);
     double wanted = 0.0;
@@ -128,11 +134,11 @@ void ChainSearch::findSieves() {
 }
 
 void ChainSearch::findChains(std::size_t niches) {
-    chains_ = searchBeam(kBeam);
+    chains_ = searchBeam(beginChain(), kBeam);
     std::set<std::size_t> ways;
     for (std::size_t i = 0; i < chains_.size(); ++i) {
         const bool isFirst = ways.size() < niches && ways.insert(wayOf(chains_[i])).second;
-        if (isFirst || i < kImproved) exchangeTraps(chains_[i]);
+        if (isFirst || i < kImproved) exchangeTraps(chains_[i], beginChain());
     }
     sortByWorth(chains_);
     niches_.clear();
@@ -145,6 +151,43 @@ void ChainSearch::findChains(std::size_t niches) {
         const std::set<std::size_t> traps(chain.traps.begin(), chain.traps.end());
         used_.insert(used_.end(), traps.begin(), traps.end());
     }
+}
+
+std::optional<Chain> ChainSearch::complete(const Chain& begun) const {
+    std::vector<Chain> beam = searchBeam(begun, kBeam);
+    if (beam.empty()) return std::nullopt;
+    exchangeTraps(beam.front(), begun);
+    return std::move(beam.front());
+}
+
+std::vector<Chain> ChainSearch::exchangeNext(const Chain& begun, const Chain& complete,
+                                             std::size_t most) const {
+    const std::size_t place = begun.traps.size();
+    std::vector<Chain> all;
+    for (std::size_t i = 0; i < traps_.size(); ++i) {
+        const double fall = complete.fall - traps_[complete.traps[place]].fall + traps_[i].fall;
+        if (traps_[i].kind != problem_.places[place] || fall > problem_.mostFall) continue;
+        Chain chain{complete.traps, passOn(pass(begun.parts, traps_[i].chances), complete, place + 1), 0.0,
+                    fall};
+        chain.traps[place] = i;
+        chain.worth = worthOf(chain.parts);
+        all.push_back(std::move(chain));
+    }
+    sortByWorth(all);
+    std::vector<Chain> chains;
+    std::vector<WayShares> behind;  // the next place
+    for (Chain& chain : all) {
+        if (chains.size() == most) break;
+        WayShares parts = pass(begun.parts, traps_[chain.traps[place]].chances);
+        const bool isNew = std::ranges::none_of(behind, [&](const WayShares& other) {
+            return std::transform_reduce(parts.begin(), parts.end(), other.begin(), 0.0, std::plus(),
+                                         [](double a, double b) { return std::abs(a - b); }) < kAlike;
+        });
+        if (!isNew) continue;
+        behind.push_back(std::move(parts));
+        chains.push_back(std::move(chain));
+    }
+    return chains;
 }
 
 void ChainSearch::forget(std::size_t sure, std::size_t latest) {
@@ -185,7 +228,6 @@ std::size_t ChainSearch::wayOf(const Chain& chain) const {
     return static_cast<std::size_t>(std::max_element(ways.begin(), ways.end()) - ways.begin());
 }
 
-/// Where parts are behind a chain if they are so before one of its places.
 WayShares ChainSearch::passOn(WayShares parts, const Chain& chain, std::size_t place) const {
     for (; place < problem_.places.size(); ++place)
         parts = pass(parts, traps_[chain.traps[place]].chances);
@@ -200,10 +242,15 @@ Chain ChainSearch::append(const Chain& chain, std::size_t index) const {
     return longer;
 }
 
-/// The best chains if so many are followed up at each place.
-std::vector<Chain> ChainSearch::searchBeam(std::size_t width) const {
-    std::vector<Chain> beam{{{}, problem_.arriving, worthOf(problem_.arriving), 0.0}};
-    for (const std::size_t kind : problem_.places) {
+Chain ChainSearch::beginChain() const {
+    return {{}, problem_.arriving, worthOf(problem_.arriving), 0.0};
+}
+
+/// The best chains that begin so if so many are followed up at each place.
+std::vector<Chain> ChainSearch::searchBeam(const Chain& begun, std::size_t width) const {
+    std::vector<Chain> beam{begun};
+    for (std::size_t place = begun.traps.size(); place < problem_.places.size(); ++place) {
+        const std::size_t kind = problem_.places[place];
         std::vector<Chain> next;
         for (const Chain& chain : beam) {
             for (std::size_t i = 0; i < traps_.size(); ++i) {
@@ -228,15 +275,16 @@ std::vector<Chain> ChainSearch::searchBeam(std::size_t width) const {
     return beam;
 }
 
-/// Exchanges the one trap for the one other that makes a chain worth most, as long as it gains.
-void ChainSearch::exchangeTraps(Chain& chain) const {
+/// Exchanges the one trap behind those that it begins with for the one other that makes a chain worth most,
+/// as long as it gains.
+void ChainSearch::exchangeTraps(Chain& chain, const Chain& begun) const {
     constexpr double kGain = 1e-6;
     const std::vector<std::size_t>& places = problem_.places;
     for (bool gained = true; gained;) {
         gained = false;
         Chain best = chain;
-        WayShares before = problem_.arriving;
-        for (std::size_t place = 0; place < places.size(); ++place) {
+        WayShares before = begun.parts;
+        for (std::size_t place = begun.traps.size(); place < places.size(); ++place) {
             const KnownTrap& current = traps_[chain.traps[place]];
             for (std::size_t i = 0; i < traps_.size(); ++i) {
                 const double fall = chain.fall - current.fall + traps_[i].fall;

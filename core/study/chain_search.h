@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct ChainProblem {
     bool seeksYield = false;            // then: or ten times as many right ones
     double unseenTurns = 1.0;           // trials from each way that are taken to end in others
     std::vector<std::size_t> wanted{};  // ways in which parts shall lie; none: in any one
+    /// From each way to those in which parts lie behind what follows all chains: these count, and are what is
+    /// wanted; others are no way of theirs. None: nothing follows.
+    WayMatrix then{};
 
     [[nodiscard]] std::size_t stuck() const { return ways + 1; }
     [[nodiscard]] std::size_t fallen() const { return ways + 2; }
@@ -100,17 +104,27 @@ class ChainSearch {
     /// Finds chains(), niches() of so many ways at most, and used(): a beam search from the first trap on,
     /// whose best chains, and the best for each of so many ways, then have traps exchanged.
     void findChains(std::size_t niches);
+    /// The best chain that begins with this one; its parts, worth and fall are told from there on. None if
+    /// none is low enough.
+    [[nodiscard]] std::optional<Chain> complete(const Chain& begun) const;
+    /// The chains, best first and `most` at most, that differ from a complete one in the trap behind those
+    /// that `begun` has, and in what that does to its parts.
+    [[nodiscard]] std::vector<Chain> exchangeNext(const Chain& begun, const Chain& complete,
+                                                  std::size_t most) const;
+    /// Where the parts of a chain are at its end if they are so before one of its places.
+    [[nodiscard]] WayShares passOn(WayShares parts, const Chain& chain, std::size_t place) const;
     /// Keeps the first `sure` traps, those that are used or sieves, and so many of the latest.
     void forget(std::size_t sure, std::size_t latest);
     /// Gives away the traps that are used or sieves, and the first `sure` ones, and begins with nothing.
     std::vector<KnownTrap> leave(std::size_t sure);
 
  private:
+    [[nodiscard]] double worthOfEnd(const WayShares& parts) const;
     [[nodiscard]] std::size_t wayOf(const Chain& chain) const;
-    [[nodiscard]] WayShares passOn(WayShares parts, const Chain& chain, std::size_t place) const;
     [[nodiscard]] Chain append(const Chain& chain, std::size_t index) const;
-    [[nodiscard]] std::vector<Chain> searchBeam(std::size_t width) const;
-    void exchangeTraps(Chain& chain) const;
+    [[nodiscard]] Chain beginChain() const;
+    [[nodiscard]] std::vector<Chain> searchBeam(const Chain& begun, std::size_t width) const;
+    void exchangeTraps(Chain& chain, const Chain& begun) const;
 
     ChainProblem problem_;
     double bitsOfHalving_ = objectives::kBitsOfHalving;

@@ -75,8 +75,9 @@ base::Result<StudyInputs> inputsOfLedges(const StudyInputs& inputs, const StudyI
     return changed;
 }
 
-ChainAim aimBeforeLedges(const TrackSettings& settings) {
-    return {kRoomForLedges * settings.maxSegmentLength, true};
+/// Two ways to lie in a groove may be one on a ledge, and one of them two.
+ChainAim aimBeforeLedges(const TrackSettings& settings, const traps::TrapChain& ledges) {
+    return {kRoomForLedges * settings.maxSegmentLength, true, {ledges.front()}};
 }
 
 /// First what is before the ledges, then ledges behind the best of it.
@@ -92,8 +93,8 @@ base::Result<std::vector<search::Design>> planLedgesBehind(
         plan.trials += plan.trials * left / std::max(1, first.settings.evolution.plannedTraps);
         if (planned) planned(plan);
     };
-    auto turning =
-        planChain(first, before, aimBeforeLedges(inputs.settings.track), kJudgedChains, tellFirst, control);
+    auto turning = planChain(first, before, aimBeforeLedges(inputs.settings.track, ledges), kJudgedChains,
+                             tellFirst, control);
     if (!turning || turning->empty()) return turning;
     const auto second = inputsOfLedges(inputs, first, ledges, turning->front());
     if (!second) return second.error();
@@ -146,7 +147,7 @@ base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double bu
     const auto [before, ledges] = splitAtLedges(traps::readTraps(inputs.settings.track.traps).value());
     // Of ledges behind other traps a trial takes about as long.
     const StudyInputs first = ledges.empty() ? inputs : inputsBeforeLedges(inputs, before);
-    const ChainAim aim = ledges.empty() ? ChainAim{} : aimBeforeLedges(inputs.settings.track);
+    const ChainAim aim = ledges.empty() ? ChainAim{} : aimBeforeLedges(inputs.settings.track, ledges);
     const auto sample = sampleChain(first, before, aim, budget, control);
     if (!sample) return sample.error();
     return PlanningSample{sample->ways, sample->seconds, !ledges.empty()};

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "core/study/evaluator.h"
 #include "core/study/planning.h"
@@ -109,19 +110,19 @@ std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSetting
         fitted.plannedTraps = traps;
         return learningTime(fitted, fitted.generations, cost);
     };
-    const double before = timeOf(0);
-    const double each = timeOf(1) - before;
     const auto trapsIn = [&](double time) {
-        const double count = std::clamp(std::floor((time - before) / each), 0.0, 1.0 * full.plannedTraps);
-        // Of more traps two plans may be made, each with its end.
-        const double more = timeOf(static_cast<int>(count)) - before - count * each;
-        return std::floor((time - before - more) / each);
+        int count = 0;
+        for (int tooMany = full.plannedTraps + 1; tooMany - count > 1;) {
+            const int middle = std::midpoint(count, tooMany);
+            (timeOf(middle) <= time ? count : tooMany) = middle;
+        }
+        return count;
     };
     const int fewest = std::min(full.plannedTraps, kFewestTraps);
-    double count = trapsIn(seconds);
-    if (!(count >= fewest)) return std::nullopt;
-    if (exchanges) count = std::max<double>(fewest, trapsIn(0.5 * seconds));
-    const double left = seconds - timeOf(static_cast<int>(std::min<double>(count, full.plannedTraps)));
+    int count = trapsIn(seconds);
+    if (count < fewest) return std::nullopt;
+    if (exchanges) count = std::max(fewest, trapsIn(0.5 * seconds));
+    const double left = seconds - timeOf(count);
     if (exchanges) {
         const double exchanging = learningTime(fitted, 1, cost);
         fitted.generations += static_cast<int>(

@@ -4,6 +4,7 @@
 
 #include <QtTest>
 #include <cmath>
+#include <set>
 
 #include "core/base/random.h"
 
@@ -204,6 +205,67 @@ class ChainSearchTest : public QObject {
         none.traps() = {makeTrap(none, 0, good, 1.1)};
         none.findChains(1);
         QVERIFY(none.chains().empty());
+    }
+
+    // Two ways that are one behind what follows; the third is none there.
+    void howPartsLieBehindWhatFollowsCounts() {
+        ChainProblem problem = makeProblem({0});
+        const ChainSearch plain(problem);
+        WayMatrix then = plain.calcChances(WayMatrix(kWays, WayShares(kWays + 3, 0.0)));
+        for (std::size_t way = 0; way < kWays; ++way)
+            then[way] = {way < 2 ? 1.0 : 0.0, 0.0, 0.0, way < 2 ? 0.0 : 1.0, 0.0, 0.0};
+        problem.then = then;
+        ChainSearch search(problem);
+        QCOMPARE(search.worthOf({0.3, 0.3, 0.1, 0, 0, 0.3}), plain.worthOf({0.6, 0, 0, 0.1, 0, 0.3}));
+        // What turns the third way into one of the others is better than what throws out one of these.
+        search.traps() = {
+            makeTrap(search, 0, {{1, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0.9, 0, 0, 0.1}}),
+            makeTrap(search, 0, {{1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0}})};
+        search.findChains(1);
+        QCOMPARE(search.chains().front().traps, std::vector<std::size_t>{1});
+        QVERIFY(std::abs(search.chains().front().worth) < 0.01);
+        QVERIFY(plain.worthOf(search.chains().front().parts) < -0.9);
+    }
+
+    // Behind a first trap that is set, and parts that are elsewhere than it was told.
+    void goesOnFromWherePartsAre() {
+        base::Random random({9, 0, 0, 0, base::Purpose::planning});
+        for (int again = 0; again < 10; ++again) {
+            ChainSearch search(makeProblem({0, 1, 0}));
+            for (std::size_t i = 0; i < 12; ++i)
+                search.traps().push_back(makeTrap(search, i % 2, drawMatrix(random), 0.01 * double(1 + i)));
+            const Chain begun{{4}, {0.1, 0.2, 0.6, 0.0, 0.0, 0.1}, 0.0, 0.05};
+            const std::vector<Chain> chains = search.exchangeNext(begun, search.complete(begun).value(), 4);
+            QCOMPARE(chains.size(), std::size_t{4});
+            double most = -1e9;
+            for (std::size_t b = 1; b < 12; b += 2) {
+                for (std::size_t c = 0; c < 12; c += 2) {
+                    WayShares parts = search.pass(begun.parts, search.traps()[b].chances);
+                    parts = search.pass(parts, search.traps()[c].chances);
+                    most = std::max(most, search.worthOf(parts));
+                }
+            }
+            QVERIFY(std::abs(chains.front().worth - most) < 1e-9);
+            std::set<std::size_t> seconds;
+            for (const Chain& chain : chains) {
+                QCOMPARE(chain.traps.size(), std::size_t{3});
+                QCOMPARE(chain.traps.front(), std::size_t{4});
+                QCOMPARE(chain.traps.back(), chains.front().traps.back());
+                seconds.insert(chain.traps[1]);
+                const WayShares behind = search.pass(begun.parts, search.traps()[chain.traps[1]].chances);
+                QVERIFY(search.passOn(behind, chain, 2) == chain.parts);
+                QCOMPARE(chain.worth, search.worthOf(chain.parts));
+                QVERIFY(chain.worth <= chains.front().worth);
+                double fall = begun.fall;
+                for (const std::size_t i : {chain.traps[1], chain.traps[2]})
+                    fall += search.traps()[i].fall;
+                QVERIFY(std::abs(chain.fall - fall) < 1e-12);
+            }
+            QCOMPARE(seconds.size(), chains.size());
+        }
+        ChainSearch low(makeProblem({0, 0}));
+        low.traps() = {makeTrap(low, 0, leaveAlone(), 0.6)};
+        QVERIFY(!low.complete({{0}, low.problem().arriving, 0.0, 0.6}));
     }
 
     void whatIsOfUseIsKept() {

@@ -14,7 +14,8 @@ using namespace trapwright;
 
 namespace {
 
-constexpr double kCut = 20e-3;  // of the width: less throws nothing out [m]
+constexpr double kCut = 20e-3;      // of the width: less throws nothing out [m]
+constexpr double kDeepCut = 30e-3;  // throws all out
 
 /// The heading of what starts so, in quarters of a turn.
 int findWay(const base::Quaternion& rotation) {
@@ -44,6 +45,23 @@ trial::PartOutcome sieveLaw(const trial::TrialBatch& batch, const trial::TrialSp
         const double half = 0.5 * track.width;
         if (section.points.front().x() > -half + kCut) falls = falls || way == 1 || way == 3;
         if (section.points.back().x() < half - kCut) falls = falls || way == 2 || way == 3;
+    }
+    return endOf(track, spec, falls);
+}
+
+/// The same with a property that a part keeps, as its friction: for half of them only deep cuts do. These
+/// throw out right ones, too, but the same ones every time.
+trial::PartOutcome deepSieveLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    const track::Track& track = *batch.track;
+    const int way = findWay(spec.parts.front().pose.rotation);
+    const double needed = spec.stream.trial % 2 == 0 ? kCut : kDeepCut;
+    const double half = 0.5 * track.width;
+    bool falls = false;
+    for (const track::CrossSection& section : track.sections) {
+        const double inner = section.points.front().x() + half;
+        const double outer = half - section.points.back().x();
+        falls = falls || (inner > needed && way % 2 == 1) || (outer > needed && way >= 2);
+        falls = falls || (std::max(inner, outer) > kDeepCut && spec.stream.trial % 5 < 2);
     }
     return endOf(track, spec, falls);
 }
@@ -203,6 +221,20 @@ class PlanningTest : public QObject {
         const auto end = designs->front().end();
         QCOMPARE(std::equal(end - each, end, end - 2 * each) && std::equal(end - each, end, end - 3 * each),
                  traps == "8 x ledge");
+    }
+
+    // What a shallow cut leaves the next one leaves as well, which no trap by itself tells.
+    void partsKeepWhatTheyAre() {
+        study::StudyInputs inputs = sieveInputs("sorting", 2);
+        inputs.settings.track.traps = "groove, groove, 6 x cut-out";
+        inputs.settings.track.returns = trial::Returns::anywhere;
+        inputs.engine = std::make_shared<fake::FakeEngine>(deepSieveLaw, 2);
+        const auto designs = study::planDesigns(inputs, 1, {}, {});
+        VERIFY_OK(designs);
+        QCOMPARE(designs->size(), std::size_t{1});
+        const auto [inner, outer] = findCuts(inputs.settings, designs->front());
+        QVERIFY2(inner > kDeepCut && outer > kDeepCut,
+                 qPrintable(QString("%1 and %2 mm").arg(1e3 * inner).arg(1e3 * outer)));
     }
 
     void cutsNothingWhereFallsCount() {
