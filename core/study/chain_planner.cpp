@@ -48,12 +48,12 @@ constexpr int kRoundsOfIsland = 24;  // at least
 constexpr int kTrapsOfPlan = 500;    // at least, where two are made
 constexpr int kMostIslands = 8;
 constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
-constexpr std::size_t kTrialsThen = 200;  // from each way, of what follows the chain
-constexpr int kFirstTrials = 6;           // from each way on average, of a trap that is new
-constexpr int kMoreTrials = 24;           // of one that is promising
-constexpr std::size_t kMostShared = 8;    // ways that count for the sum of these trials
-constexpr double kMostFromWay = 0.3;      // of these trials
-constexpr int kTrialsOfFollowed = 300;    // behind each trap, shared by the best chains
+constexpr int kWaysThen = 15;           // what tells the ways is as many trials as tell what follows these
+constexpr int kFirstTrials = 6;         // from each way on average, of a trap that is new
+constexpr int kMoreTrials = 24;         // of one that is promising
+constexpr std::size_t kMostShared = 8;  // ways that count for the sum of these trials
+constexpr double kMostFromWay = 0.3;    // of these trials
+constexpr int kTrialsOfFollowed = 300;  // behind each trap, shared by the best chains
 constexpr int kTrialsOfFollowedForPurity = 900;
 constexpr std::size_t kFewOfWay = 3;       // of these, that lie so behind a trap
 constexpr std::size_t kMostTraps = 900;    // that are kept
@@ -352,15 +352,15 @@ class ChainPlanner {
         problem.rows = starts_.size();
         search_ = ChainSearch(problem);
         if (!aim_.then.empty()) {
-            if (const auto found = findWaysThen(problem); !found) return found.error();
+            if (const auto found = findWaysThen(problem, trials / kWaysThen); !found) return found.error();
             search_ = ChainSearch(std::move(problem));
         }
         search_.setBitsOfHalving(bitsOfHalving());
         return base::success();
     }
 
-    /// How parts lie behind what follows the chain, from each way before it.
-    base::Status findWaysThen(ChainProblem& problem) {
+    /// How parts lie behind what follows the chain, from each way before it, by so many trials of each.
+    base::Status findWaysThen(ChainProblem& problem, int each) {
         traps::TrapChain chain = runUp_.traps;
         chain.insert(chain.end(), aim_.then.begin(), aim_.then.end());
         search::Design design = runUp_.design;
@@ -369,7 +369,7 @@ class ChainPlanner {
         if (!track) return track.error();
         std::vector<std::size_t> from;
         for (std::size_t way = 0; way < rows(); ++way)
-            from.insert(from.end(), kTrialsThen, way);
+            from.insert(from.end(), static_cast<std::size_t>(each), way);
         trial::TrialBatch batch = makeBatch(*track, static_cast<int>(from.size()));
         placeParts(batch, from, 0.0);
         const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);

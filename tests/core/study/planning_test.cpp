@@ -107,6 +107,32 @@ trial::PartOutcome ledgeLaw(const trial::TrialBatch& batch, const trial::TrialSp
     return outcome;
 }
 
+bool hasUprightWall(const track::CrossSection& section) {
+    const auto rises = [](const base::Vec2& from, const base::Vec2& to) {
+        return to.y() - from.y() > 10.0 * (to.x() - from.x());
+    };
+    return std::ranges::adjacent_find(section.points, rises) != section.points.end();
+}
+
+/// A cut from the inner edge turns 1 into 2, from the outer edge two times in five into 3. Which a ledge
+/// turns into 0.
+trial::PartOutcome turningLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    const track::Track& track = *batch.track;
+    const double half = 0.5 * track.width;
+    int way = findWay(spec.parts.front().pose.rotation);
+    for (const track::CrossSection& section : track.sections) {
+        const bool isLedge = hasUprightWall(section);
+        if (isLedge && way == 3) way = 0;
+        if (isLedge) break;
+        if (section.points.front().x() > -half + kCut && way == 1) way = 2;
+        if (section.points.back().x() < half - kCut && way == 1 && spec.stream.trial % 5 < 2) way = 3;
+    }
+    trial::PartOutcome outcome = endOf(track, spec, false);
+    outcome.farthest.rotation = Eigen::AngleAxisd(way * 0.5 * base::kPi, base::Vec3::UnitZ());
+    outcome.farthest.position.z() = highestBottom(track, track.finish - 1e-3, track.finish);
+    return outcome;
+}
+
 study::StudyInputs sieveInputs(const char* objectives, unsigned threads = 1) {
     study::StudyInputs inputs = fake::waveInputs(threads);
     part::Part part = *inputs.part;
@@ -235,6 +261,27 @@ class PlanningTest : public QObject {
         const auto [inner, outer] = findCuts(inputs.settings, designs->front());
         QVERIFY2(inner > kDeepCut && outer > kDeepCut,
                  qPrintable(QString("%1 and %2 mm").arg(1e3 * inner).arg(1e3 * outer)));
+    }
+
+    // In the groove alone what always turns a way into another would be best.
+    void whatIsOneWayOnALedgeCounts() {
+        study::StudyInputs inputs = sieveInputs("purity", 2);
+        inputs.engine = std::make_shared<fake::FakeEngine>(turningLaw, 2);
+        study::TrackSettings& track = inputs.settings.track;
+        track.traps = "2 x groove, 2 x gap, 2 x ledge";
+        track.spiral = {0.0, 10e-3, 10.0 * base::kDegree};
+        const auto designs = study::planDesigns(inputs, 1, {}, {});
+        VERIFY_OK(designs);
+        QCOMPARE(designs->size(), std::size_t{1});
+        const auto built = study::decodeTrack(track, designs->front());
+        VERIFY_OK(built);
+        trial::TrialBatch batch;
+        batch.track = std::make_shared<const track::Track>(*built);
+        trial::TrialSpec spec;
+        spec.stream.trial = 1;
+        spec.parts.resize(1);
+        spec.parts.front().pose.rotation = Eigen::AngleAxisd(0.5 * base::kPi, base::Vec3::UnitZ());
+        QCOMPARE(findWay(turningLaw(batch, spec).farthest.rotation), 0);
     }
 
     void cutsNothingWhereFallsCount() {
