@@ -109,15 +109,17 @@ int trialsOfStage(const EvolutionSettings& settings, const StageOfPlace& stage) 
 }
 
 /// Whether one of the chains that are judged is put together by trials. A plan for purity follows parts along
-/// its chains instead, and gained nothing by it.
+/// its chains instead, and gained nothing by it; a short one has better use for its time.
 bool isPutTogether(const EvolutionSettings& settings) {
-    return !seeksPurity(settings);
+    constexpr int kFewTraps = 1000;
+    return !seeksPurity(settings) && settings.plannedTraps >= kFewTraps;
 }
 
 /// Trials after the last trap was tried by itself, of chains of about seven traps; an estimate.
 std::int64_t estimateEnd(const EvolutionSettings& settings) {
     constexpr std::int64_t kPurity = 37000;
-    if (!isPutTogether(settings)) return kPurity;
+    if (seeksPurity(settings)) return kPurity;
+    if (!isPutTogether(settings)) return 0;
     constexpr int kTraps = 7;
     std::int64_t trials = 0;
     for (const StageOfPlace& stage : kStagesOfPlace)
