@@ -48,7 +48,7 @@ constexpr int kRoundsOfIsland = 24;  // at least
 constexpr int kTrapsOfPlan = 500;    // at least, where two are made
 constexpr int kMostIslands = 8;
 constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
-constexpr int kWaysThen = 15;           // what tells the ways is as many trials as tell what follows these
+constexpr int kWaysThen = 15;           // ways: of what follows, all take as many trials as tell these
 constexpr int kFirstTrials = 6;         // from each way on average, of a trap that is new
 constexpr int kMoreTrials = 24;         // of one that is promising
 constexpr std::size_t kMostShared = 8;  // ways that count for the sum of these trials
@@ -297,8 +297,8 @@ class ChainPlanner {
         return base::success();
     }
 
-    /// None if none of them is wanted: then parts are brought to any one way, and what is wanted is left to
-    /// the learning that follows.
+    /// Which are wanted. None if none of them is: then parts are brought to any one way, and what is wanted
+    /// is left to the learning that follows.
     [[nodiscard]] std::vector<std::size_t> listWanted(std::span<const base::Quaternion> ways) const {
         std::vector<std::size_t> wanted;
         const auto goal = findWanted(settings(), *inputs_->part);
@@ -353,7 +353,7 @@ class ChainPlanner {
             starts_.pop_back();
         problem.rows = starts_.size();
         search_ = ChainSearch(problem);
-        if (!aim_.then.empty()) {
+        if (!aim_.then.empty() && !ways_.empty()) {
             if (const auto found = findWaysThen(problem, trials / kWaysThen); !found) return found.error();
             search_ = ChainSearch(std::move(problem));
         }
