@@ -16,46 +16,33 @@
 #include <tuple>
 #include <utility>
 
-#include "core/base/parallel.h"
 #include "core/objectives/success_share.h"
 #include "core/search/racing.h"
 #include "core/search/ranking.h"
 #include "core/study/chain_search.h"
 #include "core/study/evaluator.h"
-#include "core/study/orientation_shares.h"
 #include "core/study/selection.h"
-#include "core/study/target.h"
-#include "core/study/track_design.h"
-#include "core/study/trial_batches.h"
-#include "core/track/track_builder.h"
-#include "core/traps/groove.h"
+#include "core/study/trap_trials.h"
 #include "core/traps/trap_chain.h"
-#include "core/trial/orientations.h"
 
 namespace trapwright::study {
 
 namespace {
 
-constexpr std::size_t kLastAgain = 2;              // ledges behind a long chain that are its last one again
-constexpr std::size_t kLongChain = 7;              // of so many at least
-constexpr int kTrialsOfWays = 3000;                // that tell the ways
-constexpr std::size_t kMostWays = 14;              // others are one together
-constexpr int kLeastOfWay = 40;                    // trials that end so
-constexpr double kNearWay = 35.0 * base::kDegree;  // what is farther from all ways is none of them
+constexpr std::size_t kLastAgain = 2;  // ledges behind a long chain that are its last one again
+constexpr std::size_t kLongChain = 7;  // of so many at least
 constexpr std::size_t kTrapsInRound = 32;
 constexpr int kRoundsBetweenPlans = 6;
 constexpr int kRoundsOfIsland = 24;  // at least
 constexpr int kTrapsOfPlan = 500;    // at least, where two are made
 constexpr int kMostIslands = 8;
 constexpr double kBitsOfDearHalving = 2.0 * objectives::kBitsOfHalving;  // of every other island
-constexpr int kWaysThen = 15;           // ways: of what follows, all take as many trials as tell these
 constexpr int kFirstTrials = 6;         // from each way on average, of a trap that is new
 constexpr int kMoreTrials = 24;         // of one that is promising
 constexpr std::size_t kMostShared = 8;  // ways that count for the sum of these trials
 constexpr double kMostFromWay = 0.3;    // of these trials
 constexpr int kTrialsOfFollowed = 300;  // behind each trap, shared by the best chains
 constexpr int kTrialsOfFollowedForPurity = 900;
-constexpr std::size_t kFewOfWay = 3;       // of these, that lie so behind a trap
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
@@ -130,54 +117,13 @@ std::int64_t estimateEnd(const EvolutionSettings& settings) {
 constexpr std::string_view kStopped = "The planning was stopped.";
 constexpr double kBitsOfRightAlone = 1.0;  // of halving: log2(right / staying) + log2(staying)
 
-/// What parts come to the first trap on, to lie down and to move on.
-struct RunUp {
-    traps::TrapChain traps;
-    search::Design design;
-    double fall = 0.0;  // of the surface along the track, where parts are put [rad]
-};
-
-/// The traps at the beginning of a chain that are none to be planned.
-std::size_t countBefore(const traps::TrapChain& chain) {
-    return chain.front()->isLedge ? kLedgesBefore : kGroovesBefore;
-}
-
-/// All numbers in the middle: a ledge that is not cut.
-search::Design makePlain(const traps::TrapChain& traps, const TrackSettings& settings) {
-    search::Design design;
-    for (const search::Dimension& dimension : traps::designSpace(traps, settings).dimensions)
-        design.push_back(search::roundToBits(0.5, dimension.bits));
-    return design;
-}
-
-RunUp makeRunUp(const traps::TrapChain& chain, const TrackSettings& settings) {
-    const std::size_t before = countBefore(chain);
-    RunUp runUp{{chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(before)}, {}, 0.0};
-    if (!chain.front()->isLedge) {
-        runUp.fall = traps::kRestingFall;
-        for (std::size_t i = 0; i < before; ++i)
-            std::ranges::copy(traps::restingGroove(settings), std::back_inserter(runUp.design));
-        return runUp;
-    }
-    runUp.design = makePlain(runUp.traps, settings);
-    return runUp;
-}
-
-/// What a trap is still to be tried.
-struct Work {
-    KnownTrap* trap = nullptr;
-    std::vector<int> trials;  // from each way
-};
-
-double lowestAt(const track::Track& track, double x) {
-    for (std::size_t i = 1; i < track.sections.size(); ++i) {
-        const track::CrossSection& from = track.sections[i - 1];
-        const track::CrossSection& to = track.sections[i];
-        if (x > to.x && i + 1 < track.sections.size()) continue;
-        const double share = std::clamp((x - from.x) / (to.x - from.x), 0.0, 1.0);
-        return std::lerp(traps::findLowest(from), traps::findLowest(to), share);
-    }
-    return traps::findLowest(track.sections.back());
+/// What is planned of a chain: not the last ledges of a long one that is to be pure, which are its last but
+/// these again.
+ChainFrame planFrame(const StudyInputs& inputs, const traps::TrapChain& chain, const ChainAim& aim) {
+    ChainFrame frame = makeFrame(chain, aim.then, aim.room, inputs.settings.track);
+    if (chain.front()->isLedge && seeksPurity(inputs.settings.evolution) && frame.places.size() >= kLongChain)
+        frame.places.resize(frame.places.size() - kLastAgain);
+    return frame;
 }
 
 class ChainPlanner {
@@ -186,28 +132,18 @@ class ChainPlanner {
                  std::function<void(const GenerationPlan&)> planned, const LearningControl& control)
         : inputs_(&inputs),
           aim_(aim),
-          specimens_(makeSpecimens(inputs.settings, inputs.part)),
-          runUp_(makeRunUp(chain, inputs.settings.track)),
-          then_(aim.then.empty() ? search::Design() : makePlain(aim.then, inputs.settings.track)),
+          trials_(inputs, planFrame(inputs, chain, aim), control.run),
+          lastAgain_(chain.size() - frame().before.traps.size() - frame().places.size()),
           planned_(std::move(planned)),
           control_(control),
           doneBefore_(control_.run.done()) {
-        for (std::size_t i = runUp_.traps.size(); i < chain.size(); ++i) {
-            auto found = std::find(kinds_.begin(), kinds_.end(), chain[i]);
-            if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), chain[i]);
-            places_.push_back(static_cast<std::size_t>(found - kinds_.begin()));
-        }
-        for (const traps::TrapKind* kind : kinds_)
+        for (const traps::TrapKind* kind : frame().kinds)
             dimensions_.push_back(kind->dimensions(settings().track));
-        if (!chain.front()->isLedge || !seeksPurity(settings().evolution) || places_.size() < kLongChain)
-            return;
-        lastAgain_ = kLastAgain;
-        places_.resize(places_.size() - kLastAgain);
     }
 
     base::Result<std::vector<search::Design>> run(std::size_t most) {
         if (const auto found = findWays(kTrialsOfWays); !found) return found.error();
-        if (ways_.empty()) return std::vector<search::Design>{};
+        if (search_.problem().ways == 0) return std::vector<search::Design>{};
         const int inRound = static_cast<int>(kTrapsInRound);
         const int rounds = (settings().evolution.plannedTraps + inRound - 1) / inRound;
         const int plans = countPlans(settings().evolution);
@@ -227,7 +163,7 @@ class ChainPlanner {
                 if (std::ranges::find(designs, design) == designs.end()) designs.push_back(std::move(design));
             if (i + 1 == plans) break;
             search_.leave(0);
-            met_.clear();
+            trials_.forgetFollowed();
         }
         auto judged = judge(std::move(designs));
         if (judged && judged->size() > most) judged->resize(most);
@@ -249,8 +185,9 @@ class ChainPlanner {
             if (const auto done = goOn(round, end, rounds); !done) return done.error();
             round = end;
             // What is of use joins the others', and the next plan begins with nothing.
-            std::ranges::move(search_.leave(found.empty() ? kinds_.size() : 0), std::back_inserter(found));
-            met_.clear();
+            std::ranges::move(search_.leave(found.empty() ? frame().kinds.size() : 0),
+                              std::back_inserter(found));
+            trials_.forgetFollowed();
             search_.setBitsOfHalving(bitsOfHalving());
         }
         search_.traps() = std::move(found);
@@ -273,7 +210,7 @@ class ChainPlanner {
         };
         tellLeft(1 + kFollowedAtTheEnd);
         if (const auto first = plan(kAtTheEndOfPurity); !first) return first.error();
-        for (int again = 0; again < kFollowedAtTheEnd && places_.size() > 1; ++again) {
+        for (int again = 0; again < kFollowedAtTheEnd && frame().places.size() > 1; ++again) {
             if (search_.chains().empty()) break;
             tellLeft(kFollowedAtTheEnd - again);
             if (const auto followed = followParts(); !followed) return followed.error();
@@ -297,33 +234,9 @@ class ChainPlanner {
         return base::success();
     }
 
-    /// Which are wanted. None if none of them is: then parts are brought to any one way, and what is wanted
-    /// is left to the learning that follows.
-    [[nodiscard]] std::vector<std::size_t> listWanted(std::span<const base::Quaternion> ways) const {
-        std::vector<std::size_t> wanted;
-        const auto goal = findWanted(settings(), *inputs_->part);
-        for (std::size_t way = 0; goal && way < ways.size(); ++way) {
-            const double angle = trial::calcAngleToGoal(ways[way], *goal, inputs_->part->symmetry);
-            if (angle <= settings().validation.tolerance) wanted.push_back(way);
-        }
-        return wanted;
-    }
-
-    /// From so many trials.
+    /// In which ways parts come to the first trap, by so many trials, and what chains are worth.
     base::Status findWays(int trials) {
-        const auto track = buildWith(nullptr, {});
-        if (!track) return track.error();
-        const trial::TrialBatch batch = makeBatch(*track, trials);
-        tellProgress(trials);
-        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);
-        if (!outcomes) return outcomes.error();
-        for (const EndMode& mode :
-             findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, kMostWays)) {
-            if (mode.count * kTrialsOfWays >= kLeastOfWay * trials) ways_.push_back(mode.orientation);
-        }
         ChainProblem problem;
-        problem.ways = ways_.size();
-        problem.places = places_;
         problem.forgivesFalls = aim_.isRightAlone || forgivesFalls(settings().evolution);
         const objectives::ObjectiveList summed = summedObjectives(settings().evolution);
         problem.seeksPurity = seeksPurity(settings().evolution);
@@ -332,59 +245,10 @@ class ChainPlanner {
             !objectives::contains(summed, objectives::kSuccess))
             problem.rightAsNines = 0.1;
         if (problem.seeksPurity) problem.unseenTurns = kUnseenTurnsOfPurity;
-        problem.wanted = listWanted(ways_);
-        problem.arriving.assign(problem.columns(), 0.0);
-        search_ = ChainSearch(problem);  // findColumn() asks it
-        starts_.resize(ways_.size() + 1);
-        const double bottom = lowestAt(**track, (*track)->finish);
-        fallBefore_ = settings().track.segmentHeight - bottom;
-        problem.mostFall = bottom - aim_.room;
-        for (const trial::Outcome& outcome : outcomes->front()) {
-            const trial::PartOutcome& part = outcome.parts.front();
-            const std::size_t column = findColumn(part);
-            problem.arriving[column] += 1.0 / trials;
-            if (column >= starts_.size()) continue;
-            base::Pose start = part.farthest;
-            start.position.z() -= bottom;
-            starts_[column].push_back(start);
-        }
-        // Too few to be tried from count as the most frequent way.
-        if (static_cast<int>(starts_.back().size()) * kTrialsOfWays < kLeastOfWay * trials)
-            starts_.pop_back();
-        problem.rows = starts_.size();
-        search_ = ChainSearch(problem);
-        if (!aim_.then.empty() && !ways_.empty()) {
-            if (const auto found = findWaysThen(problem, trials / kWaysThen); !found) return found.error();
-            search_ = ChainSearch(std::move(problem));
-        }
+        tellProgress(trials);
+        if (const auto found = trials_.findWays(trials, problem); !found) return found.error();
+        search_ = ChainSearch(std::move(problem));
         search_.setBitsOfHalving(bitsOfHalving());
-        return base::success();
-    }
-
-    /// How parts lie behind what follows the chain, from each way before it, by so many trials of each.
-    base::Status findWaysThen(ChainProblem& problem, int each) {
-        traps::TrapChain chain = runUp_.traps;
-        chain.insert(chain.end(), aim_.then.begin(), aim_.then.end());
-        search::Design design = runUp_.design;
-        design.insert(design.end(), then_.begin(), then_.end());
-        const auto track = build(chain, design, withoutGiven());
-        if (!track) return track.error();
-        std::vector<std::size_t> from;
-        for (std::size_t way = 0; way < rows(); ++way)
-            from.insert(from.end(), static_cast<std::size_t>(each), way);
-        trial::TrialBatch batch = makeBatch(*track, static_cast<int>(from.size()));
-        placeParts(batch, from, 0.0);
-        const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, control_.run);
-        if (!outcomes) return outcomes.error();
-        std::vector<base::Quaternion> ways;
-        for (const EndMode& mode :
-             findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, ways_.size()))
-            ways.push_back(mode.orientation);
-        problem.wanted = listWanted(ways);
-        WayMatrix counts(rows(), WayShares(problem.columns(), 0.0));
-        for (std::size_t i = 0; i < from.size(); ++i)
-            counts[from[i]][findColumn(outcomes->front()[i].parts.front(), ways)] += 1.0;
-        problem.then = search_.calcChances(counts);
         return base::success();
     }
 
@@ -392,30 +256,30 @@ class ChainPlanner {
     /// come through no groove.
     base::Result<double> timeTraps(double budget) {
         using Clock = std::chrono::steady_clock;
-        if (ways_.empty()) return 0.0;
+        if (search_.problem().ways == 0) return 0.0;
         base::Random random({settings().evolution.seed, 0, 0, 0, base::Purpose::planning});
         for (std::size_t count = kTrapsInRound / 4;; count *= 2) {
             std::vector<KnownTrap> tried;
             for (std::size_t i = 0; i < count; ++i)
-                tried.push_back(drawTrap(i % kinds_.size(), random));
+                tried.push_back(drawTrap(i % frame().kinds.size(), random));
             std::vector<Work> works;
             works.reserve(count);
             for (KnownTrap& trap : tried)
                 works.push_back({&trap, shareTrials(kFirstTrials)});
             const std::int64_t before = control_.run.done();
             const Clock::time_point begin = Clock::now();
-            if (const auto measured = measure(works); !measured) return measured.error();
+            if (const auto measured = trials_.measure(works); !measured) return measured.error();
             const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
             if (2.0 * seconds < budget && count < kMostTraps) continue;
             return seconds / static_cast<double>(std::max<std::int64_t>(1, control_.run.done() - before));
         }
     }
 
-    /// That traps are tried from: the ways, and the others together.
-    [[nodiscard]] std::size_t rows() const { return starts_.size(); }
+    [[nodiscard]] std::size_t rows() const { return trials_.rows(); }
 
  private:
     [[nodiscard]] const Settings& settings() const { return inputs_->settings; }
+    [[nodiscard]] const ChainFrame& frame() const { return trials_.frame(); }
     [[nodiscard]] double bitsOfHalving() const {
         return aim_.isRightAlone ? kBitsOfRightAlone : objectives::kBitsOfHalving;
     }
@@ -427,149 +291,6 @@ class ChainPlanner {
         const int share = evolution.racingTrials > 0 ? 2 : 1;
         const std::int64_t later = std::int64_t{population} * evolution.trialsPerEvaluation / share;
         planned_({0, population, population, trials, doneBefore_, std::max<std::int64_t>(1, later)});
-    }
-
-    base::Result<std::shared_ptr<const track::Track>> buildWith(const traps::TrapKind* kind,
-                                                                std::span<const double> numbers) const {
-        traps::TrapChain chain = runUp_.traps;
-        search::Design design = runUp_.design;
-        if (kind == nullptr) return build(chain, design, settings().track);
-        chain.push_back(kind);
-        design.insert(design.end(), numbers.begin(), numbers.end());
-        return build(chain, design, withoutGiven());
-    }
-
-    base::Result<std::shared_ptr<const track::Track>> build(const traps::TrapChain& chain,
-                                                            const search::Design& design,
-                                                            TrackSettings shortened) const {
-        // Parts must be seen as they go on: they creep along a level lead-out, and lie better behind it.
-        shortened.leadOutSegments = 1;
-        // What a trap does with a part that lies in the groove before it depends on neither; but on a ledge
-        // parts lie as they come up the spiral.
-        if (!chain.front()->isLedge) shortened.spiral = {};
-        shortened.chute = {};
-        shortened.maxSegmentLength = 2.0 * inputs_->part->boundingRadius;
-        auto track = decodeChain(settings().track, chain, design, shortened);
-        if (!track) return track.error();
-        return std::make_shared<const track::Track>(std::move(track).value());
-    }
-
-    [[nodiscard]] base::Result<std::shared_ptr<const track::Track>> buildChain(
-        std::span<const std::size_t> used) const {
-        traps::TrapChain chain = runUp_.traps;
-        search::Design design = runUp_.design;
-        for (const std::size_t i : used) {
-            const KnownTrap& trap = search_.traps()[i];
-            chain.push_back(kinds_[trap.kind]);
-            design.insert(design.end(), trap.numbers.begin(), trap.numbers.end());
-        }
-        return build(chain, design, withoutGiven());
-    }
-
-    /// Parts are put behind what is given.
-    [[nodiscard]] TrackSettings withoutGiven() const {
-        TrackSettings shortened = settings().track;
-        shortened.given.clear();
-        return shortened;
-    }
-
-    trial::TrialBatch makeBatch(std::shared_ptr<const track::Track> track, int trials) {
-        // Behind those of all individuals of generation 0.
-        const int individual = settings().evolution.populationSize + batches_++;
-        return makeLearningBatch(makeScene(settings(), specimens_, std::move(track)), {0, individual},
-                                 trials);
-    }
-
-    [[nodiscard]] std::size_t findColumn(const trial::PartOutcome& part) const {
-        return findColumn(part, ways_);
-    }
-    [[nodiscard]] std::size_t findColumn(const trial::PartOutcome& part,
-                                         std::span<const base::Quaternion> ways) const {
-        if (part.ending == trial::Ending::fellOff) return search_.problem().fallen();
-        if (part.ending != trial::Ending::finished) return search_.problem().stuck();
-        std::size_t nearest = search_.problem().ways;
-        double least = kNearWay;
-        for (std::size_t way = 0; way < ways.size(); ++way) {
-            const double angle =
-                trial::calcOrientationAngle(part.farthest.rotation, ways[way], inputs_->part->symmetry,
-                                            trial::OrientationDistance::symmetric);
-            if (angle < least) {
-                least = angle;
-                nearest = way;
-            }
-        }
-        return nearest;
-    }
-
-    /// `shareOfMet`: of those from behind other traps.
-    const base::Pose& chooseStart(std::size_t way, double shareOfMet, base::Random& random) const {
-        const bool isMet = random.uniform() < shareOfMet && way < met_.size() && !met_[way].empty();
-        const std::vector<base::Pose>& own = isMet ? met_[way] : starts_[way];
-        // All of a way may be nearer to another one.
-        const std::vector<base::Pose>& from = own.empty() ? starts_.front() : own;
-        return from[random.below(static_cast<std::uint32_t>(from.size()))];
-    }
-
-    /// Trials, each from its way, at the beginning of the second groove or of the first ledge: what is put
-    /// there at rest conveys as quickly as any other when it comes to the trap.
-    void placeParts(trial::TrialBatch& batch, const std::vector<std::size_t>& ways, double shareOfMet) const {
-        const track::Track& track = *batch.track;
-        // Without the track that is given the lead-in goes down to where that ends: off this slope.
-        const double behind = settings().track.given.empty() ? 0.1 : 1.1;
-        const double x = track.sections[2].x + behind * inputs_->part->boundingRadius;
-        const double bottom = lowestAt(track, x);
-        const base::Quaternion fall(Eigen::AngleAxisd(runUp_.fall, base::Vec3::UnitY()));
-        constexpr double kAbove = 0.3e-3;  // so that it touches nothing when it is turned [m]
-        for (std::size_t i = 0; i < batch.trials.size(); ++i) {
-            trial::TrialSpec& spec = batch.trials[i];
-            base::Random random(
-                {spec.stream.seed, 0, spec.stream.individual, spec.stream.trial, base::Purpose::planning});
-            const base::Pose& start = chooseStart(ways[i], shareOfMet, random);
-            base::Pose& pose = spec.parts.front().pose;
-            pose.position = track.shape.toRoom({x, start.position.y(), bottom + start.position.z() + kAbove});
-            pose.rotation = base::Quaternion(track.shape.tangentFrame(x)) * fall * start.rotation;
-        }
-    }
-
-    /// Of so many parts the ways in which they come to the first trap.
-    [[nodiscard]] std::vector<std::size_t> shareWays(int trials) const {
-        const auto arriving = std::span(search_.problem().arriving).first(rows());
-        const double all = std::accumulate(arriving.begin(), arriving.end(), 0.0);
-        std::vector<std::size_t> ways;
-        double sum = 0.0;
-        for (std::size_t way = 0; way < arriving.size(); ++way) {
-            sum += arriving[way];
-            ways.resize(static_cast<std::size_t>(std::lround(trials * sum / all)), way);
-        }
-        return ways;
-    }
-
-    /// So many trials more of each trap, from each way.
-    base::Status measure(std::span<const Work> works) {
-        std::vector<trial::TrialBatch> batches;
-        std::vector<std::vector<std::size_t>> from;
-        batches.reserve(works.size());
-        for (const Work& work : works) {
-            const auto track = buildWith(kinds_[work.trap->kind], work.trap->numbers);
-            if (!track) return track.error();
-            work.trap->fall =
-                settings().track.segmentHeight - lowestAt(**track, (*track)->finish) - fallBefore_;
-            std::vector<std::size_t>& ways = from.emplace_back();
-            for (std::size_t way = 0; way < rows(); ++way)
-                ways.insert(ways.end(), static_cast<std::size_t>(work.trials[way]), way);
-            batches.push_back(makeBatch(*track, static_cast<int>(ways.size())));
-        }
-        base::parallelFor(batches.size(), inputs_->threads,
-                          [&](std::size_t i, unsigned /*worker*/) { placeParts(batches[i], from[i], 0.5); });
-        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
-        if (!outcomes) return outcomes.error();
-        for (std::size_t i = 0; i < works.size(); ++i) {
-            KnownTrap& trap = *works[i].trap;
-            for (std::size_t k = 0; k < from[i].size(); ++k)
-                trap.counts[from[i][k]][findColumn((*outcomes)[i][k].parts.front())] += 1.0;
-            trap.chances = search_.calcChances(trap.counts);
-        }
-        return base::success();
     }
 
     static double drawNumber(const search::Dimension& dimension, base::Random& random) {
@@ -611,7 +332,7 @@ class ChainPlanner {
             {settings().evolution.seed, 0, static_cast<std::uint32_t>(round), 0, base::Purpose::planning});
         std::vector<KnownTrap> tried;
         for (std::size_t i = 0; i < kTrapsInRound; ++i) {
-            if (search_.traps().empty() && i < kinds_.size()) {
+            if (search_.traps().empty() && i < frame().kinds.size()) {
                 // All numbers in the middle: a cut-out that cuts nothing lets a chain do with fewer.
                 KnownTrap typical = drawTrap(i, random);
                 for (std::size_t k = 0; k < typical.numbers.size(); ++k)
@@ -624,19 +345,19 @@ class ChainPlanner {
                     mutate(search_.traps()[parents[random.below(static_cast<std::uint32_t>(parents.size()))]],
                            random));
             } else {
-                tried.push_back(drawTrap(i % kinds_.size(), random));
+                tried.push_back(drawTrap(i % frame().kinds.size(), random));
             }
         }
         std::vector<Work> works;
         works.reserve(tried.size());
         for (KnownTrap& trap : tried)
             works.push_back({&trap, shareTrials(kFirstTrials)});
-        if (const auto measured = measure(works); !measured) return measured.error();
+        if (const auto measured = trials_.measure(works); !measured) return measured.error();
         works.clear();
-        for (const std::size_t i : choosePromising(tried, search_.traps().empty() ? kinds_.size() : 0))
+        for (const std::size_t i : choosePromising(tried, search_.traps().empty() ? frame().kinds.size() : 0))
             works.push_back({&tried[i], shareTrials(kMoreTrials)});
         if (works.empty()) return base::success();
-        if (const auto measured = measure(works); !measured) return measured.error();
+        if (const auto measured = trials_.measure(works); !measured) return measured.error();
         for (const Work& work : works)
             search_.traps().push_back(std::move(*work.trap));
         return base::success();
@@ -646,7 +367,7 @@ class ChainPlanner {
     /// trap, as what is not known of a way counts by how many come in it.
     [[nodiscard]] std::vector<int> shareTrials(int each) const {
         WayShares most(search_.problem().arriving.begin(),
-                       search_.problem().arriving.begin() + std::ssize(starts_));
+                       search_.problem().arriving.begin() + static_cast<std::ptrdiff_t>(rows()));
         for (const Chain& chain : search_.niches()) {
             for (const WayShares& coming : search_.listComing(chain))
                 std::transform(coming.begin(), coming.end(), most.begin(), most.begin(),
@@ -695,7 +416,7 @@ class ChainPlanner {
     /// Finds the best chains, and measures what they use, until that is known well enough.
     base::Status plan(const Care& care) {
         search_.findSieves();
-        if (search_.traps().size() > kMostTraps) search_.forget(kinds_.size(), kLatestTraps);
+        if (search_.traps().size() > kMostTraps) search_.forget(frame().kinds.size(), kLatestTraps);
         for (int again = 0; again < care.inARow; ++again) {
             search_.findChains(care.niches);
             if (search_.chains().empty()) return base::success();
@@ -709,55 +430,29 @@ class ChainPlanner {
                 if (work.trap != nullptr) works.push_back(std::move(work));
             }
             if (works.empty()) break;
-            if (const auto measured = measure(works); !measured) return measured.error();
+            if (const auto measured = trials_.measure(works); !measured) return measured.error();
         }
         search_.findChains(care.niches);
         return base::success();
     }
 
-    /// Parts before each trap of the best chains: what their traps do is counted with them from then on,
-    /// beside those of the plain groove, as within its way a part lies as the traps before have laid it.
+    [[nodiscard]] TrapRow rowOf(std::span<const std::size_t> traps) const {
+        TrapRow row;
+        for (const std::size_t i : traps)
+            row.push_back(&search_.traps()[i]);
+        return row;
+    }
+
+    /// What the traps of the best chains do is counted with the parts that come to them from then on.
     base::Status followParts() {
-        std::vector<trial::TrialBatch> batches;
-        std::vector<double> bottoms;
-        const int trials = search_.problem().seeksPurity ? kTrialsOfFollowedForPurity : kTrialsOfFollowed;
-        const int each = trials / static_cast<int>(search_.niches().size());
-        const bool isGiven = !settings().track.given.empty();
-        for (const Chain& chain : search_.niches()) {
-            for (std::size_t place = 1; place < places_.size(); ++place) {
-                const auto track = buildChain(std::span(chain.traps).first(place));
-                if (!track) return track.error();
-                bottoms.push_back(lowestAt(**track, (*track)->finish));
-                batches.push_back(makeBatch(*track, each));
-                if (isGiven) placeParts(batches.back(), shareWays(each), 0.0);
-            }
-        }
-        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
-        if (!outcomes) return outcomes.error();
-        met_.assign(rows(), {});
-        std::vector<std::vector<base::Pose>> farthest;  // of each way, along one chain
-        for (std::size_t i = 0; i < batches.size(); ++i) {
-            std::vector<std::vector<base::Pose>> here(rows());
-            for (const trial::Outcome& outcome : (*outcomes)[i]) {
-                const std::size_t column = findColumn(outcome.parts.front());
-                if (column >= rows()) continue;
-                here[column].push_back(outcome.parts.front().farthest);
-                here[column].back().position.z() -= bottoms[i];
-            }
-            // Parts that lie one way, or in none that has a name, are of many kinds. Where the last wrong one
-            // counts, those that come through are what is to be thrown out.
-            if (search_.problem().seeksPurity) {
-                const std::size_t place = i % (places_.size() - 1);
-                if (place == 0) farthest.assign(rows(), {});
-                for (std::size_t row = 0; row < rows(); ++row) {
-                    if (here[row].size() >= kFewOfWay) farthest[row] = std::move(here[row]);
-                    here[row].clear();
-                }
-                if (place + 2 == places_.size()) here.swap(farthest);
-            }
-            for (std::size_t row = 0; row < rows(); ++row)
-                std::ranges::move(here[row], std::back_inserter(met_[row]));
-        }
+        std::vector<TrapRow> chains;
+        for (const Chain& chain : search_.niches())
+            chains.push_back(rowOf(chain.traps));
+        const bool isPure = search_.problem().seeksPurity;
+        const int trials =
+            (isPure ? kTrialsOfFollowedForPurity : kTrialsOfFollowed) / static_cast<int>(chains.size());
+        if (const auto followed = trials_.followParts(chains, trials, isPure); !followed)
+            return followed.error();
         for (const std::size_t i : std::set<std::size_t>(search_.used().begin(), search_.used().end())) {
             for (WayShares& counts : search_.traps()[i].counts)
                 for (double& count : counts)
@@ -773,7 +468,7 @@ class ChainPlanner {
         std::optional<Chain> best;
         if (search_.chains().empty() || !isPutTogether(settings().evolution)) return best;
         Chain begun{{}, search_.problem().arriving, 0.0, 0.0};
-        for (std::size_t place = 0; place < places_.size(); ++place) {
+        for (std::size_t place = 0; place < frame().places.size(); ++place) {
             if (control_.stopRequested()) return base::Error{std::string(kStopped)};
             const auto told = search_.complete(begun);
             if (!told) break;
@@ -795,23 +490,14 @@ class ChainPlanner {
     /// So many of the traps of each chain, all with the same parts: where these are behind them, and what the
     /// chain is worth then. Best first.
     base::Status tryBeginnings(std::vector<Chain>& chains, std::size_t count, int trials) {
-        std::vector<trial::TrialBatch> batches;
-        const int individual = batches_;
-        for (const Chain& chain : chains) {
-            const auto track = buildChain(std::span(chain.traps).first(count));
-            if (!track) return track.error();
-            batches_ = individual;
-            batches.push_back(makeBatch(*track, trials));
-            if (!settings().track.given.empty()) placeParts(batches.back(), shareWays(trials), 0.0);
-        }
-        const auto outcomes = runTrials(*inputs_->engine, batches, control_.run);
-        if (!outcomes) return outcomes.error();
+        std::vector<TrapRow> beginnings;
+        for (const Chain& chain : chains)
+            beginnings.push_back(rowOf(std::span(chain.traps).first(count)));
+        auto shares = trials_.findShares(beginnings, trials);
+        if (!shares) return shares.error();
         for (std::size_t i = 0; i < chains.size(); ++i) {
-            WayShares parts(search_.problem().columns(), 0.0);
-            for (const trial::Outcome& outcome : (*outcomes)[i])
-                parts[findColumn(outcome.parts.front())] += 1.0 / static_cast<double>((*outcomes)[i].size());
-            chains[i].worth = search_.worthOf(search_.passOn(parts, chains[i], count));
-            chains[i].parts = std::move(parts);
+            chains[i].worth = search_.worthOf(search_.passOn((*shares)[i], chains[i], count));
+            chains[i].parts = std::move((*shares)[i]);
         }
         std::ranges::stable_sort(chains, std::greater(), &Chain::worth);
         return base::success();
@@ -851,13 +537,14 @@ class ChainPlanner {
         double fall = chain.fall;
         for (std::size_t again = 0; again < lastAgain_; ++again) {
             fall += last.fall;
-            const search::Design& numbers = fall <= search_.problem().mostFall ? last.numbers : runUp_.design;
+            const search::Design& numbers =
+                fall <= search_.problem().mostFall ? last.numbers : frame().before.numbers;
             design.insert(design.end(), numbers.begin(), numbers.end());
         }
     }
 
     [[nodiscard]] search::Design designOf(const Chain& chain) const {
-        search::Design design = runUp_.design;
+        search::Design design = frame().before.numbers;
         for (const std::size_t i : chain.traps) {
             const std::vector<double>& numbers = search_.traps()[i].numbers;
             design.insert(design.end(), numbers.begin(), numbers.end());
@@ -887,11 +574,12 @@ class ChainPlanner {
             judgingTrials(settings().evolution);
         race.settings.evolution.racingShare = search::kTopShare;
         std::vector<search::Proposal> proposals(judged);
-        for (const traps::TrapKind* kind : aim_.then)
+        const FixedTraps& then = frame().then;
+        for (const traps::TrapKind* kind : then.traps)
             race.settings.track.traps += fmt::format(", {}", kind->key);
         for (std::size_t i = 0; i < judged; ++i) {
             proposals[i].design = designs[i];
-            proposals[i].design.insert(proposals[i].design.end(), then_.begin(), then_.end());
+            proposals[i].design.insert(proposals[i].design.end(), then.numbers.begin(), then.numbers.end());
         }
         const auto tell = [&](const GenerationPlan& plan) {
             tellProgress(plan.doneBefore - doneBefore_ + plan.trials);
@@ -910,22 +598,13 @@ class ChainPlanner {
 
     const StudyInputs* inputs_;
     ChainAim aim_;
-    Specimens specimens_;
-    RunUp runUp_;
-    search::Design then_;  // of aim_.then
+    TrapTrials trials_;
+    std::size_t lastAgain_;  // traps behind those that are planned
     std::function<void(const GenerationPlan&)> planned_;
     LearningControl control_;
     std::int64_t doneBefore_;
-    double fallBefore_ = 0.0;                                 // of the grooves [m]
-    int batches_ = 0;                                         // so far
     int plansLeft_ = 1;                                       // with the one that is made
-    std::vector<const traps::TrapKind*> kinds_;               // of the traps behind the grooves, each once
-    std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind
-    std::vector<std::size_t> places_;                         // kinds, along the track
-    std::size_t lastAgain_ = 0;                               // places behind them
-    std::vector<base::Quaternion> ways_;                      // in which parts lie
-    std::vector<std::vector<base::Pose>> starts_;  // of each way, and of others; z from the groove's bottom
-    std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chains
+    std::vector<std::vector<search::Dimension>> dimensions_;  // of each kind of trap
     ChainSearch search_;
 };
 }  // namespace

@@ -16,10 +16,6 @@ namespace trapwright::study {
 /// are put together from what they do (chain_search.h), and the best are judged by trials of whole tracks.
 /// What is planned, and of which chains, says planning.h.
 
-/// The traps at the beginning of a chain that are none to be planned. Of grooves the first turns parts along
-/// the track, the second is the run-up; of ledges the run-up: what comes before goes over to it.
-inline constexpr std::size_t kGroovesBefore = 2;
-inline constexpr std::size_t kLedgesBefore = 1;
 /// Chains that are judged in the end.
 inline constexpr std::size_t kJudgedChains = 16;
 

@@ -25,26 +25,26 @@ void sortByWorth(std::vector<Chain>& chains) {
 
 }  // namespace
 
-WayMatrix ChainSearch::calcChances(const WayMatrix& counts) const {
+WayMatrix calcChances(const ChainProblem& problem, const WayMatrix& counts) {
     constexpr double kUnseenStuck = 0.2;
-    const std::size_t columns = problem_.columns();
-    const std::size_t stuck = problem_.stuck();
+    const std::size_t columns = problem.columns();
+    const std::size_t stuck = problem.stuck();
     WayMatrix chances(columns, WayShares(columns, 0.0));
-    for (std::size_t from = 0; from < problem_.rows; ++from) {
+    for (std::size_t from = 0; from < problem.rows; ++from) {
         double sum = 0.0;
         for (std::size_t to = 0; to < columns; ++to) {
             double& chance = chances[from][to];
             chance = counts[from][to];
-            if (to == stuck) chance += kUnseenStuck * problem_.unseenTurns;
-            if (to != from && to < stuck) chance += problem_.unseenTurns / static_cast<double>(problem_.ways);
+            if (to == stuck) chance += kUnseenStuck * problem.unseenTurns;
+            if (to != from && to < stuck) chance += problem.unseenTurns / static_cast<double>(problem.ways);
             sum += chance;
         }
         for (double& chance : chances[from])
             chance /= sum;
     }
-    if (problem_.rows == problem_.ways) chances[problem_.ways] = chances[0];
+    if (problem.rows == problem.ways) chances[problem.ways] = chances[0];
     chances[stuck][stuck] = 1.0;
-    chances[problem_.fallen()][problem_.fallen()] = 1.0;
+    chances[problem.fallen()][problem.fallen()] = 1.0;
     return chances;
 }
 

@@ -24,7 +24,7 @@ struct KnownTrap {
     std::size_t kind = 0;         // as ChainProblem::places counts them
     std::vector<double> numbers;  // its part of a design
     WayMatrix counts;
-    WayMatrix chances;  // ChainSearch::calcChances(counts)
+    WayMatrix chances;  // calcChances(counts)
     double fall = 0.0;  // of the track, from its beginning to its end [m]
 };
 
@@ -58,6 +58,10 @@ struct ChainProblem {
     [[nodiscard]] std::size_t columns() const { return ways + 3; }
 };
 
+/// Counts as probabilities. A few trials that none saw spoil what few trials make look perfect: parts may
+/// always get stuck or be turned.
+WayMatrix calcChances(const ChainProblem& problem, const WayMatrix& counts);
+
 /// The traps that are known, and the best chains of them.
 class ChainSearch {
  public:
@@ -84,9 +88,6 @@ class ChainSearch {
     /// out and lets another pass does it better every time, even where the best chain of today uses others.
     [[nodiscard]] const std::vector<std::size_t>& sieves() const { return sieves_; }
 
-    /// Counts as probabilities. A few trials that none saw spoil what few trials make look perfect: parts may
-    /// always get stuck or be turned.
-    [[nodiscard]] WayMatrix calcChances(const WayMatrix& counts) const;
     [[nodiscard]] WayShares pass(const WayShares& parts, const WayMatrix& chances) const;
     /// Minus the bits of objectives::sorting() where falls are forgiven, else of objectives::disorder();
     /// where ways are wanted, of the share that lies so. Where purity is sought as nines,

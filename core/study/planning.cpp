@@ -8,6 +8,7 @@
 
 #include "core/study/chain_planner.h"
 #include "core/study/track_design.h"
+#include "core/study/trap_trials.h"
 #include "core/traps/groove.h"
 #include "core/traps/trap_chain.h"
 

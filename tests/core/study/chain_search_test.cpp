@@ -37,7 +37,7 @@ KnownTrap makeTrap(const ChainSearch& search, std::size_t kind, WayMatrix shares
         for (double& share : row)
             share *= 1e6;
     KnownTrap trap{kind, {static_cast<double>(kind)}, shares, {}, fall};
-    trap.chances = search.calcChances(trap.counts);
+    trap.chances = calcChances(search.problem(), trap.counts);
     return trap;
 }
 
@@ -67,7 +67,7 @@ class ChainSearchTest : public QObject {
         const ChainSearch search(makeProblem({0}));
         WayMatrix counts(kWays, WayShares(kWays + 3, 0.0));
         counts[0][0] = 6.0;  // of six trials from the first way, none from others
-        const WayMatrix chances = search.calcChances(counts);
+        const WayMatrix chances = calcChances(search.problem(), counts);
         QCOMPARE(chances.size(), kWays + 3);
         for (const WayShares& row : chances) {
             double sum = 0.0;
@@ -211,7 +211,7 @@ class ChainSearchTest : public QObject {
     void howPartsLieBehindWhatFollowsCounts() {
         ChainProblem problem = makeProblem({0});
         const ChainSearch plain(problem);
-        WayMatrix then = plain.calcChances(WayMatrix(kWays, WayShares(kWays + 3, 0.0)));
+        WayMatrix then = calcChances(plain.problem(), WayMatrix(kWays, WayShares(kWays + 3, 0.0)));
         for (std::size_t way = 0; way < kWays; ++way)
             then[way] = {way < 2 ? 1.0 : 0.0, 0.0, 0.0, way < 2 ? 0.0 : 1.0, 0.0, 0.0};
         problem.then = then;
