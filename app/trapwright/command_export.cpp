@@ -4,6 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "app/trapwright/command.h"
@@ -11,6 +13,7 @@
 #include "app/trapwright/print_options.h"
 #include "app/trapwright/study_access.h"
 #include "app/trapwright/study_jobs.h"
+#include "app/trapwright/track_subject.h"
 #include "core/study/track_design.h"
 #include "core/workflow/track_export.h"
 
@@ -19,17 +22,23 @@ namespace trapwright::app {
 namespace {
 
 struct Options {
-    std::string study;
+    std::string source;  // a study, or a track's file
     std::vector<std::string> files;
     IndividualChoice choice;
     PrintRequest print;
 };
 
-/// Beside the study, with its name.
-std::vector<std::string> defaultFiles(const std::string& study) {
-    return {std::filesystem::path(study).replace_extension(".stl").string(),
-            std::filesystem::path(study).replace_extension(".3mf").string()};
+/// Beside the study or the track, with its name.
+std::vector<std::string> defaultFiles(const std::string& source) {
+    return {std::filesystem::path(source).replace_extension(".stl").string(),
+            std::filesystem::path(source).replace_extension(".3mf").string()};
 }
+
+/// What is exported, and which that is, for machines.
+struct Source {
+    track::TrackFile design;
+    nlohmann::ordered_json json;
+};
 
 /// How the last selection found this individual's parts to end; none if it is not in there, or if more than
 /// one orientation is right, which a track's file cannot say.
@@ -43,31 +52,50 @@ std::optional<base::Quaternion> findExpectedOrientation(const store::StudyFile& 
     return std::nullopt;
 }
 
-Attempt<ExitCode> run(const Options& options, const Console& console) {
-    const auto file = store::StudyFile::openReadOnly(options.study);
+Attempt<Source> loadOfStudy(const Options& options) {
+    const auto file = store::StudyFile::openReadOnly(options.source);
     if (!file) return Failure{ExitCode::badInput, file.error().message};
     const auto settings = file->loadSettings();
     if (!settings) return Failure{ExitCode::badInput, settings.error().message};
     auto individual = findIndividual(*file, options.choice);
     if (!individual) return individual.error();
-    const auto track = study::decodeTrack(settings->track, individual->record.design);
+    auto track = study::decodeTrack(settings->track, individual->record.design);
     if (!track) return Failure{ExitCode::badInput, track.error().message};
+    const std::string name =
+        fmt::format("{}, generation {}, individual {}", std::filesystem::path(options.source).stem().string(),
+                    individual->generation, individual->individual);
+    return Source{{name, std::move(*track), findExpectedOrientation(*file, *individual)},
+                  {{"study", options.source},
+                   {"generation", individual->generation},
+                   {"individual", individual->individual}}};
+}
+
+Attempt<Source> loadOfFile(const Options& options) {
+    if (options.choice.generation || options.choice.individual)
+        return Failure{ExitCode::usage,
+                       fmt::format("--generation and --individual choose from a study, and {} is a track.",
+                                   options.source)};
+    auto file = track::readTrackFile(options.source);
+    if (!file) return Failure{ExitCode::badInput, file.error().message};
+    return Source{std::move(*file), {{"track", options.source}}};
+}
+
+Attempt<ExitCode> run(const Options& options, const Console& console) {
+    auto source = isTrackFile(options.source) ? loadOfFile(options) : loadOfStudy(options);
+    if (!source) return source.error();
+    const track::TrackFile& design = source->design;
     auto means = findPrintMeans(options.print);
     if (!means) return means.error();
-    const auto solid = track::buildPrintSolid(*track, toPrintOptions(options.print));
+    const auto solid = track::buildPrintSolid(design.track, toPrintOptions(options.print));
     if (!solid) return Failure{ExitCode::usage, solid.error().message};
-    auto pieces = buildPieces(*track, options.print, *means);
+    auto pieces = buildPieces(design.track, options.print, *means);
     if (!pieces) return pieces.error();
     std::vector<geometry::TriangleMesh> solids;
     for (const track::PrintPiece& piece : *pieces)
         solids.push_back(piece.solid);
 
-    const std::string name =
-        fmt::format("{}, generation {}, individual {}", std::filesystem::path(options.study).stem().string(),
-                    individual->generation, individual->individual);
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
-    const track::TrackFile design{name, *track, findExpectedOrientation(*file, *individual)};
-    for (const std::string& path : options.files.empty() ? defaultFiles(options.study) : options.files) {
+    for (const std::string& path : options.files.empty() ? defaultFiles(options.source) : options.files) {
         const auto exported = workflow::exportTrack(design, solids, path);
         if (!exported) return toFailure(exported.error());
         for (const workflow::ExportedFile& written : *exported) {
@@ -88,11 +116,10 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
         console.print(describeFit(*pieces, *means->printer));
         print["pieces"] = fitToJson(*pieces, *means->printer);
     }
-    console.emit({{"study", options.study},
-                  {"generation", individual->generation},
-                  {"individual", individual->individual},
-                  {"files", files},
-                  {"print", print}});
+    nlohmann::ordered_json json = std::move(source->json);
+    json["files"] = std::move(files);
+    json["print"] = std::move(print);
+    console.emit(json);
     return ExitCode::ok;
 }
 
@@ -109,9 +136,10 @@ void addExportCommand(CLI::App& program, Invocation& invocation) {
         "cut into pieces that dowels hold together.",
         "trapwright export cuboid.trap track.3mf --printer prusa-mk4 --split",
         [options](const Console& console) { return run(*options, console); });
-    command.addOption("STUDY", options->study, "The study's file").required();
-    command.addOption("FILE", options->files,
-                      "Files to write, .stl, .3mf, .step or .json (default: STL and 3MF, beside the study)");
+    command.addOption("STUDY|TRACK", options->source, "A study, or a track as JSON in mm").required();
+    command.addOption(
+        "FILE", options->files,
+        "Files to write, .stl, .3mf, .step or .json (default: STL and 3MF, beside the study or the track)");
     addIndividualOptions(command, options->choice);
     addPrintOptions(command, options->print);
 }

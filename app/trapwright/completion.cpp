@@ -170,7 +170,7 @@ std::string bashKinds() {
             steps.push_back(
                 fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$cur\"))", fmt::join(kind.names, " ")));
         if (kind.paths != ValueKind::Paths::none) steps.push_back(bashPaths(kind));
-        cases += fmt::format("        {}) {} ;;\n", kind.type, fmt::join(steps, "; "));
+        cases += fmt::format("        '{}') {} ;;\n", kind.type, fmt::join(steps, "; "));
     }
     return cases;
 }
@@ -192,7 +192,7 @@ std::string bashOptions(const CLI::App& command) {
         const auto type = findValueType(command, *option);
         if (!type) continue;
         for (const std::string& name : spellings(*option))
-            cases += fmt::format("        '{} {}') _trapwright_value {}; return ;;\n", command.get_name(),
+            cases += fmt::format("        '{} {}') _trapwright_value '{}'; return ;;\n", command.get_name(),
                                  name, *type);
     }
     return cases;
@@ -205,7 +205,7 @@ std::string bashArguments(const CLI::App& command) {
         const bool repeated = argument->get_items_expected_max() > 1;
         const auto type = findValueType(command, *argument);
         if (type)
-            cases += fmt::format("        {}:{}) _trapwright_value {} ;;\n", command.get_name(),
+            cases += fmt::format("        {}:{}) _trapwright_value '{}' ;;\n", command.get_name(),
                                  repeated ? "*" : std::to_string(position), *type);
         ++position;
     }

@@ -24,12 +24,16 @@ struct Use {
     std::string_view type;
 };
 
-constexpr std::array<Use, 20> kUses = {{
+constexpr std::array<Use, 24> kUses = {{
     {"", "STUDY", "STUDY"},
     {"dump", "--compare", "STUDY"},
     {"part", "FILE", "PART"},
     {"", "--part", "PART"},
     {"track", "FILE", "TRACK"},
+    {"export", "STUDY|TRACK", "STUDY|TRACK"},
+    {"robustness", "FILE", "STUDY|TRACK"},
+    {"stream", "FILE", "STUDY|TRACK"},
+    {"evolve", "--behind", "STUDY|TRACK"},
     {"", "--settings", "JSON"},
     {"export", "FILE", "FILE"},
     {"replay", "--out", "FILE"},
@@ -92,6 +96,7 @@ std::vector<ValueKind> listValueKinds() {
          collectNames(part::listBundledParts(), [](const part::BundledPart& part) { return part.name; }),
          Paths::files, partExtensions()},
         {"TRACK", {}, Paths::files, {"json"}},
+        {"STUDY|TRACK", {}, Paths::files, {"trap", "json"}},
         {"JSON", {}, Paths::files, {"json"}},
         {"FILE", {}, Paths::files, {}},
         {"FOLDER", {}, Paths::folders, {}},

@@ -305,6 +305,21 @@ class CommandsTest : public QObject {
             QCOMPARE(ask({"export", "study.trap", "x.stl", "--bed", bed}).code, 2);
         QCOMPARE(ask({"export", "study.trap", "x.stl", "--split"}).code, 2);
         QCOMPARE(ask({"export", "study.trap", "x.stl", "--cut", "99"}).code, 2);
+        // What is written for `track` can be exported again, to the same solid.
+        const Ran again = ask({"export", "track.json", "again.stl", "--json"});
+        QVERIFY2(again.code == 0, again.all());
+        QCOMPARE(again.json()["track"].toString(), "track.json");
+        const QJsonValue solidAgain = again.json()["files"].toArray()[0];
+        QVERIFY(std::abs(solidAgain["volume_mm3"].toDouble() / files[0]["volume_mm3"].toDouble() - 1.0) <
+                1e-9);
+        const Ran chosen = ask({"export", "track.json", "again.stl", "--generation", "0"});
+        QCOMPARE(chosen.code, 2);
+        QVERIFY2(chosen.errors.contains("choose from a study"), chosen.all());
+        QVERIFY(QFile::copy(folder_.filePath("track.json"), folder_.filePath("alone.json")));
+        const Ran beside = ask({"export", "alone.json"});
+        QVERIFY2(beside.code == 0, beside.all());
+        for (const char* file : {"alone.stl", "alone.3mf"})
+            QVERIFY(QFileInfo::exists(folder_.filePath(file)));
         // What is written for `track` can be simulated.
         const Ran simulated = ask({"track", "track.json", "--trials", "2", "--json"});
         QVERIFY2(simulated.code == 0, simulated.all());

@@ -72,6 +72,10 @@ class CompletionTest : public QObject {
                                << QStringList{"cuboid", "cone", "cup", "clip", "clip.stl"};
         QTest::newRow("settings files")
             << "trapwright new a.trap --settings se" << QStringList{"settings.json"};
+        QTest::newRow("a study ...") << "trapwright export o" << QStringList{"one.trap"};
+        QTest::newRow("... or a track") << "trapwright export s" << QStringList{"settings.json"};
+        QTest::newRow("a track to begin behind")
+            << "trapwright evolve a.trap --behind s" << QStringList{"settings.json"};
         QTest::newRow("values") << "trapwright new a.trap --set track.encoding="
                                 << QStringList{"strip", "free"};
     }
