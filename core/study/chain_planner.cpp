@@ -491,6 +491,7 @@ class ChainPlanner {
     /// chain is worth then. Best first.
     base::Status tryBeginnings(std::vector<Chain>& chains, std::size_t count, int trials) {
         std::vector<TrapRow> beginnings;
+        beginnings.reserve(chains.size());
         for (const Chain& chain : chains)
             beginnings.push_back(rowOf(std::span(chain.traps).first(count)));
         auto shares = trials_.findShares(beginnings, trials);
