@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -67,6 +68,7 @@ void addSubjectOptions(Command command, SubjectRequest& request) {
 
 bool isTrackFile(const std::string& file) {
     std::ifstream stream(file);
+    if (!stream) return std::filesystem::path(file).extension() == ".json";
     stream >> std::ws;
     return stream.peek() == '{';
 }

@@ -37,7 +37,7 @@ struct SubjectRequest {
 /// Adds FILE, those of addIndividualOptions() and addTrackOptions(), --save, --engine and --threads.
 void addSubjectOptions(Command command, SubjectRequest& request);
 
-/// Studies are databases; a track is JSON.
+/// Studies are databases; a track is JSON. What is not there is by its name what it was to be.
 bool isTrackFile(const std::string& file);
 
 /// The track of a file or of a study, by what the file is. Failures also: --save of a track that is of no

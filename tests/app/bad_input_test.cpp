@@ -100,6 +100,10 @@ class BadInputTest : public QObject {
             << QStringList{"evolve", "good.trap", "--preset", "cuboid"} << 2 << "leave out";
         QTest::newRow("study: nothing to export")
             << QStringList{"export", "good.trap"} << 3 << "no generations yet";
+        QTest::newRow("track: missing")
+            << QStringList{"export", "missing.json"} << 3 << "Cannot open missing.json";
+        QTest::newRow("track: missing, streams")
+            << QStringList{"stream", "missing.json"} << 3 << "Cannot open missing.json";
         QTest::newRow("study: nothing to select")
             << QStringList{"select", "good.trap"} << 3 << "no generations";
         QTest::newRow("study: no folder")
