@@ -9,12 +9,12 @@ namespace trapwright::traps {
 
 namespace {
 
-constexpr double kEdge = 0.5e-3;            // along the track: a gap's edges, the shortest end of a cut [m]
-constexpr double kSliver = 0.3e-3;          // what is left of a ledge beside its wall at least [m]
-constexpr double kThinnest = 1.2e-3;        // and without one, so that it can be printed [m]
-constexpr double kLeastCut = 2e-3;          // of the ledge's width: the middle of a range, rounded to bits
-constexpr double kLeastStep = 1e-2;         // of the highest, likewise
-constexpr double kLongestSlant = 0.5;       // of the longest segment: a cut's beginning and end
+constexpr double kEdge = 0.5e-3;       // along the track: a gap's edges, the shortest end of a cut [m]
+constexpr double kSliver = 0.3e-3;     // what is left of a ledge beside its wall at least [m]
+constexpr double kThinnest = 1.2e-3;   // and without one, as of its wall, so that they can be printed [m]
+constexpr double kLeastCut = 2e-3;     // of the ledge's width: the middle of a range, rounded to bits
+constexpr double kLeastStep = 1e-2;    // of the highest, likewise
+constexpr double kLongestSlant = 0.5;  // of the longest segment: a cut's beginning and end
 constexpr double kHighestStep = 1.0 / 6.0;  // of the longest segment
 constexpr double kDepthOfGap = 0.5;         // of the longest segment
 constexpr int kBits = 7;
@@ -93,8 +93,7 @@ class Course {
         const auto onLedge = [&](double y) {
             return base::Vec2(y, std::clamp(foot + fall * (place_.foot - y), 0.0, highest));
         };
-        const int ofWall = left.hasWall ? 2 : 0;
-        const int last = parameters_->pointsPerSection - ofWall - 1;
+        const int last = parameters_->pointsPerSection - 3;
         for (int j = 0; j <= last; ++j)
             section.points.push_back(onLedge(
                 last > 0 ? within(left.inner, left.outer, static_cast<double>(j) / last) : left.outer));
@@ -102,6 +101,10 @@ class Course {
             const double top = std::min(highest, foot + parameters_->spiral.wall);
             section.points.emplace_back(place_.foot + track::kSpiralWallRun, top);
             section.points.emplace_back(place_.foot + track::kSpiralWallWidth, top);
+        } else {
+            // Towards here the wall becomes lower, not too thin to be printed: what is left of it is level.
+            section.points.push_back(onLedge(left.outer + track::kSpiralWallRun));
+            section.points.push_back(onLedge(left.outer + track::kSpiralWallRun + kThinnest));
         }
         sections_.push_back(std::move(section));
     }

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "core/geometry/mesh_check.h"
+#include "core/geometry/print_check.h"
 #include "core/track/track_builder.h"
+#include "core/track/track_solid.h"
 #include "core/traps/groove.h"
 #include "core/traps/ledge.h"
 #include "core/traps/narrowed.h"
@@ -379,6 +381,22 @@ class TrapKindsTest : public QObject {
             QVERIFY(section.points == upright.points);
     }
 
+    /// Where a cut takes the wall along: neither what is left of the wall nor the neck.
+    void aLedgeWithoutItsWallIsThickEnoughToPrint() {
+        TrapParameters parameters;
+        parameters.spiral = {20e-3, 10e-3, 10.0 * base::kDegree};
+        const track::CrossSection before = track::makeLeadIn(parameters, 0.0, 8);
+        const auto cut = [](double millimetres) { return 0.5 + millimetres / 40.0; };
+        // Down to 1.2 mm at the beginning, 4 mm from the wall; from there wider, along the wall.
+        std::vector<track::CrossSection> sections = traps::ledge().build(
+            parameters, before,
+            std::vector<double>{0.5, 0.4, cut(19.0), cut(4.0), 0.8, cut(5.0), 0.5, 0.4, 0.5});
+        const track::FeederShape linear;
+        const auto solid = track::buildTrackSolid(linear, sections, 20e-3);
+        for (const geometry::ThinWall& wall : geometry::findThinWalls(solid.mesh, {}))
+            QVERIFY2(false,
+                     qPrintable(QString("%1 mm over %2 mm2").arg(1e3 * wall.thickness).arg(1e6 * wall.area)));
+    }
     void aLedgeIsWhatItsNumbersSay() {
         const traps::TrapKind ledge = traps::ledge();
         TrapParameters parameters;
@@ -411,7 +429,10 @@ class TrapKindsTest : public QObject {
             for (std::size_t j = 0; j < (hasWall ? 6 : 8); ++j)
                 QVERIFY(isOnLedge(points[j], below));
             if (!hasWall) {
-                QVERIFY(std::abs(points.back().x() - 8e-3) < 1e-12);
+                // The wall is as low as the ledge, and as thick as can be printed.
+                QVERIFY(std::abs(points[5].x() - 8e-3) < 1e-12);
+                QVERIFY(std::abs(points[6].x() - 8.2e-3) < 1e-12);
+                QVERIFY(std::abs(points[7].x() - 9.4e-3) < 1e-12);
                 continue;
             }
             QVERIFY(std::abs(points[5].x() - 10e-3) < 1e-12);
@@ -428,10 +449,10 @@ class TrapKindsTest : public QObject {
         QVERIFY(isOnLedge(gap[1].points.front(), 3e-3));
         for (const std::size_t i : {2, 3}) {
             QVERIFY(std::abs(gap[i].points.front().x() + 10e-3) < 1e-12);
-            QVERIFY(std::abs(gap[i].points.back().x() + 8.8e-3) < 1e-12);
+            QVERIFY(std::abs(gap[i].points.back().x() + 7.4e-3) < 1e-12);
             QVERIFY(gap[i].points.front().y() < foot - 9e-3);
         }
-        QVERIFY(std::abs(gap[4].points.back().x() + 6e-3) < 1e-12);
+        QVERIFY(std::abs(gap[4].points[5].x() + 6e-3) < 1e-12);
         QVERIFY(isOnLedge(gap[4].points.back(), 3e-3) && isOnLedge(gap[5].points.front(), 3e-3));
     }
 
