@@ -94,11 +94,12 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
                         part.name, part.symmetry.name, fitted->plannedTraps));
         const part::LengthInPose uneven = part::findUnevenLength(part);
         if (uneven.offset < kBalanced * uneven.length) {
-            proposal.reasons.push_back(
-                fmt::format("Its centre of mass is {:.2g} mm from the middle of its length of {:.3g} mm: of "
-                            "parts that balance so no track so far tells which end comes first, and about "
-                            "half will come the other way round.",
-                            uneven.offset / base::kMillimetre, uneven.length / base::kMillimetre));
+            proposal.reasons.push_back(fmt::format(
+                "Its centre of mass is {:.2g} mm from the middle of its length of {:.3g} mm: of "
+                "parts that balance so gaps do not tell which end comes first, and about half "
+                "will come the other way round. Ledges behind gaps can throw these out: --ledges, "
+                "or Let only one way pass among the presets of a track.",
+                uneven.offset / base::kMillimetre, uneven.length / base::kMillimetre));
         }
     } else {
         proposal.reasons.push_back(fmt::format(
