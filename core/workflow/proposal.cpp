@@ -97,7 +97,7 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
             proposal.reasons.push_back(fmt::format(
                 "Its centre of mass is {:.2g} mm from the middle of its length of {:.3g} mm: of "
                 "parts that balance so gaps do not tell which end comes first, and about half "
-                "will come the other way round. Ledges behind gaps can throw these out: --ledges, "
+                "will come the other way round. Ledges behind gaps throw these out of some parts: --ledges, "
                 "or Let only one way pass among the presets of a track.",
                 uneven.offset / base::kMillimetre, uneven.length / base::kMillimetre));
         }

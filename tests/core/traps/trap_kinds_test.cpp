@@ -388,7 +388,7 @@ class TrapKindsTest : public QObject {
         const track::CrossSection before = track::makeLeadIn(parameters, 0.0, 8);
         const auto cut = [](double millimetres) { return 0.5 + millimetres / 40.0; };
         // Down to 1.2 mm at the beginning, 4 mm from the wall; from there wider, along the wall.
-        std::vector<track::CrossSection> sections = traps::ledge().build(
+        const std::vector<track::CrossSection> sections = traps::ledge().build(
             parameters, before,
             std::vector<double>{0.5, 0.4, cut(19.0), cut(4.0), 0.8, cut(5.0), 0.5, 0.4, 0.5});
         const track::FeederShape linear;
@@ -397,6 +397,7 @@ class TrapKindsTest : public QObject {
             QVERIFY2(false,
                      qPrintable(QString("%1 mm over %2 mm2").arg(1e3 * wall.thickness).arg(1e6 * wall.area)));
     }
+
     void aLedgeIsWhatItsNumbersSay() {
         const traps::TrapKind ledge = traps::ledge();
         TrapParameters parameters;
