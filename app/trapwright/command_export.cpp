@@ -86,7 +86,7 @@ Attempt<ExitCode> run(const Options& options, const Console& console) {
     const track::TrackFile& design = source->design;
     auto means = findPrintMeans(options.print);
     if (!means) return means.error();
-    const auto solid = track::buildPrintSolid(design.track, toPrintOptions(options.print));
+    const auto solid = track::buildPrintSolid(design.track, toPrintOptions(options.print, means->limits));
     if (!solid) return Failure{ExitCode::usage, solid.error().message};
     auto pieces = buildPieces(design.track, options.print, *means);
     if (!pieces) return pieces.error();

@@ -78,6 +78,9 @@ void addPrintOptions(Command command, PrintRequest& request) {
     add("--wall-height", request.wallHeight,
         "Of both side walls, above the highest hill (0: those that the track has)");
     add("--wall-thickness", request.wallThickness, "Of the side walls, at least (2)");
+    add("--rim", request.rim,
+        "Beyond a border to which the surface rises so steeply that its edge would be too sharp to print, "
+        "where no wall is (the printer's thinnest wall; 0: none)");
     command
         .addFlag(
             "--flange", request.flange,
@@ -115,12 +118,14 @@ void addPrintOptions(Command command, PrintRequest& request) {
         "Holes are wider and deeper than their pins by this (0.2)");
 }
 
-track::PrintOptions toPrintOptions(const PrintRequest& request) {
+track::PrintOptions toPrintOptions(const PrintRequest& request, const geometry::PrintLimits& limits) {
     track::PrintOptions options;
     if (request.baseThickness) options.baseThickness = *request.baseThickness * base::kMillimetre;
     options.flange = request.flange;
     set(options.wallHeight, request.wallHeight, base::kMillimetre);
     set(options.wallThickness, request.wallThickness, base::kMillimetre);
+    options.rim = limits.thinnestWall;
+    set(options.rim, request.rim, base::kMillimetre);
     set(options.flangeThickness, request.flangeThickness, base::kMillimetre);
     set(options.boltDiameter, request.boltDiameter, base::kMillimetre);
     set(options.boltSpacing, request.boltSpacing, base::kMillimetre);
@@ -157,7 +162,7 @@ Attempt<PrintMeans> findPrintMeans(const PrintRequest& request) {
 
 Attempt<std::vector<track::PrintPiece>> buildPieces(const track::Track& track, const PrintRequest& request,
                                                     const PrintMeans& means) {
-    const track::PrintOptions options = toPrintOptions(request);
+    const track::PrintOptions options = toPrintOptions(request, means.limits);
     track::SplitOptions split;
     split.cuts = request.cuts;
     split.dowelWall = means.limits.thinnestWall;

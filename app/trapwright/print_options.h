@@ -20,6 +20,7 @@ struct PrintRequest {
     std::optional<double> baseThickness;
     std::optional<double> wallHeight;
     std::optional<double> wallThickness;
+    std::optional<double> rim;
     bool flange = false;
     std::optional<double> flangeThickness;
     std::optional<double> boltDiameter;
@@ -42,7 +43,7 @@ void addPrinterOptions(Command command, PrintRequest& request);
 /// Adds these and all else of a request.
 void addPrintOptions(Command command, PrintRequest& request);
 
-track::PrintOptions toPrintOptions(const PrintRequest& request);
+track::PrintOptions toPrintOptions(const PrintRequest& request, const geometry::PrintLimits& limits);
 
 /// What the track is printed with.
 struct PrintMeans {

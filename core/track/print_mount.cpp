@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/track/print_outline.h"
+
 namespace trapwright::track {
 
 namespace {
@@ -44,6 +46,7 @@ std::optional<PrintProblem> findRangeProblem(const PrintOptions& options, double
     } lengths[] = {{"baseThickness", "base thickness", base, false},
                    {"wallHeight", "wall height", options.wallHeight, true},
                    {"wallThickness", "wall thickness", options.wallThickness, false},
+                   {"rim", "rim", options.rim, true},
                    {"flangeThickness", "flange thickness", options.flangeThickness, false},
                    {"boltDiameter", "bolt hole diameter", options.boltDiameter, true},
                    {"boltSpacing", "bolt spacing", options.boltSpacing, false},
@@ -83,7 +86,9 @@ std::optional<PrintProblem> findBoltProblem(const Track& track, const PrintOptio
 }  // namespace
 
 double outerSideOf(const Track& track, const PrintOptions& options) {
-    return 0.5 * track.width + (hasWalls(track, options) ? options.wallThickness : 0.0);
+    if (hasWalls(track, options)) return 0.5 * track.width + options.wallThickness;
+    const bool hasRims = !placeRims(track.shape, track.sections, options.rim).empty();
+    return 0.5 * track.width + (hasRims ? options.rim : 0.0);
 }
 
 double flangeWidthOf(const PrintOptions& options) {

@@ -8,7 +8,7 @@
 namespace trapwright::track {
 
 /// y of the outer faces of what stands beside the surface at either side: walls, of which one may not be
-/// there, or the track's width. [m]
+/// there, rims, or the track's width. [m]
 double outerSideOf(const Track& track, const PrintOptions& options);
 
 /// Half a flange is as wide as its bolts are from its edge. [m]

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "core/geometry/print_check.h"
 
 namespace trapwright::track {
 
@@ -22,6 +27,8 @@ struct Topology {
     int firstSurface = 0;  // the surface's first point of the upper side
     int lastSurface = 0;
     int topCount = 0;
+    std::optional<std::size_t> innerRim;  // posts
+    std::optional<std::size_t> outerRim;
 };
 
 /// One cross-section of the solid: (y, height in the room).
@@ -29,6 +36,36 @@ struct Row {
     std::vector<base::Vec2> top;  // the upper side from inside to outside
     std::vector<double> base;     // y of each post
 };
+
+bool hasInnerRim(const PrintOutline& outline) {
+    return !outline.innerWallTop &&
+           std::ranges::any_of(outline.rims, [](const Rims& rims) { return rims.inner > 0.0; });
+}
+bool hasOuterRim(const PrintOutline& outline) {
+    return !outline.outerWallTop &&
+           std::ranges::any_of(outline.rims, [](const Rims& rims) { return rims.outer > 0.0; });
+}
+
+/// In proportion between the two next to it.
+Rims rimsAt(std::span<const Rims> rims, double x) {
+    if (rims.empty()) return {x, 0.0, 0.0};
+    const auto next = std::ranges::lower_bound(rims, x, {}, &Rims::x);
+    if (next == rims.begin()) return rims.front();
+    if (next == rims.end()) return rims.back();
+    const Rims& last = *std::prev(next);
+    const double share = (x - last.x) / (next->x - last.x);
+    return {x, std::lerp(last.inner, next->inner, share), std::lerp(last.outer, next->outer, share)};
+}
+
+/// Whether the surface's border from one place to another and the upright side below it are too sharp, with
+/// the corner of the surface's triangle there.
+bool isSharp(const base::Vec3& from, const base::Vec3& to, const base::Vec3& corner) {
+    const base::Vec3 along = (to - from).normalized();
+    const auto across = [&](const base::Vec3& direction) {
+        return base::Vec3((direction - along * along.dot(direction)).normalized());
+    };
+    return across(corner - from).dot(across(-base::Vec3::UnitZ())) > std::cos(geometry::kSharpestEdge);
+}
 
 Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
     Topology topology;
@@ -45,6 +82,11 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 2, next + 1}, {}});
         next += 2;
+    } else if (hasInnerRim(outline)) {
+        topology.innerRim = posts.size() - 1;
+        posts.back().right.push_back(next);
+        posts.push_back({{next + 1}, {}});
+        ++next;
     }
     topology.firstSurface = next;
     posts.back().right.push_back(next++);
@@ -55,6 +97,10 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
         next += 2;
+    } else if (hasOuterRim(outline)) {
+        topology.outerRim = posts.size();
+        posts.push_back({{next}, {}});
+        ++next;
     }
     if (outline.outerFlange) {
         posts.back().left.insert(posts.back().left.begin(), next);
@@ -70,8 +116,9 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
 Row makeRow(const CrossSection& section, const PrintOutline& outline, double rise) {
     const double innerBorder = section.points.front().x();
     const double outerBorder = section.points.back().x();
-    const double innerSide = outline.innerWallTop ? outline.innerSide : innerBorder;
-    const double outerSide = outline.outerWallTop ? outline.outerSide : outerBorder;
+    const Rims rims = rimsAt(outline.rims, section.x);
+    const double innerSide = outline.innerWallTop ? outline.innerSide : innerBorder - rims.inner;
+    const double outerSide = outline.outerWallTop ? outline.outerSide : outerBorder + rims.outer;
     Row row;
     if (outline.innerFlange) {
         row.top.emplace_back(*outline.innerFlange, outline.flangeTop);
@@ -82,6 +129,9 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
         row.top.emplace_back(innerSide, *outline.innerWallTop + rise);
         row.top.emplace_back(innerBorder, *outline.innerWallTop + rise);
         row.base.push_back(innerSide);
+    } else if (hasInnerRim(outline)) {
+        row.top.emplace_back(innerSide, section.points.front().y() + rise);
+        row.base.push_back(innerSide);
     }
     for (const base::Vec2& point : section.points)
         row.top.emplace_back(point.x(), point.y() + rise);
@@ -90,6 +140,9 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
     if (outline.outerWallTop) {
         row.top.emplace_back(outerBorder, *outline.outerWallTop + rise);
         row.top.emplace_back(outerSide, *outline.outerWallTop + rise);
+        row.base.push_back(outerSide);
+    } else if (hasOuterRim(outline)) {
+        row.top.emplace_back(outerSide, section.points.back().y() + rise);
         row.base.push_back(outerSide);
     }
     if (outline.outerFlange) {
@@ -140,7 +193,8 @@ class Builder {
         };
         std::vector<int>& top = top_.emplace_back();
         for (std::size_t j = 0; j < row.top.size(); ++j) {
-            // A flange as high as the surface's border has one point in common with it.
+            // A flange as high as the surface's border has one point in common with it, and so has a rim of
+            // no width.
             if (j > 0 && row.top[j] == row.top[j - 1]) {
                 top.push_back(top.back());
                 continue;
@@ -149,9 +203,13 @@ class Builder {
             addVertex(row.top[j].x(), row.top[j].y());
         }
         std::vector<int>& bottom = bottom_.emplace_back();
-        for (const double y : row.base) {
+        for (std::size_t k = 0; k < row.base.size(); ++k) {
+            if (k > 0 && row.base[k] == row.base[k - 1]) {
+                bottom.push_back(bottom.back());
+                continue;
+            }
             bottom.push_back(static_cast<int>(mesh_.vertices.size()));
-            addVertex(y, base);
+            addVertex(row.base[k], base);
         }
     }
 
@@ -170,14 +228,25 @@ class Builder {
             addQuad(top_[i][j], top_[i][j + 1], top_[i + 1][j], top_[i + 1][j + 1]);
     }
 
+    /// Where a rim has no width its post and the border's are at one place, and what the rim's says holds.
+    [[nodiscard]] const Post& postAt(const std::vector<int>& base, std::size_t k) const {
+        const std::size_t inner = topology_.innerRim.value_or(k);
+        const std::size_t outer = topology_.outerRim.value_or(k);
+        if (k == inner + 1 && base[inner] == base[k]) return topology_.posts[inner];
+        if (k + 1 == outer && base[outer] == base[k]) return topology_.posts[outer];
+        return topology_.posts[k];
+    }
+
     /// An end face, column by column between two posts.
     void addEnd(int i, bool ahead) {
+        const std::vector<int>& base = bottom_[i];
         for (std::size_t k = 0; k + 1 < topology_.posts.size(); ++k) {
-            std::vector<int> left{bottom_[i][k]};
-            std::vector<int> right{bottom_[i][k + 1]};
-            for (const int point : topology_.posts[k].right)
+            if (base[k] == base[k + 1]) continue;
+            std::vector<int> left{base[k]};
+            std::vector<int> right{base[k + 1]};
+            for (const int point : postAt(base, k).right)
                 left.push_back(top_[i][point]);
-            for (const int point : topology_.posts[k + 1].left)
+            for (const int point : postAt(base, k + 1).left)
                 right.push_back(top_[i][point]);
             std::size_t l = 0;
             std::size_t r = 0;
@@ -212,6 +281,26 @@ double highestOf(std::span<const CrossSection> sections) {
             highest = std::max(highest, point.y());
     }
     return highest;
+}
+
+std::vector<Rims> placeRims(const FeederShape& shape, std::span<const CrossSection> sections, double width) {
+    std::vector<Rims> rims;
+    if (!(width > 0.0)) return rims;
+    for (const CrossSection& section : sections)
+        rims.push_back({section.x, 0.0, 0.0});
+    const auto place = [&](std::size_t i, std::size_t point) {
+        return shape.toRoom({sections[i].x, sections[i].points[point].x(), sections[i].points[point].y()});
+    };
+    const std::size_t last = sections.front().points.size() - 1;
+    for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
+        // The triangles of the surface at its borders (buildTrackSolid).
+        if (isSharp(place(i, 0), place(i + 1, 0), place(i, 1))) rims[i].inner = rims[i + 1].inner = width;
+        if (isSharp(place(i, last), place(i + 1, last), place(i + 1, last - 1)))
+            rims[i].outer = rims[i + 1].outer = width;
+    }
+    if (std::ranges::all_of(rims, [](const Rims& one) { return one.inner == 0.0 && one.outer == 0.0; }))
+        rims.clear();
+    return rims;
 }
 
 TrackSolid buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,

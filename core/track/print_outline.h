@@ -2,11 +2,25 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/track/track.h"
 #include "core/track/track_solid.h"
 
 namespace trapwright::track {
+
+/// How far a track's solid goes on level beyond the borders of its surface in a cross-section; 0: not at all.
+/// [m]
+struct Rims {
+    double x = 0.0;  // of the section, along the track
+    double inner = 0.0;
+    double outer = 0.0;
+};
+
+/// Where the surface rises to a border so steeply that it and the upright side below that border are a ridge
+/// too sharp to be printed (geometry::kSharpestEdge), a rim of this width for all sections; else 0. No
+/// sections if there is no such place.
+std::vector<Rims> placeRims(const FeederShape& shape, std::span<const CrossSection> sections, double width);
 
 /// What stands beside the surface in every cross-section of a track: walls that are simulated, and what is
 /// printed besides. y in track coordinates; what
@@ -20,6 +34,7 @@ struct PrintOutline {
     double flangeTop = 0.0;               // z in the room; not above the surface
     std::optional<double> innerFlange{};  // y of its edge; none: no flange at this side
     std::optional<double> outerFlange{};  // likewise
+    std::vector<Rims> rims{};  // by rising x; between these in proportion, and none where there is a wall
 };
 
 /// The highest of the surface's points, above z = 0 of the track; at least 0. [m]
@@ -28,7 +43,7 @@ double highestOf(std::span<const CrossSection> sections);
 /// The surface over these sections, what stands beside it, sides, ends and a flat base as one closed,
 /// oriented manifold. Its first triangles are those of the track's surface. Walls stand upright on the
 /// surface's borders and reach outward to the sides; flanges begin at the walls, or without walls at the
-/// borders.
+/// rims or borders.
 TrackSolid buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
                          const PrintOutline& outline);
 

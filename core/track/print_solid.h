@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/geometry/print_check.h"
 #include "core/geometry/triangle_mesh.h"
 #include "core/track/track.h"
 
@@ -15,6 +16,9 @@ struct PrintOptions {
     // Of both side walls, above the surface's highest point; what the track's own walls are higher counts.
     double wallHeight = 0.0;
     double wallThickness = kWallThickness;  // at least, beyond the track's width
+    // Of a rim beyond a border without a wall, where the surface rises to it so steeply that its edge would
+    // be too sharp to be printed; 0: none.
+    double rim = geometry::PrintLimits().thinnestWall;
     /// To screw the track to a linear feeder: a plate at the foot of both sides. In a bowl: one at the outer
     /// side, cut round at insertRadius.
     bool flange = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/traps/trap_chain.h"
 
@@ -208,9 +209,11 @@ std::vector<search::Dimension> dimensionsOfCutOut(const TrapParameters& paramete
 }
 
 /// `step`: how much lower the track is behind the cut, or if negative from the cut's beginning on. [m]
+/// Without one it is a cut-out. Behind the cut it is lower before it is wide again: both at once would leave
+/// a blade between the step's face and the cut's, too thin to be printed.
 std::vector<track::CrossSection> buildLedge(const TrapParameters& parameters,
                                             const track::CrossSection& entry, std::span<const double> numbers,
-                                            double step) {
+                                            std::optional<double> step) {
     const double deepest = deepestCut(parameters);
     const Form narrow =
         makeLedge(within(0.0, kSteepestLedgeWall, numbers[2]), within(-kMostFloor, kMostFloor, numbers[3]),
@@ -219,17 +222,18 @@ std::vector<track::CrossSection> buildLedge(const TrapParameters& parameters,
     whole.cut = 0.0;
     const double fall = within(-kSteepestRise, kSteepestFall, numbers[6]);
     Course course(parameters, entry);
-    const auto addEdge = [&](double height, const Form& form) {
+    const auto addEdge = [&](double height, double length, const Form& form) {
         if (height > 0.0)
-            course.fallBy(height, kShortestEdge, form);
+            course.fallBy(height, length, form);
         else
-            course.add(kShortestEdge, fall, form);
+            course.add(length, fall, form);
     };
     course.add(within(parameters.minSegmentLength, parameters.maxSegmentLength, numbers[0]),
                within(-kSteepestRise, kSteepestFall, numbers[1]), whole);
-    addEdge(-step, narrow);
+    addEdge(-step.value_or(0.0), kShortestEdge, narrow);
     course.add(within(kShortestEdge, parameters.maxSegmentLength, numbers[5]), fall, narrow);
-    addEdge(step, whole);
+    if (step) addEdge(*step, 0.5 * kShortestEdge, narrow);
+    course.add(step ? 0.5 * kShortestEdge : kShortestEdge, fall, whole);
     course.rest();
     return course.take();
 }
@@ -237,7 +241,7 @@ std::vector<track::CrossSection> buildLedge(const TrapParameters& parameters,
 std::vector<track::CrossSection> buildCutOut(const TrapParameters& parameters,
                                              const track::CrossSection& entry,
                                              std::span<const double> numbers) {
-    return buildLedge(parameters, entry, numbers, 0.0);
+    return buildLedge(parameters, entry, numbers, std::nullopt);
 }
 
 std::vector<search::Dimension> dimensionsOfGap(const TrapParameters& parameters) {
@@ -260,6 +264,12 @@ std::vector<double> layOutCutOut(const TrapParameters& parameters) {
     std::vector<double> places{length};
     for (const double next : {kShortestEdge, cut, kShortestEdge, 0.5 * length, 0.5 * length})
         places.push_back(places.back() + next);
+    return places;
+}
+
+std::vector<double> layOutGap(const TrapParameters& parameters) {
+    std::vector<double> places = layOutCutOut(parameters);
+    places.insert(places.begin() + 3, places[3] - 0.5 * kShortestEdge);
     return places;
 }
 
@@ -318,7 +328,7 @@ TrapKind gap() {
             "A cut-out with a step behind it or at its beginning: tells a part's two ends apart.",
             &dimensionsOfGap,
             &buildGap,
-            &layOutCutOut,
+            &layOutGap,
             &longestCutOut,
             nullptr,
             true};

@@ -28,7 +28,7 @@ QByteArray hashStudy(const QString& folder, const QStringList& learning, const Q
                                          QStringList{"select", "study.trap", "--winners", "2", "--trials",
                                                      trials, "--corner-trials", "8", "--json"},
                                          QStringList{"validate", "study.trap", "--trials", "2", "--json"},
-                                         QStringList{"export", "study.trap", "track.stl"}}) {
+                                         QStringList{"export", "study.trap", "track.stl", "--rim", "0"}}) {
         const Ran ran = run(folder, arguments);
         if (ran.code != 0) return "failed: " + ran.all();
         // What evolve prints has wall times in it.

@@ -2,7 +2,8 @@
 """The studies that come with Trapwright (resources/studies): made from learned ones, and validated again.
 
 examples.py keep NAME STUDY     puts a copy of a learned and validated study among them, without the single trials of
-                                its generations and selections, which make most of its size and can be simulated
+                                its generations and selections, which make most of its size and can be simulated, and
+                                without all but its last validation
 examples.py again [NAME ...]    validates each, or those named, as it was published, and compares every row; prints
                                 resources/docs/results.md's table, and ends with 1 where a row differs
 
@@ -50,7 +51,7 @@ def keep(name, study):
     study = pathlib.Path(study)
     if not study.is_file():
         fail(f"{study} is not there")
-    read_published(study)
+    last, _ = read_published(study)
     STUDIES.mkdir(exist_ok=True)
     target = STUDIES / f"{name}.trap"
     with tempfile.TemporaryDirectory() as folder:
@@ -59,6 +60,9 @@ def keep(name, study):
             source.execute("VACUUM INTO ?", (str(copy),))
         database = sqlite3.connect(copy, isolation_level=None)
         database.execute("DELETE FROM outcomes WHERE run <> 'validation'")
+        for table, number in (("validation", "number"), ("validation_row", "validation"), ("outcomes", "number")):
+            database.execute(f"DELETE FROM {table} WHERE {number} <> ?", (last["number"],))
+            database.execute(f"UPDATE {table} SET {number} = 0")
         database.execute("VACUUM")
         database.close()
         shutil.move(copy, target)

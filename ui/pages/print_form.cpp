@@ -63,6 +63,14 @@ PrintForm::PrintForm(QWidget* parent)
                         {"wallThickness", tr("Wall thickness"), tr("mm"),
                          tr("How far the walls reach beyond the track's width."), 0.4, 50},
                         choice_.options.wallThickness, kMillimetre)};
+    addRow(
+        shape,
+        {"rim", tr("Rim"), tr("mm"),
+         tr("How far the track goes on level beyond a border to which its surface rises so steeply that the "
+            "edge would be too sharp to print, where there is no wall. At first the printer's thinnest "
+            "wall; 0 for none."),
+         0, 20},
+        choice_.options.rim, kMillimetre);
 
     look::FoldingGroup& mount = *addGroup("print.mount", tr("Mounting"));
     flange_ = new QCheckBox(this);
@@ -152,8 +160,10 @@ void PrintForm::takePrinter() {
     const track::Printer& printer = printer_->printer();
     choice_.limits.thinnestWall = printer.thinnestWall;
     choice_.limits.steepestOverhang = printer.steepestOverhang;
+    choice_.options.rim = printer.thinnestWall;
     for (Value& value : values_) {
-        if (value.target == &choice_.limits.thinnestWall || value.target == &choice_.limits.steepestOverhang)
+        if (value.target == &choice_.limits.thinnestWall ||
+            value.target == &choice_.limits.steepestOverhang || value.target == &choice_.options.rim)
             value.fallback = *value.target;
     }
     showValues();

@@ -151,7 +151,9 @@ class PrintPiecesTest : public QObject {
             SplitOptions split;
             split.cuts = {3};
             split.dowelDiameter = 0.0;
-            const auto pieces = track::buildPrintPieces(track, {}, split);
+            PrintOptions bare;
+            bare.rim = 0.0;
+            const auto pieces = track::buildPrintPieces(track, bare, split);
             QVERIFY(pieces.ok());
             // Radial on a bowl: each vertex of the face has the section's x.
             const double x = track.sections[3].x;

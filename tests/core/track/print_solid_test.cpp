@@ -8,6 +8,7 @@
 
 #include "core/geometry/mesh_check.h"
 #include "core/geometry/mesh_files.h"
+#include "core/geometry/print_check.h"
 #include "core/geometry/three_mf.h"
 #include "core/track/track_file.h"
 #include "track_scenes.h"
@@ -98,7 +99,9 @@ class PrintSolidTest : public QObject {
  private slots:
     void withoutOptionsItIsTheTrack() {
         const Track track = readExample("cuboid_track");
-        const auto solid = track::buildPrintSolid(track, {});
+        PrintOptions bare;
+        bare.rim = 0.0;
+        const auto solid = track::buildPrintSolid(track, bare);
         QVERIFY(solid.ok());
         QCOMPARE(solid->triangles.size(), track.solid.triangles.size());
         std::set<Corners> one;
@@ -108,6 +111,48 @@ class PrintSolidTest : public QObject {
             other.insert(cornersOf(*solid, i));
         }
         QVERIFY(one == other);
+    }
+
+    // Where the surface rises to its border by 60 degrees, its edge is one of 30.
+    void aRimBluntsASharpBorder() {
+        track::CrossSection section{20 * kMm, {}};
+        const double top = kSurface + 6 * kMm * std::tan(60.0 * base::kDegree);
+        for (const double y : {-30.0, 0.0, 24.0})
+            section.points.emplace_back(y * kMm, kSurface);
+        section.points.emplace_back(30 * kMm, top);
+        const Track track = track::buildTrack({}, {{section}}).value();
+        PrintOptions bare;
+        bare.rim = 0.0;
+        const auto sharp = track::buildPrintSolid(track, bare);
+        QVERIFY(sharp.ok());
+        const auto ridges = geometry::findSharpRidges(*sharp, {});
+        QCOMPARE(ridges.size(), std::size_t{1});
+        QVERIFY(std::abs(ridges[0].angle - 30.0 * base::kDegree) < 1.0 * base::kDegree);
+
+        PrintOptions options;
+        for (const bool flange : {false, true}) {
+            options.flange = flange;
+            const auto solid = track::buildPrintSolid(track, options);
+            QVERIFY(solid.ok());
+            const geometry::PrintReport report = geometry::checkForPrinting(*solid, {});
+            QVERIFY(report.closed && report.ridges.empty() && report.thinWalls.empty());
+            QCOMPARE(report.overlappingTriangles, 0);
+            QCOMPARE(countMissingSurface(track, *solid), 0U);
+            if (flange) continue;
+            const geometry::Box box = geometry::calcBoundingBox(*solid);
+            QVERIFY(std::abs(box.low.y() + 30 * kMm) < 1e-12 && std::abs(box.high.y() - 31.2 * kMm) < 1e-12);
+            // Along the two segments of the lead-out and the trap, and with the lead-in it becomes less.
+            const double height = kBase + top;
+            const double added = report.volume - geometry::checkForPrinting(*sharp, {}).volume;
+            QVERIFY(added > 1.2 * kMm * height * 72 * kMm && added < 1.2 * kMm * height * 132 * kMm);
+        }
+        // A wall makes it blunt by itself, and a border that is not sharp needs no rim.
+        QCOMPARE(track::buildPrintSolid(track, makeOptions(5 * kMm, false, 0.0))->triangles.size(), [&] {
+            PrintOptions walls = makeOptions(5 * kMm, false, 0.0);
+            walls.rim = 0.0;
+            return track::buildPrintSolid(track, walls)->triangles.size();
+        }());
+        QCOMPARE(track::buildPrintSolid(makeFlat(), {})->triangles.size(), makeFlat().solid.triangles.size());
     }
 
     void volumesOfALinearTrack() {
@@ -314,6 +359,7 @@ class PrintSolidTest : public QObject {
         add("wallThickness", [](PrintOptions& o) { o.wallThickness = 0.0; });
         add(
             "wallThickness", [](PrintOptions& o) { o.wallThickness = 5.0; }, "wall too thick");
+        add("rim", [](PrintOptions& o) { o.rim = -1 * kMm; });
         add("flangeThickness", [](PrintOptions& o) { o.flangeThickness = 3.1 * kMm; });
         add("boltDiameter", [](PrintOptions& o) { o.boltDiameter = -1 * kMm; });
         add("boltEdgeDistance", [](PrintOptions& o) { o.boltEdgeDistance = 2 * kMm; });

@@ -218,21 +218,59 @@ class TrapKindsTest : public QObject {
         const double entry = 120e-3;
         const track::CrossSection before = traps::levelSection(parameters, entry);
         const auto level = traps::cutOut().build(parameters, before, numbers);
-        const double edge = 0.5e-3 * std::tan(8.0 * base::kDegree);  // what an edge falls without a step
-        // The step, and the first section that it lowers.
-        const std::pair<double, std::size_t> steps[] = {{0.0, 6}, {9e-3, 3}, {-9e-3, 1}};
-        for (const auto& [step, first] : steps) {
+        const double fall = std::tan(8.0 * base::kDegree);
+        const double half = 0.25e-3;
+        // The step, the first section that it lowers, and over how many halves of an edge.
+        struct Case {
+            double step;
+            std::size_t first;
+            double halves;
+        };
+        for (const auto& [step, first, halves] : {Case{0.0, 7, 0.0}, {9e-3, 3, 1.0}, {-9e-3, 1, 2.0}}) {
             std::vector<double> stepped = numbers;
             stepped.push_back(0.5 + step / 36e-3);
             const auto sections = gap.build(parameters, before, stepped);
-            QCOMPARE(sections.size(), level.size());
-            for (std::size_t i = 0; i < sections.size(); ++i) {
-                const double lower = i < first ? 0.0 : std::abs(step) - edge;
-                QVERIFY(std::abs(sections[i].x - level[i].x) < 1e-12);
-                for (std::size_t k = 0; k < sections[i].points.size(); ++k) {
-                    QVERIFY(std::abs(sections[i].points[k].x() - level[i].points[k].x()) < 1e-12);
-                    QVERIFY(std::abs(level[i].points[k].y() - sections[i].points[k].y() - lower) < 1e-9);
+            QCOMPARE(sections.size(), level.size() + 1);
+            const auto lower = [&](std::size_t i) {
+                return i < first ? 0.0 : std::abs(step) - halves * half * fall;
+            };
+            // The one that the cut-out has not: behind the cut, and as narrow.
+            QVERIFY(std::abs(sections[3].x - level[2].x - half) < 1e-12);
+            for (std::size_t k = 0; k < sections[3].points.size(); ++k) {
+                QVERIFY(std::abs(sections[3].points[k].x() - level[2].points[k].x()) < 1e-12);
+                QVERIFY(std::abs(level[2].points[k].y() - sections[3].points[k].y() - lower(3) -
+                                 half * fall) < 1e-9);
+            }
+            for (std::size_t i = 0; i < level.size(); ++i) {
+                const std::size_t j = i < 3 ? i : i + 1;
+                QVERIFY(std::abs(sections[j].x - level[i].x) < 1e-12);
+                for (std::size_t k = 0; k < sections[j].points.size(); ++k) {
+                    QVERIFY(std::abs(sections[j].points[k].x() - level[i].points[k].x()) < 1e-12);
+                    QVERIFY(std::abs(level[i].points[k].y() - sections[j].points[k].y() - lower(j)) < 1e-9);
                 }
+            }
+        }
+    }
+
+    void aGapWithAStepCanBePrinted() {
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const track::CrossSection before = traps::levelSection(parameters, 120e-3);
+        for (const double step : {0.75, 0.25}) {
+            for (const double cut : {0.75, 0.25}) {
+                std::vector<track::CrossSection> sections = traps::gap().build(
+                    parameters, before, std::vector<double>{0.0, 0.5, 0.5, 0.75, cut, 0.5, 0.5, step});
+                sections.insert(sections.begin(), before);
+                const track::FeederShape linear;
+                const auto solid = track::buildTrackSolid(linear, sections, 20e-3);
+                for (const geometry::SharpRidge& ridge : geometry::findSharpRidges(solid.mesh, {}))
+                    QVERIFY2(false, qPrintable(QString("%1 degrees over %2 mm, step %3, cut %4")
+                                                   .arg(ridge.angle / base::kDegree)
+                                                   .arg(1e3 * ridge.length)
+                                                   .arg(step)
+                                                   .arg(cut)));
+                QVERIFY(geometry::findThinWalls(solid.mesh, {}).empty());
             }
         }
     }
