@@ -1,5 +1,6 @@
 #include "core/store/connection.h"
 
+#include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/Column.h>
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Exception.h>
@@ -99,18 +100,35 @@ base::Status checkContent(SQLite::Database& database, const std::filesystem::pat
     return damaged(path, "it holds no settings");
 }
 
+base::Status checkPages(SQLite::Database& database, const std::filesystem::path& path) {
+    const std::string check = database.execAndGet("PRAGMA quick_check(1)").getString();
+    if (check == "ok") return base::success();
+    return damaged(path, check.substr(check.rfind('\n') + 1));
+}
+
+/// Of an older program's study, in a temporary file of SQLite's own that goes with the connection: the study
+/// stays as it is.
+base::Result<DatabasePtr> copyUpToDate(SQLite::Database& old, const std::filesystem::path& path) {
+    auto copy = std::make_unique<SQLite::Database>("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    if (const int code = SQLite::Backup(*copy, old).executeStep(); code != SQLITE_DONE)
+        throw SQLite::Exception("it could not be copied", code);
+    distrust(*copy);
+    if (const auto whole = checkPages(*copy, path); !whole) return whole.error();
+    migrate(*copy, schemaMigrations());
+    copy->exec("PRAGMA query_only = 1");
+    return copy;
+}
+
 base::Result<DatabasePtr> openReader(const std::filesystem::path& path, bool immutable) {
     auto database = std::make_unique<SQLite::Database>(
         immutable ? immutableUri(path) : fileName(path),
         SQLite::OPEN_READONLY | (immutable ? SQLite::OPEN_URI : 0), kBusyTimeout);
     distrust(*database);
     if (const auto known = checkIdentity(*database, path); !known) return known.error();
-    const int version = database->execAndGet("PRAGMA user_version").getInt();
-    if (version < currentSchemaVersion()) {
-        return base::Error{
-            "The study " + path.string() + " was written by an older Trapwright (schema version " +
-            std::to_string(version) +
-            "). Open it once for writing, for example by going on with learning, to bring it up to date."};
+    if (database->execAndGet("PRAGMA user_version").getInt() < currentSchemaVersion()) {
+        auto copy = copyUpToDate(*database, path);
+        if (!copy) return copy.error();
+        database = std::move(copy).value();
     }
     if (const auto content = checkContent(*database, path); !content) return content.error();
     return database;
@@ -223,8 +241,7 @@ base::Result<DatabasePtr> openForWriting(const std::filesystem::path& path) {
             std::make_unique<SQLite::Database>(fileName(path), SQLite::OPEN_READWRITE, kBusyTimeout);
         distrust(*database);
         if (const auto known = checkIdentity(*database, path); !known) return known.error();
-        const std::string check = database->execAndGet("PRAGMA quick_check(1)").getString();
-        if (check != "ok") return damaged(path, check.substr(check.rfind('\n') + 1));
+        if (const auto whole = checkPages(*database, path); !whole) return whole.error();
         migrate(*database, schemaMigrations());
         if (const auto content = checkContent(*database, path); !content) return content.error();
         // Not every file system can do this; then readers wait while a generation is written.

@@ -40,8 +40,8 @@ base::Result<std::unique_ptr<SQLite::Database>> openBeside(const std::filesystem
 /// Whether the path that was opened still leads to this file: nobody has deleted, moved or replaced it.
 bool isInPlace(SQLite::Database& database);
 
-/// Opens an existing study for reading, while it is being written, and in folders that cannot be written. The
-/// caller has its OpenFile.
+/// Opens an existing study for reading, while it is being written, and in folders that cannot be written; of
+/// an older program a copy that is brought up to date, as it is now. The caller has its OpenFile.
 base::Result<std::unique_ptr<SQLite::Database>> openForReading(const std::filesystem::path& path);
 
 /// Moves everything into the one file, so that it can be copied and read from anywhere. Not possible while

@@ -135,7 +135,7 @@ class StudyChecksTest : public QObject {
     void studyOfVersion1IsBroughtUpToDate() {
         sample::write(path_, 2);
         sample::makeOld(path_, 1);
-        QVERIFY(sample::messageOf(StudyFile::openReadOnly(path_)).contains("older Trapwright"));
+        QCOMPARE(StudyFile::openReadOnly(path_)->generationCount().value(), 2);
         {
             auto study = StudyFile::open(path_, sample::kProgram);
             VERIFY_OK(study);

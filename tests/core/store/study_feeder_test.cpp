@@ -199,7 +199,7 @@ class StudyFeederTest : public QObject {
 
     void studyOfVersion3IsBroughtUpToDate() {
         sample::makeOld(path_, 3);
-        QVERIFY(sample::messageOf(StudyFile::openReadOnly(path_)).contains("older Trapwright"));
+        QCOMPARE(StudyFile::openReadOnly(path_)->generationCount().value(), 1);
         auto study = StudyFile::open(path_, sample::kProgram);
         VERIFY_OK(study);
         QCOMPARE(study->generationCount().value(), 1);
