@@ -70,7 +70,6 @@ class StudyFile {
     /// Opens a study to go on with it. An error if another has it open for writing, or if it cannot be
     /// written.
     static base::Result<StudyFile> open(const std::filesystem::path& path, const std::string& program);
-    /// A study of an older program is copied for it, and told as it is now.
     static base::Result<StudyFile> openReadOnly(const std::filesystem::path& path);
     /// The study that this object has open for writing, once more, for another thread, which then need not
     /// wait while this one learns.

@@ -78,7 +78,9 @@ void MendCard::show(const study::Individual& track, const session::PrintedTrack&
                     const geometry::PrintLimits& limits) {
     track_ = track;
     limits_ = limits;
-    unprintable_ = printed.learnedFlaws.thin + printed.learnedFlaws.overhang;
+    // What is printed around the track can have mended it: rims, walls.
+    const bool isPrintable = printed.report.thinWalls.empty() && printed.report.overhangs.empty();
+    unprintable_ = isPrintable ? 0.0 : printed.learnedFlaws.thin + printed.learnedFlaws.overhang;
     update();
 }
 

@@ -226,13 +226,14 @@ class TrapKindsTest : public QObject {
             std::size_t first;
             double halves;
         };
-        for (const auto& [step, first, halves] : {Case{0.0, 7, 0.0}, {9e-3, 3, 1.0}, {-9e-3, 1, 2.0}}) {
+        const Case cases[] = {{0.0, 7, 0.0}, {9e-3, 3, 1.0}, {-9e-3, 1, 2.0}};
+        for (const Case& one : cases) {
             std::vector<double> stepped = numbers;
-            stepped.push_back(0.5 + step / 36e-3);
+            stepped.push_back(0.5 + one.step / 36e-3);
             const auto sections = gap.build(parameters, before, stepped);
             QCOMPARE(sections.size(), level.size() + 1);
             const auto lower = [&](std::size_t i) {
-                return i < first ? 0.0 : std::abs(step) - halves * half * fall;
+                return i < one.first ? 0.0 : std::abs(one.step) - one.halves * half * fall;
             };
             // The one that the cut-out has not: behind the cut, and as narrow.
             QVERIFY(std::abs(sections[3].x - level[2].x - half) < 1e-12);

@@ -425,6 +425,7 @@ class ExportPageTest : public QObject {
         User user(studies_, "mend.trap");
         QVERIFY(user.waitForSolid());
         user.type("thinnestWall", QString::number(limits.thinnestWall / kMm));
+        user.type("rim", "0");  // which could mend it as well
         QVERIFY(user.waitForSolid());
         auto* mend = user.find<QPushButton>("print.mend");
         QVERIFY(mend->isVisibleTo(&user.window) && mend->isEnabled());
