@@ -3,7 +3,7 @@
 
 examples.py keep NAME STUDY     puts a copy of a learned and validated study among them, without the single trials of
                                 its generations and selections, which make most of its size and can be simulated, and
-                                without all but its last validation
+                                without all but its last selection and validation
 examples.py again [NAME ...]    validates each, or those named, as it was published, and compares every row; prints
                                 resources/docs/results.md's table, and ends with 1 where a row differs
 
@@ -60,8 +60,13 @@ def keep(name, study):
             source.execute("VACUUM INTO ?", (str(copy),))
         database = sqlite3.connect(copy, isolation_level=None)
         database.execute("DELETE FROM outcomes WHERE run <> 'validation'")
-        for table, number in (("validation", "number"), ("validation_row", "validation"), ("outcomes", "number")):
-            database.execute(f"DELETE FROM {table} WHERE {number} <> ?", (last["number"],))
+        selected = database.execute("SELECT MAX(number) FROM selection").fetchone()[0]
+        for table, number, kept in (("validation", "number", last["number"]),
+                                    ("validation_row", "validation", last["number"]),
+                                    ("outcomes", "number", last["number"]), ("selection", "number", selected),
+                                    ("selection_entry", "selection", selected),
+                                    ("selection_score", "selection", selected)):
+            database.execute(f"DELETE FROM {table} WHERE {number} <> ?", (kept,))
             database.execute(f"UPDATE {table} SET {number} = 0")
         database.execute("VACUUM")
         database.close()
