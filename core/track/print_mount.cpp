@@ -87,7 +87,7 @@ std::optional<PrintProblem> findBoltProblem(const Track& track, const PrintOptio
 
 double outerSideOf(const Track& track, const PrintOptions& options) {
     if (hasWalls(track, options)) return 0.5 * track.width + options.wallThickness;
-    const bool hasRims = !placeRims(track.shape, track.sections, options.rim).empty();
+    const bool hasRims = !placeRims(track, options.rim).empty();
     return 0.5 * track.width + (hasRims ? options.rim : 0.0);
 }
 

@@ -283,20 +283,30 @@ double highestOf(std::span<const CrossSection> sections) {
     return highest;
 }
 
-std::vector<Rims> placeRims(const FeederShape& shape, std::span<const CrossSection> sections, double width) {
+std::vector<Rims> placeRims(const Track& track, double width) {
+    const std::vector<CrossSection>& sections = track.sections;
     std::vector<Rims> rims;
     if (!(width > 0.0)) return rims;
     for (const CrossSection& section : sections)
         rims.push_back({section.x, 0.0, 0.0});
-    const auto place = [&](std::size_t i, std::size_t point) {
-        return shape.toRoom({sections[i].x, sections[i].points[point].x(), sections[i].points[point].y()});
-    };
     const std::size_t last = sections.front().points.size() - 1;
+    const double strip = track.width / static_cast<double>(last + 1);
+    const auto place = [&](std::size_t i, std::size_t point) {
+        const base::Vec2& own = sections[i].points[point];
+        return track.shape.toRoom({sections[i].x, own.x(), own.y()});
+    };
+    const auto isCut = [&](std::size_t i, std::size_t border) {
+        return std::abs(sections[i].points[border].x()) < 0.5 * track.width - strip;
+    };
+    // `corner`: of the surface's triangle at its border (buildTrackSolid).
+    const auto widen = [&](std::size_t i, std::size_t border, const base::Vec3& corner, double Rims::*side) {
+        if (isCut(i, border) || isCut(i + 1, border)) return;
+        if (isSharp(place(i, border), place(i + 1, border), corner))
+            rims[i].*side = rims[i + 1].*side = width;
+    };
     for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
-        // The triangles of the surface at its borders (buildTrackSolid).
-        if (isSharp(place(i, 0), place(i + 1, 0), place(i, 1))) rims[i].inner = rims[i + 1].inner = width;
-        if (isSharp(place(i, last), place(i + 1, last), place(i + 1, last - 1)))
-            rims[i].outer = rims[i + 1].outer = width;
+        widen(i, 0, place(i, 1), &Rims::inner);
+        widen(i, last, place(i + 1, last - 1), &Rims::outer);
     }
     if (std::ranges::all_of(rims, [](const Rims& one) { return one.inner == 0.0 && one.outer == 0.0; }))
         rims.clear();

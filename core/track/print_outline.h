@@ -18,9 +18,10 @@ struct Rims {
 };
 
 /// Where the surface rises to a border so steeply that it and the upright side below that border are a ridge
-/// too sharp to be printed (geometry::kSharpestEdge), a rim of this width for all sections; else 0. No
-/// sections if there is no such place.
-std::vector<Rims> placeRims(const FeederShape& shape, std::span<const CrossSection> sections, double width);
+/// too sharp to be printed (geometry::kSharpestEdge), a rim of this width; else 0. None at or beside a
+/// border that is farther from the track's edge than its point's strip is wide: what is cut off there, to a
+/// lip, decides by tenths of a millimetre. No sections if there is no such place.
+std::vector<Rims> placeRims(const Track& track, double width);
 
 /// What stands beside the surface in every cross-section of a track: walls that are simulated, and what is
 /// printed besides. y in track coordinates; what

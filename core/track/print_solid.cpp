@@ -39,7 +39,7 @@ PrintOutline makeOutline(const Track& track, const PrintOptions& options) {
     const double outer = std::max(track.walls.outer, options.wallHeight);
     if (inner > 0.0) outline.innerWallTop = highest + inner;
     if (outer > 0.0) outline.outerWallTop = highest + outer;
-    outline.rims = placeRims(track.shape, track.sections, options.rim);
+    outline.rims = placeRims(track, options.rim);
     if (!options.flange) return outline;
     // Of equal thicknesses the sum must be 0, whatever rounding says.
     outline.flangeTop = lowestRiseOf(track) + std::min(0.0, options.flangeThickness - thickness);

@@ -146,6 +146,13 @@ class PrintSolidTest : public QObject {
             const double added = report.volume - geometry::checkForPrinting(*sharp, {}).volume;
             QVERIFY(added > 1.2 * kMm * height * 72 * kMm && added < 1.2 * kMm * height * 132 * kMm);
         }
+        // A lip of what is cut off inside of the track decides by tenths of a millimetre: it stays.
+        track::CrossSection lip = section;
+        for (base::Vec2& point : lip.points)
+            point.x() = std::min(point.x(), 0.4 * point.x());
+        const Track cut = track::buildTrack({}, {{lip}}).value();
+        QVERIFY(!geometry::findSharpRidges(cut.solid, {}).empty());
+        QCOMPARE(track::buildPrintSolid(cut, {})->triangles.size(), cut.solid.triangles.size());
         // A wall makes it blunt by itself, and a border that is not sharp needs no rim.
         QCOMPARE(track::buildPrintSolid(track, makeOptions(5 * kMm, false, 0.0))->triangles.size(), [&] {
             PrintOptions walls = makeOptions(5 * kMm, false, 0.0);
