@@ -15,7 +15,8 @@
 
 namespace trapwright::app {
 
-/// How a user tells what is printed, in mm and degrees. What is not given is as in track::PrintOptions.
+/// How a user tells what is printed, in mm and degrees. What is not given is as in track::PrintOptions, a rim
+/// as wide as the thinnest wall.
 struct PrintRequest {
     std::optional<double> baseThickness;
     std::optional<double> wallHeight;

@@ -37,13 +37,9 @@ struct Row {
     std::vector<double> base;     // y of each post
 };
 
-bool hasInnerRim(const PrintOutline& outline) {
-    return !outline.innerWallTop &&
-           std::ranges::any_of(outline.rims, [](const Rims& rims) { return rims.inner > 0.0; });
-}
-bool hasOuterRim(const PrintOutline& outline) {
-    return !outline.outerWallTop &&
-           std::ranges::any_of(outline.rims, [](const Rims& rims) { return rims.outer > 0.0; });
+bool hasRim(const PrintOutline& outline, double Rims::*side) {
+    const bool hasWall = (side == &Rims::inner ? outline.innerWallTop : outline.outerWallTop).has_value();
+    return !hasWall && std::ranges::any_of(outline.rims, [&](const Rims& rims) { return rims.*side > 0.0; });
 }
 
 /// In proportion between the two next to it.
@@ -82,7 +78,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 2, next + 1}, {}});
         next += 2;
-    } else if (hasInnerRim(outline)) {
+    } else if (hasRim(outline, &Rims::inner)) {
         topology.innerRim = posts.size() - 1;
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
@@ -97,7 +93,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
         next += 2;
-    } else if (hasOuterRim(outline)) {
+    } else if (hasRim(outline, &Rims::outer)) {
         topology.outerRim = posts.size();
         posts.push_back({{next}, {}});
         ++next;
@@ -129,7 +125,7 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
         row.top.emplace_back(innerSide, *outline.innerWallTop + rise);
         row.top.emplace_back(innerBorder, *outline.innerWallTop + rise);
         row.base.push_back(innerSide);
-    } else if (hasInnerRim(outline)) {
+    } else if (hasRim(outline, &Rims::inner)) {
         row.top.emplace_back(innerSide, section.points.front().y() + rise);
         row.base.push_back(innerSide);
     }
@@ -141,7 +137,7 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
         row.top.emplace_back(outerBorder, *outline.outerWallTop + rise);
         row.top.emplace_back(outerSide, *outline.outerWallTop + rise);
         row.base.push_back(outerSide);
-    } else if (hasOuterRim(outline)) {
+    } else if (hasRim(outline, &Rims::outer)) {
         row.top.emplace_back(outerSide, section.points.back().y() + rise);
         row.base.push_back(outerSide);
     }

@@ -20,6 +20,7 @@
 #include "core/study/track_design.h"
 #include "core/track/print_solid.h"
 #include "core/track/printer.h"
+#include "core/workflow/example_studies.h"
 #include "tests/core/study/flawed_track.h"
 #include "tests/ui/session/session_fixture.h"
 #include "tests/ui/window/window_user.h"
@@ -442,6 +443,19 @@ class ExportPageTest : public QObject {
         const QString shown = user.find<QComboBox>("export.track")->currentText();
         QVERIFY2(shown.startsWith("Selected") && shown.endsWith("mended"), qPrintable(shown));
         QVERIFY(!mend->isVisibleTo(&user.window));  // nothing is left to mend
+    }
+
+    // Of the cuboid's example two crests at its borders are too thin.
+    void whatPrintsWithARimIsNotMended() {
+        const auto example = workflow::findExampleFile(workflow::findExampleStudy("cuboid").value());
+        std::filesystem::copy_file(example, studies_.path("cuboid.trap"));
+        User user(studies_, "cuboid.trap");
+        QVERIFY(user.waitForSolid());
+        auto* mend = user.find<QPushButton>("print.mend");
+        QVERIFY(!mend->isVisibleTo(&user.window));
+        user.type("rim", "0");
+        QVERIFY(user.waitForSolid());
+        QVERIFY(mend->isVisibleTo(&user.window));
     }
 
     void fileMenuExportsFromAnyPage() {

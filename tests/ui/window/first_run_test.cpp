@@ -160,7 +160,10 @@ class FirstRunTest : public QObject {
         const QString rate = models::percent(std::optional(correct->rate));
         QTRY_COMPARE(user.find<QLabel>("review.success")->text(), QString("%1 %").arg(rate));
         QVERIFY(user.find<QLabel>("review.successBounds")->text().startsWith("correct"));
-        QVERIFY(user.find<QLabel>("review.successSource")->text().startsWith("validation, of the 9"));
+        const QString arriving = models::percent(std::optional(correct->arriving));
+        QVERIFY(user.find<QLabel>("review.successSource")
+                    ->text()
+                    .startsWith("validation, of the " + arriving + " % of parts"));
         QVERIFY(user.find<QLabel>("status.success")->text().contains("correct " + rate));
         QVERIFY(user.find<QComboBox>("review.track")->currentText().contains(rate));
         user.window.showPage("export");
