@@ -126,9 +126,19 @@ base::Result<DatabasePtr> openReader(const std::filesystem::path& path, bool imm
     distrust(*database);
     if (const auto known = checkIdentity(*database, path); !known) return known.error();
     if (database->execAndGet("PRAGMA user_version").getInt() < currentSchemaVersion()) {
-        auto copy = copyUpToDate(*database, path);
-        if (!copy) return copy.error();
-        database = std::move(copy).value();
+        try {
+            auto copy = copyUpToDate(*database, path);
+            if (!copy) return copy.error();
+            database = std::move(copy).value();
+        } catch (const SQLite::Exception& failure) {
+            if (failure.getErrorCode() != SQLITE_FULL) throw;
+            return base::Error{
+                "The study " + path.string() +
+                    " was written by an older Trapwright and is read from a temporary copy, for "
+                    "which there is no room. Free some space where temporary files are, or name "
+                    "another folder for them in TMPDIR.",
+                base::ErrorKind::cannotWrite};
+        }
     }
     if (const auto content = checkContent(*database, path); !content) return content.error();
     return database;
