@@ -33,4 +33,22 @@ constexpr int padToVectors(int count) {
     return (count + kWidestVector - 1) / kWidestVector * kWidestVector;
 }
 
+/// Rows of floats, all equally long and padded to whole vectors.
+class FloatRows {
+ public:
+    FloatRows() = default;
+    FloatRows(int rows, int count)
+        : stride_(padToVectors(count)), values_(static_cast<std::size_t>(rows * stride_)) {}
+
+    [[nodiscard]] float* row(int r) { return values_.data() + static_cast<std::ptrdiff_t>(r) * stride_; }
+    [[nodiscard]] const float* row(int r) const {
+        return values_.data() + static_cast<std::ptrdiff_t>(r) * stride_;
+    }
+    [[nodiscard]] int stride() const { return stride_; }
+
+ private:
+    int stride_ = 0;
+    AlignedVector<float> values_;
+};
+
 }  // namespace trapwright::native

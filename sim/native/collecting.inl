@@ -9,15 +9,14 @@ constexpr float kThickest = 4e-3F;
 /// often.
 constexpr std::size_t kManyPairs = 60;
 constexpr std::size_t kFewPairs = 12;
+/// What distances to planes far from where the track begins may be wrong by in floats. [m]
+constexpr float kPlaneReserve = 1e-5F;
 
 enum Kind : std::uint32_t { kVertexOnTriangle, kEdgeAcrossEdge, kFaceOnVertex };
 
 // In the order in which contacts of one part are solved.
 constexpr unsigned kPieceShift = 22;
 constexpr unsigned kKindShift = 20;
-
-/// Edges of a vertex that a pair has at hand.
-constexpr int kConeEdges = 3;
 
 constexpr std::uint32_t pieceOf(std::uint32_t trackFeature) {
     return trackFeature >> kPieceShift;
@@ -29,15 +28,18 @@ constexpr std::uint32_t indexOf(std::uint32_t trackFeature) {
 /// One part in its track's frame.
 struct Placed {
     const PackedTrack* track;
+    const PackedBody* body;
     alignas(16) float axes[3][4];  // rows of the rotation part -> track
     double position[3];            // [m]
     float reach;                   // what is nearer than this is collected [m]
+    const FloatRows* pieces;       // PieceRow
     std::vector<NearPair>* pairs;
 };
 
 inline Placed place(TrialLanes& group, int lane) {
     Placed placed;
     placed.track = group.track[static_cast<std::size_t>(lane)];
+    placed.body = group.model().body;
     placed.reach = group.field(kReach)[lane];
     placed.pairs = &group.collected;
     for (int i = 0; i < 3; ++i) {
@@ -98,13 +100,63 @@ inline void forEachBit(std::uint32_t bits, const Use& use) {
         use(static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
 }
 
-inline void collectVertices(const Placed& placed, const PackedPiece& piece, std::uint32_t name) {
-    const PackedTriangle& triangle = placed.track->triangles[indexOf(name)];
+/// Calls `use` with the number of each ball that a place, by `distanceFrom` its centre, is nearer to than the
+/// part's reach.
+template <class Distance, class Use>
+inline void forEachNear(const Placed& placed, const FloatRows& balls, const Distance& distanceFrom,
+                        const Use& use) {
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    for (int first = 0; first < balls.stride(); first += width) {
+        const Real distance = distanceFrom(loadThree(balls, 0, first)) - load(balls.row(3) + first);
+        forEachBit(bitsOf(distance < Real(placed.reach)), [&](int i) { use(first + i); });
+    }
+}
+
+/// Where the balls around the pieces are on the track, and how far what they are near is from their centres.
+inline void placePieces(Placed& placed, FloatRows& pieces) {
+    const PackedBody& body = *placed.body;
+    for (std::size_t p = 0; p < body.pieces.size(); ++p) {
+        float centre[3];
+        toTrack(placed, body.pieces[p].centre, centre);
+        for (int k = 0; k < 3; ++k)
+            pieces.row(k)[p] = static_cast<float>(placed.position[k] + centre[k]);
+        pieces.row(kPieceNear)[p] = body.pieces[p].radius + placed.reach;
+    }
+    placed.pieces = &pieces;
+}
+
+/// Calls `use` with the numbers of the pieces whose balls are near one of the track's.
+template <class Use>
+inline void forEachPieceNear(const Placed& placed, const BallArrays& balls, int index, const Use& use) {
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    const FloatRows& pieces = *placed.pieces;
+    const float centre[3] = {balls.x[index], balls.y[index], balls.z[index]};
+    for (int first = 0; first < pieces.stride(); first += width) {
+        const Triple away = broadcast(centre) - loadThree(pieces, 0, first);
+        const Real far = Real(balls.radius[index]) + load(pieces.row(kPieceNear) + first);
+        forEachBit(bitsOf(dot(away, away) < far * far), [&](int i) { use(first + i); });
+    }
+}
+
+inline std::uint32_t nameFeature(Kind kind, std::uint32_t piece, int trackFeature) {
+    return (kind << kKindShift) | (piece << kPieceShift) | static_cast<std::uint32_t>(trackFeature);
+}
+
+inline void collectVertices(const Placed& placed, int index) {
+    const PackedBody& body = *placed.body;
+    std::array<std::uint32_t, kMostPieces / 32> near{};
+    bool isAnyNear = false;
+    forEachPieceNear(placed, placed.track->triangleBalls.balls, index, [&](int piece) {
+        near[static_cast<std::size_t>(piece) / 32] |= 1U << (static_cast<unsigned>(piece) % 32U);
+        isAnyNear = true;
+    });
+    if (!isAnyNear) return;
+
+    const PackedTriangle& triangle = placed.track->triangles[static_cast<std::size_t>(index)];
     // Four planes at once into the part's frame.
     const Four inTrack[3] = {loadFour(triangle.nx), loadFour(triangle.ny), loadFour(triangle.nz)};
     alignas(16) float normals[3][4];
     alignas(16) float offsets[4];  // of the centre of mass
-    alignas(16) float centre[4];
     Four offset = loadFour(triangle.offset);
     for (int k = 0; k < 3; ++k)
         offset = mulAdd(inTrack[k], fourTimes(static_cast<float>(placed.position[k] - triangle.corner[k])),
@@ -115,45 +167,48 @@ inline void collectVertices(const Placed& placed, const PackedPiece& piece, std:
         for (int i = 0; i < 3; ++i)
             turned = mulAdd(inTrack[i], fourTimes(placed.axes[i][k]), turned);
         store(turned, normals[k]);
-        offset = mulAdd(turned, fourTimes(piece.centre[k]), offset);
     }
-    store(offset, centre);
-    for (const float beyond : centre) {
-        if (beyond - piece.radius >= placed.reach) return;
-    }
-
     Plane planes[4];
     for (int c = 0; c < 4; ++c)
         planes[c] = {{normals[0][c], normals[1][c], normals[2][c]}, offsets[c]};
     const Plane sides[3] = {planes[1], planes[2], planes[3]};
+    const auto farthestBeyond = [&](const Triple& centre) {
+        return max(max(distanceBeyond(planes[0], centre), distanceBeyond(planes[1], centre)),
+                   max(distanceBeyond(planes[2], centre), distanceBeyond(planes[3], centre)));
+    };
     const int width = static_cast<int>(hn::Lanes(Tag()));
-    for (int first = 0; first < piece.vertexCount; first += width) {
-        const VertexTest test =
-            testVertex(loadThree(piece.vertices, 0, first), planes[0], sides, placed.reach);
-        const std::uint32_t bits = bitsOf(test.clear < Real(placed.reach));
-        if (bits == 0) continue;
-        alignas(64) float clear[kWidestVector];
-        store(test.clear, clear);
-        forEachBit(bits, [&](int i) {
-            const int vertex = first + i;
-            if (vertex >= piece.vertexCount) return;
-            const int edges = piece.firstEdge[vertex + 1] - piece.firstEdge[vertex];
-            placed.pairs->push_back(
-                {clear[i],
-                 name,
-                 static_cast<std::uint32_t>(vertex) | (edges > kConeEdges ? kManyEdges : 0U),
-                 {offsets[0], offsets[1], offsets[2], offsets[3]}});
-        });
-    }
+    const FeatureGroups& vertices = body.vertices;
+    forEachNear(placed, vertices.balls, farthestBeyond, [&](int group) {
+        const int begin = group * kWidestVector;
+        const int end = begin + vertices.counts[static_cast<std::size_t>(group)];
+        for (int first = begin; first < end; first += width) {
+            const VertexTest test =
+                testVertex(loadThree(vertices.features, 0, first), planes[0], sides, placed.reach);
+            const std::uint32_t bits = bitsOf(test.clear < Real(placed.reach));
+            if (bits == 0) continue;
+            alignas(64) float clear[kWidestVector];
+            store(test.clear, clear);
+            forEachBit(bits, [&](int i) {
+                if (first + i >= end) return;
+                const int place = first + i;
+                const std::uint32_t piece = vertices.pieces[place];
+                if ((near[piece / 32] >> (piece % 32U) & 1U) == 0) return;
+                placed.pairs->push_back({clear[i],
+                                         nameFeature(kVertexOnTriangle, piece, index),
+                                         vertices.indices[place],
+                                         {offsets[0], offsets[1], offsets[2], offsets[3]}});
+            });
+        }
+    });
 }
 
-/// The largest separation over all faces, and the face.
-inline float findSeparation(const PackedPiece& piece, const Triple& a, const Triple& b, int* face) {
+/// How far a point is beyond the face of a piece that it is farthest beyond, and the face.
+inline float findSeparation(const PackedPiece& piece, const Triple& point, int* face) {
     const int width = static_cast<int>(hn::Lanes(Tag()));
     float best = -kUntouchable;
     for (int first = 0; first < piece.faces.stride(); first += width) {
         const Plane plane = {loadThree(piece.faces, 0, first), load(piece.faces.row(3) + first)};
-        const Real separation = calcSeparation(plane, a, b);
+        const Real separation = calcSeparation(plane, point, point);
         const float greatest = greatestOf(separation);
         if (greatest <= best) continue;
         best = greatest;
@@ -163,20 +218,8 @@ inline float findSeparation(const PackedPiece& piece, const Triple& a, const Tri
     return best;
 }
 
-inline float calcDistanceToSegment(const float* point, const float* from, const float* direction,
-                                   float length) {
-    const float between[3] = {point[0] - from[0], point[1] - from[1], point[2] - from[2]};
-    const float along = std::min(std::max(dotThree(direction, between), 0.0F), length);
-    float square = 0.0F;
-    for (int k = 0; k < 3; ++k) {
-        const float d = between[k] - along * direction[k];
-        square += d * d;
-    }
-    return std::sqrt(square);
-}
-
-inline void collectEdges(const Placed& placed, const PackedPiece& piece, std::uint32_t name) {
-    const PackedEdge& edge = placed.track->edges[indexOf(name)];
+inline void collectEdges(const Placed& placed, int index) {
+    const PackedEdge& edge = placed.track->edges[static_cast<std::size_t>(index)];
     float relative[3];
     for (int k = 0; k < 3; ++k)
         relative[k] = static_cast<float>(edge.from[k] - placed.position[k]);
@@ -184,22 +227,23 @@ inline void collectEdges(const Placed& placed, const PackedPiece& piece, std::ui
     alignas(16) float direction[4];
     toPart(placed, relative, from);
     toPart(placed, edge.direction, direction);
-    if (calcDistanceToSegment(piece.centre, from, direction, edge.length) - piece.radius >= placed.reach)
-        return;
     const Segment own = {broadcast(from), broadcast(direction), edge.length};
-    int face = 0;
-    if (findSeparation(piece, own.from, mulAdd(own.length, own.direction, own.from), &face) >= placed.reach)
-        return;
+    const auto distanceFrom = [&](const Triple& centre) {
+        const Triple between = centre - own.from;
+        const Real along = min(max(dot(own.direction, between), Real(0.0)), own.length);
+        return norm(between - along * own.direction);
+    };
 
     const int width = static_cast<int>(hn::Lanes(Tag()));
-    for (int first = 0; first < piece.edges.stride(); first += width) {
-        const Segment part = {loadThree(piece.edges, kFromX, first),
-                              loadThree(piece.edges, kDirectionX, first),
-                              load(piece.edges.row(kLength) + first)};
+    const FeatureGroups& edges = placed.body->edges;
+    const auto lookThrough = [&](int first, int end) {
+        const Segment part = {loadThree(edges.features, kFromX, first),
+                              loadThree(edges.features, kDirectionX, first),
+                              load(edges.features.row(kLength) + first)};
         const Triple between = findBetween(part, own);
         const Real distance = sqrt(dot(between, between));
-        const std::uint32_t bits = bitsOf(distance < Real(placed.reach) && part.length > Real(0.0));
-        if (bits == 0) continue;
+        const std::uint32_t bits = bitsOf(distance < Real(placed.reach));
+        if (bits == 0) return;
         alignas(64) float distances[kWidestVector];
         alignas(64) float away[3][kWidestVector];
         store(distance, distances);
@@ -207,6 +251,7 @@ inline void collectEdges(const Placed& placed, const PackedPiece& piece, std::ui
         store(between.y, away[1]);
         store(between.z, away[2]);
         forEachBit(bits, [&](int i) {
+            if (first + i >= end) return;
             // Across the nearest points, the two lie on either side of a plane; not where they went through
             // each other.
             const float inPart[3] = {away[0][i], away[1][i], away[2][i]};
@@ -217,110 +262,128 @@ inline void collectEdges(const Placed& placed, const PackedPiece& piece, std::ui
             const float scale = through || size < 1e-9F ? 0.0F : 1.0F / size;
             for (float& component : apart)
                 component *= scale;
-            const float begin = dotThree(apart, relative);
-            const float end = begin + edge.length * dotThree(apart, edge.direction);
-            const float offset = scale > 0.0F ? -std::max(begin, end) : -kUntouchable;
+            const float atFrom = dotThree(apart, relative);
+            const float atTo = atFrom + edge.length * dotThree(apart, edge.direction);
+            const float offset = scale > 0.0F ? -std::max(atFrom, atTo) : -kUntouchable;
+            const int place = first + i;
             placed.pairs->push_back(
                 {scale > 0.0F ? distances[i] : -kUntouchable,
-                 name,
-                 static_cast<std::uint32_t>(first + i),
+                 nameFeature(kEdgeAcrossEdge, edges.pieces[place], index),
+                 edges.indices[place],
                  {apart[0], apart[1], apart[2], offset, relative[0], relative[1], relative[2]}});
+        });
+    };
+    forEachNear(placed, edges.balls, distanceFrom, [&](int group) {
+        const int begin = group * kWidestVector;
+        const int end = begin + edges.counts[static_cast<std::size_t>(group)];
+        for (int first = begin; first < end; first += width)
+            lookThrough(first, end);
+    });
+}
+
+inline void collectFaces(const Placed& placed, int index) {
+    const PackedVertex& vertex = placed.track->vertices[static_cast<std::size_t>(index)];
+    float relative[3];
+    for (int k = 0; k < 3; ++k)
+        relative[k] = static_cast<float>(vertex.position[k] - placed.position[k]);
+    alignas(16) float inPart[4];
+    toPart(placed, relative, inPart);
+    const Triple point = broadcast(inPart);
+    forEachPieceNear(placed, placed.track->vertexBalls.balls, index, [&](int piece) {
+        const PackedPiece& own = placed.body->pieces[static_cast<std::size_t>(piece)];
+        int face = 0;
+        const float gap = findSeparation(own, point, &face);
+        if (gap >= placed.reach || gap <= -placed.reach - static_cast<float>(kDeepest)) return;
+        const auto row = [&](int r) { return own.faces.row(r)[face]; };
+        placed.pairs->push_back({gap,
+                                 nameFeature(kFaceOnVertex, static_cast<std::uint32_t>(piece), index),
+                                 0,
+                                 {relative[0], relative[1], relative[2], row(0), row(1), row(2), row(3)}});
+    });
+}
+
+/// Bits of those balls, a vector from `first`, that a ball is near.
+inline std::uint32_t findNear(const BallArrays& balls, int first, const Triple& centre, Real radius) {
+    const Triple away =
+        Triple{load(balls.x.data() + first), load(balls.y.data() + first), load(balls.z.data() + first)} -
+        centre;
+    const Real far = load(balls.radius.data() + first) + radius;
+    return bitsOf(dot(away, away) < far * far);
+}
+
+/// Bits of those triangles, a vector from `first`, above or below which a ball is, or nearly.
+inline std::uint32_t findBeside(const FloatRows& planes, int first, const Triple& centre, Real radius) {
+    Real farthest = -kUntouchable;
+    for (int c = 0; c < 4; ++c) {
+        const Plane plane = {loadThree(planes, 4 * c, first), load(planes.row(4 * c + 3) + first)};
+        farthest = max(farthest, distanceBeyond(plane, centre));
+    }
+    return bitsOf(farthest < radius);
+}
+
+/// Calls `collect` with the numbers of the features among `balls` that are near the part; `mayBeNear` looks
+/// closer at a vector of them.
+template <class May, class Collect>
+inline void collectAmong(const Placed& placed, const FeatureBalls& features, const May& mayBeNear,
+                         const Collect& collect) {
+    const int width = static_cast<int>(hn::Lanes(Tag()));
+    float middle[3];
+    toTrack(placed, placed.body->centre, middle);
+    for (int k = 0; k < 3; ++k)
+        middle[k] = static_cast<float>(placed.position[k] + middle[k]);
+    const Triple centre = broadcast(middle);
+    const Real near = placed.body->reach + placed.reach;
+    for (int first = 0; first < features.blocks.count; first += width) {
+        forEachBit(findNear(features.blocks, first, centre, near), [&](int block) {
+            const int begin = (first + block) * kWidestVector;
+            for (int ball = begin; ball < begin + kWidestVector; ball += width) {
+                std::uint32_t bits = findNear(features.balls, ball, centre, near);
+                if (bits != 0) bits &= mayBeNear(ball, centre, near);
+                forEachBit(bits, [&](int i) { collect(placed, ball + i); });
+            }
         });
     }
 }
 
-inline void collectFaces(const Placed& placed, const PackedPiece& piece, std::uint32_t name) {
-    const PackedVertex& vertex = placed.track->vertices[indexOf(name)];
-    float relative[3];
-    for (int k = 0; k < 3; ++k)
-        relative[k] = static_cast<float>(vertex.position[k] - placed.position[k]);
-    alignas(16) float point[4];
-    toPart(placed, relative, point);
-    int face = 0;
-    const Triple p = broadcast(point);
-    const float gap = findSeparation(piece, p, p, &face);
-    if (gap >= placed.reach || gap <= -placed.reach - static_cast<float>(kDeepest)) return;
-    const auto row = [&](int r) { return piece.faces.row(r)[face]; };
-    placed.pairs->push_back(
-        {gap, name, 0, {relative[0], relative[1], relative[2], row(0), row(1), row(2), row(3)}});
-}
-
-/// Whether a piece has anything to touch these features of the track with.
-inline bool hasFeatures(const PackedPiece& piece, Kind kind) {
-    return kind == kVertexOnTriangle ? piece.vertexCount > 0
-                                     : kind == kFaceOnVertex || piece.edges.stride() > 0;
-}
-
-/// Calls `collect` with the names of the features among `balls` that are near one piece.
-template <class Collect>
-inline void collectAmong(const Placed& placed, const BallArrays& balls, Kind kind, const Collect& collect,
-                         const std::vector<PackedPiece>& pieces) {
-    const int width = static_cast<int>(hn::Lanes(Tag()));
-    for (std::size_t p = 0; p < pieces.size(); ++p) {
-        if (!hasFeatures(pieces[p], kind)) continue;
-        float centre[3];
-        toTrack(placed, pieces[p].centre, centre);
-        for (int k = 0; k < 3; ++k)
-            centre[k] = static_cast<float>(placed.position[k] + centre[k]);
-        const Real near = pieces[p].radius + placed.reach;
-        const std::uint32_t name = (kind << kKindShift) | (static_cast<std::uint32_t>(p) << kPieceShift);
-        for (int first = 0; first < balls.count; first += width) {
-            const Triple away = Triple{load(balls.x.data() + first), load(balls.y.data() + first),
-                                       load(balls.z.data() + first)} -
-                                broadcast(centre);
-            const Real far = load(balls.radius.data() + first) + near;
-            forEachBit(bitsOf(dot(away, away) < far * far), [&](int i) {
-                collect(placed, pieces[p], name | static_cast<std::uint32_t>(first + i));
-            });
-        }
-    }
-}
-
-/// Writes one of these pairs into a table's row.
+/// Writes what one of these pairs is made of: its field f to to[f * kWidestVector].
 inline void writeVertexPair(const PackedPiece& piece, const PackedTrack& track, const NearPair& pair,
-                            PairTable& table, int row, int slot) {
+                            float* to) {
     const PackedTriangle& triangle = track.triangles[indexOf(pair.trackFeature)];
-    const auto vertex = static_cast<int>(pair.partFeature & ~kManyEdges);
-    for (int k = 0; k < 3; ++k)
-        table.at(row, kVertexX + k, slot) = piece.vertices.row(k)[vertex];
-    const int first = piece.firstEdge[vertex];
-    const int edges = piece.firstEdge[vertex + 1] - first;
-    for (int e = 0; e < kConeEdges; ++e) {
-        for (int k = 0; k < 3; ++k)
-            table.at(row, kCone + 3 * e + k, slot) =
-                edges > kConeEdges ? 0.0F : piece.vertexEdges[3 * (first + std::min(e, edges - 1)) + k];
-    }
-    for (int c = 0; c < 4; ++c) {
-        table.at(row, kPlanes + 4 * c, slot) = triangle.nx[c];
-        table.at(row, kPlanes + 4 * c + 1, slot) = triangle.ny[c];
-        table.at(row, kPlanes + 4 * c + 2, slot) = triangle.nz[c];
-        table.at(row, kPlanes + 4 * c + 3, slot) = pair.own[static_cast<std::size_t>(c)];
+    const float* own =
+        piece.vertexFields.data() + static_cast<std::ptrdiff_t>(pair.partFeature & ~kManyEdges) * kPlanes;
+    for (int f = 0; f < kPlanes; ++f)
+        to[f * kWidestVector] = own[f];
+    to += kPlanes * kWidestVector;
+    for (int c = 0; c < 4; ++c, to += 4 * kWidestVector) {
+        to[0] = triangle.nx[c];
+        to[kWidestVector] = triangle.ny[c];
+        to[2 * kWidestVector] = triangle.nz[c];
+        to[3 * kWidestVector] = pair.own[static_cast<std::size_t>(c)];
     }
 }
 inline void writeEdgePair(const PackedPiece& piece, const PackedTrack& track, const NearPair& pair,
-                          PairTable& table, int row, int slot) {
+                          float* to) {
     const PackedEdge& edge = track.edges[indexOf(pair.trackFeature)];
-    const auto set = [&](int f, float value) { table.at(row, f, slot) = value; };
+    const auto set = [to](int f, float value) { to[f * kWidestVector] = value; };
     for (int k = 0; k < 4; ++k)
         set(kApartX + k, pair.own[static_cast<std::size_t>(k)]);
+    const float* own = piece.edges.row(0) + pair.partFeature;
+    const int stride = piece.edges.stride();
+    for (int r = 0; r < kEdgeRows; ++r)
+        set(kOwnFromX + r, own[r * stride]);
     for (int k = 0; k < 3; ++k) {
-        set(kOwnFromX + k, piece.edges.row(kFromX + k)[pair.partFeature]);
-        set(kOwnDirectionX + k, piece.edges.row(kDirectionX + k)[pair.partFeature]);
-        set(kOwnInto0X + k, piece.edges.row(kInto0X + k)[pair.partFeature]);
-        set(kOwnInto1X + k, piece.edges.row(kInto1X + k)[pair.partFeature]);
         set(kTrackFromX + k, pair.own[4 + k]);
         set(kTrackDirectionX + k, edge.direction[k]);
         set(kTrackInto0X + k, edge.into[0][k]);
         set(kTrackInto1X + k, edge.into[1][k]);
         set(kOutwardX + k, edge.outward[k]);
     }
-    set(kOwnLength, piece.edges.row(kLength)[pair.partFeature]);
     set(kTrackLength, edge.length);
 }
 inline void writeFacePair(const PackedPiece& /*piece*/, const PackedTrack& /*track*/, const NearPair& pair,
-                          PairTable& table, int row, int slot) {
+                          float* to) {
     for (int f = 0; f < kFaceFound; ++f)
-        table.at(row, f, slot) = pair.own[static_cast<std::size_t>(f)];
+        to[f * kWidestVector] = pair.own[static_cast<std::size_t>(f)];
 }
 
 /// Moves the pairs that were collected into a lane's place of a table, about the nearest first: rows of pairs
@@ -344,7 +407,7 @@ inline void keepPairs(TrialLanes& group, int lane, PairTable& table, const Write
     for (const NearPair& pair : group.collected) {
         const int row = static_cast<int>(begins[binOf(pair)]++);
         table.begin(row, slot, pair);
-        write(group.model().body->pieces[pieceOf(pair.trackFeature)], track, pair, table, row, slot);
+        write(group.model().body->pieces[pieceOf(pair.trackFeature)], track, pair, &table.at(row, 0, slot));
     }
     group.collected.clear();
 }
@@ -354,7 +417,8 @@ inline void collectPairs(TrialLanes& group, int lane, float margin) {
     float& skin = group.field(kSkinThickness)[lane];
     if (skin == 0.0F) skin = kSkin;
     group.field(kReach)[lane] = skin + margin;
-    const Placed placed = place(group, lane);
+    Placed placed = place(group, lane);
+    placePieces(placed, group.piecesInTrack);
     group.field(kGone)[lane] = 0.0F;
     group.field(kNextLook)[lane] = 0.0F;
     group.field(kThenSine)[lane] = group.field(kSine)[lane];
@@ -365,18 +429,23 @@ inline void collectPairs(TrialLanes& group, int lane, float margin) {
         group.field(kAwayX + k)[lane] = 0.0F;
     }
 
-    const std::vector<PackedPiece>& pieces = group.model().body->pieces;
     NearPairs& near = group.pairsOf(lane);
     std::size_t count = 0;
-    const auto collect = [&](const BallArrays& balls, Kind kind, const auto& collectNear, PairTable& table,
-                             const auto& write) {
-        collectAmong(placed, balls, kind, collectNear, pieces);
+    const auto collect = [&](const FeatureBalls& balls, const auto& mayBeNear, const auto& collectNear,
+                             PairTable& table, const auto& write) {
+        collectAmong(placed, balls, mayBeNear, collectNear);
         count += group.collected.size();
         keepPairs(group, lane, table, write);
     };
-    collect(placed.track->triangleBalls, kVertexOnTriangle, collectVertices, near.vertices, writeVertexPair);
-    collect(placed.track->edgeBalls, kEdgeAcrossEdge, collectEdges, near.edges, writeEdgePair);
-    collect(placed.track->vertexBalls, kFaceOnVertex, collectFaces, near.faces, writeFacePair);
+    const auto mayBeBeside = [&](int first, const Triple& centre, Real radius) {
+        return findBeside(placed.track->planes, first, centre, radius + Real(kPlaneReserve));
+    };
+    const auto noCloser = [](int /*first*/, const Triple& /*centre*/, Real /*radius*/) {
+        return ~std::uint32_t{0};
+    };
+    collect(placed.track->triangleBalls, mayBeBeside, collectVertices, near.vertices, writeVertexPair);
+    collect(placed.track->edgeBalls, noCloser, collectEdges, near.edges, writeEdgePair);
+    collect(placed.track->vertexBalls, noCloser, collectFaces, near.faces, writeFacePair);
     if (count > kManyPairs) skin = std::max(0.7F * skin, kThinnest);
     if (count < kFewPairs) skin = std::min(1.3F * skin, kThickest);
 }

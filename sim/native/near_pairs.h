@@ -12,16 +12,16 @@ namespace trapwright::native {
 /// Of a part's vertex near a triangle of the track.
 enum VertexPairField : int {
     kVertexX, kVertexY, kVertexZ,                                // part frame [m]
-    kPlanes, kPlanesLast = kPlanes + 15,                         // of the triangle, of its sides: normal, offset
     kCone, kConeLast = kCone + 8,                                // its edges away from it, if there are at most three
+    kPlanes, kPlanesLast = kPlanes + 15,                         // of the triangle, of its sides: normal, offset
     kVertexPairFields
 };
 /// Of a part's edge near an edge of the track.
 enum EdgePairField : int {
     kApartX, kApartY, kApartZ, kApartOffset,                     // a plane that the part's edge was beyond
-    kOwnFromX, kOwnFromY, kOwnFromZ,                             // the part's edge, part frame
-    kOwnDirectionX, kOwnDirectionY, kOwnDirectionZ,
-    kOwnInto0X, kOwnInto0Y, kOwnInto0Z, kOwnInto1X, kOwnInto1Y, kOwnInto1Z, kOwnLength,
+    kOwnFromX, kOwnFromY, kOwnFromZ,                             // the part's edge, part frame, as EdgeRow
+    kOwnDirectionX, kOwnDirectionY, kOwnDirectionZ, kOwnLength,
+    kOwnInto0X, kOwnInto0Y, kOwnInto0Z, kOwnInto1X, kOwnInto1Y, kOwnInto1Z,
     kTrackFromX, kTrackFromY, kTrackFromZ,                       // the track's
     kTrackDirectionX, kTrackDirectionY, kTrackDirectionZ,
     kTrackInto0X, kTrackInto0Y, kTrackInto0Z, kTrackInto1X, kTrackInto1Y, kTrackInto1Z,
@@ -37,7 +37,9 @@ enum FacePairField : int {
 };
 // clang-format on
 
-/// In NearPair::partFeature: the vertex has more edges than kCone has room for.
+/// Edges of a vertex that a pair has at hand, from kCone on.
+inline constexpr int kConeEdges = 3;
+/// In NearPair::partFeature: the vertex has more.
 inline constexpr std::uint32_t kManyEdges = 1U << 31U;
 
 /// Of a pair that is not there. [m]

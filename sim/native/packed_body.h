@@ -1,29 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sim/contact/contact_body.h"
 #include "sim/native/aligned.h"
 
 namespace trapwright::native {
-
-/// Rows of floats, all equally long and padded to whole vectors.
-class FloatRows {
- public:
-    FloatRows() = default;
-    FloatRows(int rows, int count)
-        : stride_(padToVectors(count)), values_(static_cast<std::size_t>(rows * stride_)) {}
-
-    [[nodiscard]] float* row(int r) { return values_.data() + static_cast<std::ptrdiff_t>(r) * stride_; }
-    [[nodiscard]] const float* row(int r) const {
-        return values_.data() + static_cast<std::ptrdiff_t>(r) * stride_;
-    }
-    [[nodiscard]] int stride() const { return stride_; }
-
- private:
-    int stride_ = 0;
-    AlignedVector<float> values_;
-};
 
 /// Rows of PackedPiece::edges.
 enum EdgeRow : int {
@@ -48,19 +31,36 @@ struct PackedPiece {
     float centre[3];
     float radius;
     int vertexCount;
-    FloatRows vertices;              // x, y, z
-    FloatRows edges;                 // EdgeRow
-    FloatRows faces;                 // normal x, y, z, offset: normal . p + offset is how far p is beyond
-    std::vector<int> firstEdge;      // of each vertex, in vertexEdges; one more than there are vertices
-    std::vector<float> vertexEdges;  // directions away from the vertex, three each
+    FloatRows vertices;               // x, y, z
+    FloatRows edges;                  // EdgeRow
+    FloatRows faces;                  // normal x, y, z, offset: normal . p + offset is how far p is beyond
+    std::vector<int> firstEdge;       // of each vertex, in vertexEdges; one more than there are vertices
+    std::vector<float> vertexEdges;   // directions away from the vertex, three each
+    std::vector<float> vertexFields;  // of each vertex: VertexPairField up to kPlanes
 };
+
+/// Features of one kind of all pieces, in groups of at most kWidestVector that lie close together, each in a
+/// ball: of a round part, or one of many pieces, few groups are near a feature of the track. [m]
+struct FeatureGroups {
+    FloatRows balls;                     // of each group: x, y, z, radius; padded with balls near nothing
+    std::vector<int> counts;             // of each group's features; they begin at kWidestVector x its number
+    FloatRows features;                  // as PackedPiece::vertices or edges
+    std::vector<std::uint32_t> pieces;   // of each feature
+    std::vector<std::uint32_t> indices;  // of each feature in its piece; with kManyEdges, where it has them
+};
+
+/// As many as names of features have room for.
+inline constexpr int kMostPieces = 1024;
 
 /// contact::ContactBody as the kernel reads it.
 struct PackedBody {
     explicit PackedBody(const contact::ContactBody& body);
 
     std::vector<PackedPiece> pieces;
-    float radius;  // of a ball around the origin [m]
+    FeatureGroups vertices, edges;
+    float centre[3];  // of a ball around all features
+    float reach;      // its radius
+    float radius;     // of a ball around the origin [m]
 };
 
 }  // namespace trapwright::native

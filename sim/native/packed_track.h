@@ -7,12 +7,19 @@
 
 namespace trapwright::native {
 
-/// Balls around features: centre and radius, one array each, padded with balls that are near nothing. [m]
+/// Balls: centre and radius, one array each, padded with balls that are near nothing. [m]
 struct BallArrays {
     AlignedVector<float> x, y, z, radius;
     int count = 0;
 
     void add(const base::Vec3& centre, double ballRadius);
+    void pad();
+};
+
+/// Balls around features of a track, in the order of the features, and around each kWidestVector of these.
+struct FeatureBalls {
+    BallArrays balls, blocks;
+
     void pad();
 };
 
@@ -47,7 +54,10 @@ struct PackedTrack {
     std::vector<PackedEdge> edges;
     std::vector<PackedVertex> vertices;
     std::vector<float> vertexEdges;  // three each
-    BallArrays triangleBalls, edgeBalls, vertexBalls;
+    FeatureBalls triangleBalls, edgeBalls, vertexBalls;
+    // The triangles' planes side by side, in the track's frame: normal and offset of each of the four, padded
+    // with triangles that nothing is near.
+    FloatRows planes;
 };
 
 }  // namespace trapwright::native

@@ -83,6 +83,7 @@ TrialLanes::TrialLanes(const LaneModel& model, int capacity)
       cycle(padToVectors(capacity)),
       track(capacity),
       law(capacity),
+      piecesInTrack(kPieceRows, static_cast<int>(model.body->pieces.size())),
       warmStarts(capacity),
       found(capacity),
       plastic(capacity),
@@ -96,6 +97,8 @@ TrialLanes::TrialLanes(const LaneModel& model, int capacity)
       origins_(static_cast<std::size_t>(stride_) * 3),
       pairs_(padToVectors(capacity) / kWidestVector) {
     solveBatch.touches.resize(static_cast<std::size_t>(kMostContacts) * kContactFields * kWidestVector);
+    // Padding is near nothing.
+    std::fill_n(piecesInTrack.row(kPieceX), piecesInTrack.stride(), 1e6F);
     // Lanes that were never used are stepped along with the others of their vector: give them a rotation.
     for (int lane = 0; lane < stride_; ++lane)
         field(kRotationW)[lane] = 1.0F;

@@ -111,6 +111,9 @@ enum ContactField : int {
     kContactFields
 };
 
+/// Rows of TrialLanes::piecesInTrack. [m]
+enum PieceRow : int { kPieceX, kPieceY, kPieceZ, kPieceNear, kPieceRows };
+
 /// Contacts of a vector of lanes on their way into the lanes' lists.
 struct StagedContacts {
     std::vector<int> rows;                // of the pairs, one after the other
@@ -257,6 +260,7 @@ class TrialLanes {
     std::vector<const PackedTrack*> track;
     std::vector<trial::ContactParameters> law;  // of the part with its track
     std::vector<NearPair> collected;
+    FloatRows piecesInTrack;  // PieceRow, of the part whose pairs are being collected
     StagedContacts staged;
     /// Room for the numbers of so many rows.
     [[nodiscard]] int* rowsToLookAt(int rows) {

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "core/part/bundled.h"
 #include "core/part/part_builder.h"
 #include "core/verify/scenes.h"
+#include "sim/native/near_pairs.h"
 #include "sim/native/packed_body.h"
 #include "sim/native/packed_track.h"
 
@@ -90,6 +93,60 @@ class PackingTest : public QObject {
         }
     }
 
+    void aGroupHoldsWhatLiesTogether_data() { aBodyKeepsItsFeatures_data(); }
+    void aGroupHoldsWhatLiesTogether() {
+        QFETCH(QByteArray, name);
+        const PackedBody packed(makeBody(name.constData()));
+        const Vec3 middle(packed.centre[0], packed.centre[1], packed.centre[2]);
+        const auto check = [&](const native::FeatureGroups& groups, native::FloatRows PackedPiece::*rowsOf,
+                               int rows, std::size_t expected) {
+            // All, each once.
+            std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+            for (std::size_t g = 0; g < groups.counts.size(); ++g) {
+                const int number = static_cast<int>(g);
+                const Vec3 centre = column(groups.balls, 0, number);
+                const double radius = groups.balls.row(3)[number];
+                QVERIFY(groups.counts[g] > 0 && groups.counts[g] <= native::kWidestVector);
+                for (int i = 0; i < groups.counts[g]; ++i) {
+                    const int place = number * native::kWidestVector + i;
+                    const std::uint32_t index = groups.indices[place] & ~native::kManyEdges;
+                    found.emplace(groups.pieces[place], index);
+                    const PackedPiece& piece = packed.pieces[groups.pieces[place]];
+                    for (int r = 0; r < rows; ++r)
+                        QCOMPARE(groups.features.row(r)[place], (piece.*rowsOf).row(r)[index]);
+                    const Vec3 from = column(groups.features, 0, place);
+                    QVERIFY((from - centre).norm() <= radius);
+                    if (rows < native::kEdgeRows) {
+                        const bool many =
+                            piece.firstEdge[index + 1] - piece.firstEdge[index] > native::kConeEdges;
+                        QCOMPARE((groups.indices[place] & native::kManyEdges) != 0, many);
+                        continue;
+                    }
+                    const Vec3 to = from + groups.features.row(native::kLength)[place] *
+                                               column(groups.features, native::kDirectionX, place);
+                    QVERIFY((to - centre).norm() <= radius);
+                }
+            }
+            QCOMPARE(found.size(), expected);
+            for (int g = static_cast<int>(groups.counts.size()); g < groups.balls.stride(); ++g)
+                QVERIFY(groups.balls.row(3)[g] < -1e3F);
+            // No more than they need by far.
+            QVERIFY(groups.counts.size() <= 1 + 2 * expected / native::kWidestVector);
+        };
+        std::size_t vertices = 0;
+        std::size_t edges = 0;
+        for (const PackedPiece& piece : packed.pieces) {
+            vertices += piece.vertexCount;
+            for (int e = 0; e < piece.edges.stride(); ++e)
+                edges += piece.edges.row(native::kLength)[e] >= 0.0F ? 1 : 0;
+            QVERIFY((Vec3(piece.centre[0], piece.centre[1], piece.centre[2]) - middle).norm() +
+                        piece.radius <=
+                    packed.reach);
+        }
+        check(packed.vertices, &PackedPiece::vertices, 3, vertices);
+        check(packed.edges, &PackedPiece::edges, native::kEdgeRows, edges);
+    }
+
     void aTrackKeepsItsFeatures() {
         const contact::ContactTrack track = contact::prepareTrack(verify::makeRough()->solid);
         const PackedTrack packed(track);
@@ -119,14 +176,25 @@ class PackingTest : public QObject {
     // Whatever a part can be near, it is not near the balls that fill up the arrays.
     void paddingOfATrackIsFarAway() {
         const PackedTrack packed(contact::prepareTrack(verify::makeRough()->solid));
-        for (const native::BallArrays* balls :
+        for (const native::FeatureBalls* features :
              {&packed.triangleBalls, &packed.edgeBalls, &packed.vertexBalls}) {
-            QVERIFY(balls->count > 0);
-            const auto size = static_cast<int>(balls->x.size());
-            QCOMPARE(size, native::padToVectors(balls->count));
-            QCOMPARE(balls->radius.size(), balls->x.size());
-            for (int b = balls->count; b < size; ++b)
-                QVERIFY(balls->x[b] - balls->radius[b] > 1e3F);
+            for (const native::BallArrays* balls : {&features->balls, &features->blocks}) {
+                QVERIFY(balls->count > 0);
+                const auto size = static_cast<int>(balls->x.size());
+                QCOMPARE(size, native::padToVectors(balls->count));
+                QCOMPARE(balls->radius.size(), balls->x.size());
+                for (int b = balls->count; b < size; ++b)
+                    QVERIFY(balls->x[b] - balls->radius[b] > 1e3F);
+            }
+            // A block holds the balls of its vector.
+            for (int b = 0; b < features->balls.count; ++b) {
+                const auto centreOf = [](const native::BallArrays& balls, int i) {
+                    return Vec3(balls.x[i], balls.y[i], balls.z[i]);
+                };
+                const int block = b / native::kWidestVector;
+                const double away = (centreOf(features->balls, b) - centreOf(features->blocks, block)).norm();
+                QVERIFY(away + features->balls.radius[b] <= features->blocks.radius[block]);
+            }
         }
     }
 
