@@ -93,7 +93,7 @@ void addMendCommand(CLI::App& program, Invocation& invocation) {
     const auto options = std::make_shared<Options>();
     Command command = addCommand(
         program, invocation, "mend",
-        "Changes a learned track a little, many times anew, so that nothing of it is too thin or "
+        "Changes a learned track a little, many times anew, so that nothing of it is too thin, sharp or "
         "too steep to print, and compares the best with it. They become a generation of the study.",
         "trapwright mend cuboid.trap --printer prusa-mk4",
         [options](const Console& console) { return run(*options, console); });

@@ -51,10 +51,11 @@ struct PrintReport {
     std::vector<SharpRidge> ridges;        // longest first
     std::vector<Overhang> overhangs;       // largest area first; what lies on the printer's bed is none
 
-    [[nodiscard]] bool isFlawless() const {
-        return closed && overlappingTriangles == 0 && thinWalls.empty() && ridges.empty() &&
-               overhangs.empty();
+    /// Whether a printer can make all of a solid that is one.
+    [[nodiscard]] bool isPrintable() const {
+        return thinWalls.empty() && ridges.empty() && overhangs.empty();
     }
+    [[nodiscard]] bool isFlawless() const { return closed && overlappingTriangles == 0 && isPrintable(); }
 };
 
 /// Edges of a solid sharper than this are ridges. [rad]

@@ -30,26 +30,6 @@ constexpr double kSharePerStep = 0.05;
 constexpr int kMostVariants = 1000;
 constexpr int kMostTrials = 1'000'000;
 
-/// Of a track, bare as it is learned.
-struct Flaws {
-    double unprintable = 0.0;  // measureUnprintable() [m^2]
-    double ridges =
-        0.0;  // one side of what tapers to sharp ridges and is thinner than the thinnest wall [m^2]
-};
-
-base::Result<Flaws> measureFlaws(const TrackSettings& settings, const search::Design& design,
-                                 const geometry::PrintLimits& limits) {
-    const auto track = decodeTrack(settings, design);
-    if (!track) return track.error();
-    if (geometry::countOverlappingTriangles(track->solid, track->surfaceTriangles) > 0)
-        return base::Error{"The track crosses itself, which mending does not cure. Choose another one."};
-    const track::PrintFlaws flaws = track::findPrintFlaws(*track, limits);
-    Flaws all{flaws.thin + flaws.overhang};
-    for (const geometry::SharpRidge& ridge : geometry::findSharpRidges(track->solid, limits))
-        all.ridges += ridge.length * ridge.lost;
-    return all;
-}
-
 /// The numbers that may move.
 std::vector<std::size_t> findMovable(const search::DesignSpace& space) {
     std::vector<std::size_t> all;
@@ -92,22 +72,24 @@ base::Status MendingPlan::check() const {
 
 base::Result<double> measureUnprintable(const TrackSettings& settings, const search::Design& design,
                                         const geometry::PrintLimits& limits) {
-    const auto flaws = measureFlaws(settings, design, limits);
-    if (!flaws) return flaws.error();
-    return flaws->unprintable;
+    const auto track = decodeTrack(settings, design);
+    if (!track) return track.error();
+    if (geometry::countOverlappingTriangles(track->solid, track->surfaceTriangles) > 0)
+        return base::Error{"The track crosses itself, which mending does not cure. Choose another one."};
+    return track::findPrintFlaws(*track, limits).total();
 }
 
 base::Result<MendedDesign> mendDesign(const TrackSettings& settings, const search::Design& design,
                                       const MendingPlan& plan, const base::StreamKey& stream,
                                       const base::RunControl& control) {
-    const auto before = measureFlaws(settings, design, plan.limits);
+    const auto before = measureUnprintable(settings, design, plan.limits);
     if (!before) return before.error();
     const search::DesignSpace space = designSpace(settings);
     const std::vector<std::size_t> movable = findMovable(space);
     base::Random random(stream);
     const double step = kSteps[stream.individual % kSteps.size()];
 
-    MendedDesign mended{design, before->unprintable};
+    MendedDesign mended{design, *before};
     std::vector<double> weights(movable.size(), 1.0);
     for (int move = 0, idle = 0; move < plan.moves && idle < kMostIdle && mended.unprintable > 0.0; ++move) {
         if (!control.mayGoOn()) break;
@@ -117,14 +99,14 @@ base::Result<MendedDesign> mendDesign(const TrackSettings& settings, const searc
         const double kept = mended.design[number];
         mended.design[number] = moveBy(space.dimensions[number], kept, step * random.normal());
         if (mended.design[number] == kept) continue;
-        const auto left = measureFlaws(settings, mended.design, plan.limits);
-        if (left && left->unprintable == mended.unprintable) {
+        const auto left = measureUnprintable(settings, mended.design, plan.limits);
+        if (left && *left == mended.unprintable) {
             weights[drawn] = std::max(kLeastWeight, kForget * weights[drawn]);
         } else {
             weights[drawn] = 1.0;
         }
-        if (left && left->unprintable < mended.unprintable && left->ridges <= before->ridges) {
-            mended.unprintable = left->unprintable;
+        if (left && *left < mended.unprintable) {
+            mended.unprintable = *left;
             idle = 0;
         } else {
             mended.design[number] = kept;

@@ -1,13 +1,31 @@
 #include "core/track/print_flaws.h"
 
+#include <vector>
+
+#include "core/track/print_solid.h"
+
 namespace trapwright::track {
+
+namespace {
+
+/// A ridge that loses less of its height is as good as whole. [m]
+constexpr double kLeastLoss = 10e-6;
+
+}  // namespace
 
 PrintFlaws findPrintFlaws(const Track& track, const geometry::PrintLimits& limits) {
     PrintFlaws flaws;
     if (track.solid.triangles.empty()) return flaws;
-    for (const geometry::ThinWall& wall : geometry::findThinWalls(track.solid, limits))
+    PrintOptions asLearned;
+    asLearned.rim = limits.thinnestWall;
+    const auto printed = buildPrintSolid(track, asLearned);
+    const geometry::TriangleMesh& solid = printed ? *printed : track.solid;
+    for (const geometry::ThinWall& wall : geometry::findThinWalls(solid, limits))
         flaws.thin += wall.area;
-    for (const geometry::Overhang& overhang : geometry::findOverhangs(track.solid, limits))
+    for (const geometry::SharpRidge& ridge : geometry::findSharpRidges(solid, limits)) {
+        if (ridge.lost > kLeastLoss) flaws.ridges += ridge.length * ridge.lost;
+    }
+    for (const geometry::Overhang& overhang : geometry::findOverhangs(solid, limits))
         flaws.overhang += overhang.area;
     return flaws;
 }

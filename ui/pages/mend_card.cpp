@@ -78,9 +78,8 @@ void MendCard::show(const study::Individual& track, const session::PrintedTrack&
                     const geometry::PrintLimits& limits) {
     track_ = track;
     limits_ = limits;
-    // What is printed around the track can have mended it: rims, walls.
-    const bool isPrintable = printed.report.thinWalls.empty() && printed.report.overhangs.empty();
-    unprintable_ = isPrintable ? 0.0 : printed.learnedFlaws.thin + printed.learnedFlaws.overhang;
+    // What is printed around the track can have mended it: walls, wider rims.
+    unprintable_ = printed.report.isPrintable() ? 0.0 : printed.learnedFlaws.total();
     update();
 }
 
@@ -111,10 +110,10 @@ void MendCard::update() {
     const bool free = state == RunState::idle || state == RunState::simulating;
     const study::MendingPlan plan;
     mend_->setEnabled(free);
-    mend_->setToolTip(
-        free ? tr("Moves the track's points a little, many times anew, until nothing of it is too thin or "
-                  "overhangs, and compares the best with it")
-             : tr("Wait until the study has ended what it does, or stop it"));
+    mend_->setToolTip(free ? tr("Moves the track's points a little, many times anew, until nothing of it is "
+                                "too thin, sharp or "
+                                "overhanging, and compares the best with it")
+                           : tr("Wait until the study has ended what it does, or stop it"));
     const std::int64_t trials = workflow::countMendingTrials(runs_->design().settings(), plan);
     QString cost =
         tr("%1 mm² of the learned track cannot be printed. %2 variants of it, the best %3 compared with "

@@ -532,8 +532,9 @@ class ObjectivesTest : public QObject {
             rib.points.emplace_back(y * kMm, z * kMm);
         track::CrossSection begin = rib;
         begin.x = 0.0;
-        const track::TrackSolid solid = track::buildTrackSolid({}, std::vector{begin, rib}, 3 * kMm);
-        judge.track.solid = solid.mesh;
+        judge.track.sections = {begin, rib};
+        judge.track.baseThickness = 3 * kMm;
+        judge.track.solid = track::buildTrackSolid({}, judge.track.sections, judge.track.baseThickness).mesh;
         const double flaws = flawsOf(judge, 0);
         QVERIFY2(std::abs(flaws + 200.0) < 0.1, qPrintable(QString::number(flaws)));
         QCOMPARE(flawsOf(judge, 3), flaws);

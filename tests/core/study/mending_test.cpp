@@ -4,6 +4,7 @@
 
 #include "core/study/runner.h"
 #include "core/study/track_design.h"
+#include "core/track/print_solid.h"
 #include "tests/core/study/fake_engine.h"
 
 using namespace trapwright;
@@ -35,15 +36,6 @@ search::Design findFlawedDesign(const study::TrackSettings& settings) {
 const search::Design& flawedDesign() {
     static const search::Design design = findFlawedDesign(cuboidTrack());
     return design;
-}
-
-/// What tapers to ridges too sharp for the printer. [m^2]
-double ridgesOf(const study::TrackSettings& settings, const search::Design& design) {
-    double area = 0.0;
-    for (const geometry::SharpRidge& ridge :
-         geometry::findSharpRidges(study::decodeTrack(settings, design)->solid, {}))
-        area += ridge.length * ridge.lost;
-    return area;
 }
 
 study::Individual individualOf(search::Design design) {
@@ -84,7 +76,9 @@ class MendingTest : public QObject {
         }
         QVERIFY(changed > 0 && changed < static_cast<int>(design.size()) / 2);
 
-        QVERIFY(ridgesOf(settings, mended->design) <= ridgesOf(settings, design));
+        const auto printed = track::buildPrintSolid(*study::decodeTrack(settings, mended->design), {});
+        QVERIFY(printed.ok());
+        QVERIFY(geometry::checkForPrinting(*printed, {}).isFlawless());
 
         QVERIFY(study::mendDesign(settings, design, {}, stream, {})->design == mended->design);
         const base::StreamKey another{2, 3, stream.individual, 0, base::Purpose::mending};
