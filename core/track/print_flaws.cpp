@@ -8,8 +8,7 @@ namespace trapwright::track {
 
 namespace {
 
-/// A ridge that loses less of its height is as good as whole. [m]
-constexpr double kLeastLoss = 10e-6;
+constexpr double kLeastLoss = 10e-6;  // of a ridge's height [m]
 
 }  // namespace
 

@@ -17,6 +17,7 @@ enum Kind : std::uint32_t { kVertexOnTriangle, kEdgeAcrossEdge, kFaceOnVertex };
 // In the order in which contacts of one part are solved.
 constexpr unsigned kPieceShift = 22;
 constexpr unsigned kKindShift = 20;
+static_assert(kMostPieces == 1U << (32U - kPieceShift));
 
 constexpr std::uint32_t pieceOf(std::uint32_t trackFeature) {
     return trackFeature >> kPieceShift;
@@ -100,15 +101,21 @@ inline void forEachBit(std::uint32_t bits, const Use& use) {
         use(static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
 }
 
-/// Calls `use` with the number of each ball that a place, by `distanceFrom` its centre, is nearer to than the
-/// part's reach.
+/// Calls `use` with the first of each vector of features, and the end of their group, of those groups whose
+/// balls may be nearer than the part's reach, by `distanceFrom` their centres.
 template <class Distance, class Use>
-inline void forEachNear(const Placed& placed, const FloatRows& balls, const Distance& distanceFrom,
+inline void forEachNear(const Placed& placed, const FeatureGroups& groups, const Distance& distanceFrom,
                         const Use& use) {
     const int width = static_cast<int>(hn::Lanes(Tag()));
-    for (int first = 0; first < balls.stride(); first += width) {
-        const Real distance = distanceFrom(loadThree(balls, 0, first)) - load(balls.row(3) + first);
-        forEachBit(bitsOf(distance < Real(placed.reach)), [&](int i) { use(first + i); });
+    const FloatRows& balls = groups.balls;
+    for (int ball = 0; ball < balls.stride(); ball += width) {
+        const Real distance = distanceFrom(loadThree(balls, 0, ball)) - load(balls.row(3) + ball);
+        forEachBit(bitsOf(distance < Real(placed.reach)), [&](int i) {
+            const int begin = (ball + i) * kWidestVector;
+            const int end = begin + groups.counts[static_cast<std::size_t>(ball + i)];
+            for (int first = begin; first < end; first += width)
+                use(first, end);
+        });
     }
 }
 
@@ -143,7 +150,6 @@ inline std::uint32_t nameFeature(Kind kind, std::uint32_t piece, int trackFeatur
 }
 
 inline void collectVertices(const Placed& placed, int index) {
-    const PackedBody& body = *placed.body;
     std::array<std::uint32_t, kMostPieces / 32> near{};
     bool isAnyNear = false;
     forEachPieceNear(placed, placed.track->triangleBalls.balls, index, [&](int piece) {
@@ -176,29 +182,24 @@ inline void collectVertices(const Placed& placed, int index) {
         return max(max(distanceBeyond(planes[0], centre), distanceBeyond(planes[1], centre)),
                    max(distanceBeyond(planes[2], centre), distanceBeyond(planes[3], centre)));
     };
-    const int width = static_cast<int>(hn::Lanes(Tag()));
-    const FeatureGroups& vertices = body.vertices;
-    forEachNear(placed, vertices.balls, farthestBeyond, [&](int group) {
-        const int begin = group * kWidestVector;
-        const int end = begin + vertices.counts[static_cast<std::size_t>(group)];
-        for (int first = begin; first < end; first += width) {
-            const VertexTest test =
-                testVertex(loadThree(vertices.features, 0, first), planes[0], sides, placed.reach);
-            const std::uint32_t bits = bitsOf(test.clear < Real(placed.reach));
-            if (bits == 0) continue;
-            alignas(64) float clear[kWidestVector];
-            store(test.clear, clear);
-            forEachBit(bits, [&](int i) {
-                if (first + i >= end) return;
-                const int place = first + i;
-                const std::uint32_t piece = vertices.pieces[place];
-                if ((near[piece / 32] >> (piece % 32U) & 1U) == 0) return;
-                placed.pairs->push_back({clear[i],
-                                         nameFeature(kVertexOnTriangle, piece, index),
-                                         vertices.indices[place],
-                                         {offsets[0], offsets[1], offsets[2], offsets[3]}});
-            });
-        }
+    const FeatureGroups& vertices = placed.body->vertices;
+    forEachNear(placed, vertices, farthestBeyond, [&](int first, int end) {
+        const VertexTest test =
+            testVertex(loadThree(vertices.features, 0, first), planes[0], sides, placed.reach);
+        const std::uint32_t bits = bitsOf(test.clear < Real(placed.reach));
+        if (bits == 0) return;
+        alignas(64) float clear[kWidestVector];
+        store(test.clear, clear);
+        forEachBit(bits, [&](int i) {
+            const int place = first + i;
+            if (place >= end) return;
+            const std::uint32_t piece = vertices.pieces[place];
+            if ((near[piece / 32] >> (piece % 32U) & 1U) == 0) return;
+            placed.pairs->push_back({clear[i],
+                                     nameFeature(kVertexOnTriangle, piece, index),
+                                     vertices.indices[place],
+                                     {offsets[0], offsets[1], offsets[2], offsets[3]}});
+        });
     });
 }
 
@@ -208,7 +209,7 @@ inline float findSeparation(const PackedPiece& piece, const Triple& point, int* 
     float best = -kUntouchable;
     for (int first = 0; first < piece.faces.stride(); first += width) {
         const Plane plane = {loadThree(piece.faces, 0, first), load(piece.faces.row(3) + first)};
-        const Real separation = calcSeparation(plane, point, point);
+        const Real separation = dot(plane.normal, point) + plane.offset;
         const float greatest = greatestOf(separation);
         if (greatest <= best) continue;
         best = greatest;
@@ -234,9 +235,8 @@ inline void collectEdges(const Placed& placed, int index) {
         return norm(between - along * own.direction);
     };
 
-    const int width = static_cast<int>(hn::Lanes(Tag()));
     const FeatureGroups& edges = placed.body->edges;
-    const auto lookThrough = [&](int first, int end) {
+    forEachNear(placed, edges, distanceFrom, [&](int first, int end) {
         const Segment part = {loadThree(edges.features, kFromX, first),
                               loadThree(edges.features, kDirectionX, first),
                               load(edges.features.row(kLength) + first)};
@@ -251,7 +251,8 @@ inline void collectEdges(const Placed& placed, int index) {
         store(between.y, away[1]);
         store(between.z, away[2]);
         forEachBit(bits, [&](int i) {
-            if (first + i >= end) return;
+            const int place = first + i;
+            if (place >= end) return;
             // Across the nearest points, the two lie on either side of a plane; not where they went through
             // each other.
             const float inPart[3] = {away[0][i], away[1][i], away[2][i]};
@@ -265,19 +266,12 @@ inline void collectEdges(const Placed& placed, int index) {
             const float atFrom = dotThree(apart, relative);
             const float atTo = atFrom + edge.length * dotThree(apart, edge.direction);
             const float offset = scale > 0.0F ? -std::max(atFrom, atTo) : -kUntouchable;
-            const int place = first + i;
             placed.pairs->push_back(
                 {scale > 0.0F ? distances[i] : -kUntouchable,
                  nameFeature(kEdgeAcrossEdge, edges.pieces[place], index),
                  edges.indices[place],
                  {apart[0], apart[1], apart[2], offset, relative[0], relative[1], relative[2]}});
         });
-    };
-    forEachNear(placed, edges.balls, distanceFrom, [&](int group) {
-        const int begin = group * kWidestVector;
-        const int end = begin + edges.counts[static_cast<std::size_t>(group)];
-        for (int first = begin; first < end; first += width)
-            lookThrough(first, end);
     });
 }
 
