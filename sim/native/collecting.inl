@@ -112,7 +112,7 @@ inline void forEachNear(const Placed& placed, const FeatureGroups& groups, const
         const Real distance = distanceFrom(loadThree(balls, 0, ball)) - load(balls.row(3) + ball);
         forEachBit(bitsOf(distance < Real(placed.reach)), [&](int i) {
             const int begin = (ball + i) * kWidestVector;
-            const int end = begin + groups.counts[static_cast<std::size_t>(ball + i)];
+            const int end = begin + groups.counts[ball + i];
             for (int first = begin; first < end; first += width)
                 use(first, end);
         });
