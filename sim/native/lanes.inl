@@ -86,13 +86,9 @@ inline Real abs(Real a) {
 inline Real sqrt(Real a) {
     return Real(hn::Sqrt(a.lanes));
 }
+/// Rounded as every processor must: what machines guess an inverse square root to be differs between makers.
 inline Real inverseSqrt(Real a) {
-    // Newton's steps from the machine's own guess, which is good to 12 bits or more; without one, to 9.
-    constexpr int kSteps = HWY_TARGET == HWY_SCALAR ? 2 : 1;
-    Real guess(hn::ApproximateReciprocalSqrt(a.lanes));
-    for (int i = 0; i < kSteps; ++i)
-        guess = guess * (Real(1.5) - Real(0.5) * a * guess * guess);
-    return guess;
+    return Real(1.0) / sqrt(a);
 }
 inline Real log1p(Real a) {
     return Real(hn::Log1p(Tag(), a.lanes));
