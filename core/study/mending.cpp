@@ -27,6 +27,7 @@ constexpr double kLeastWeight = 0.02;
 /// units as a share of the range.
 constexpr std::array kSteps = {0.3, 0.5, 0.8};
 constexpr double kSharePerStep = 0.05;
+constexpr int kHalvings = 4;  // of the way back to where a number was
 constexpr int kMostVariants = 1000;
 constexpr int kMostTrials = 1'000'000;
 
@@ -54,6 +55,29 @@ double moveBy(const search::Dimension& dimension, double value, double step) {
     const double range = dimension.high - dimension.low;
     const double share = dimension.unit == "mm" && range > 0.0 ? step / range : step * kSharePerStep;
     return search::roundToBits(std::clamp(value + share, 0.0, 1.0), dimension.bits);
+}
+
+/// Takes back of every number's move what is not needed for a track that has nothing left that cannot be
+/// printed: moves find their way at random, and what parts do may hang on tenths of a millimetre.
+void takeBack(const TrackSettings& settings, const search::Design& before, const search::DesignSpace& space,
+              const MendingPlan& plan, const base::RunControl& control, search::Design& mended) {
+    const auto isMended = [&] {
+        const auto left = measureUnprintable(settings, mended, plan.limits);
+        return left && *left == 0.0;
+    };
+    for (std::size_t i = 0; i < mended.size(); ++i) {
+        double needed = mended[i];
+        double towards = before[i];
+        for (int halving = 0; halving <= kHalvings && needed != towards && control.mayGoOn(); ++halving) {
+            mended[i] = towards;
+            if (isMended()) {
+                needed = towards;
+                towards = before[i];
+            }
+            mended[i] = needed;
+            towards = search::roundToBits(0.5 * (needed + towards), space.dimensions[i].bits);
+        }
+    }
 }
 
 }  // namespace
@@ -112,6 +136,7 @@ base::Result<MendedDesign> mendDesign(const TrackSettings& settings, const searc
             mended.design[number] = kept;
         }
     }
+    if (mended.unprintable == 0.0) takeBack(settings, design, space, plan, control, mended.design);
     return mended;
 }
 

@@ -85,6 +85,29 @@ class MendingTest : public QObject {
         QVERIFY(study::mendDesign(settings, design, {}, another, {})->design != mended->design);
     }
 
+    /// What parts do may hang on little: nothing stays moved that could be where it was.
+    void whatIsNotNeededIsTakenBack() {
+        const study::TrackSettings settings = cuboidTrack();
+        const search::Design& design = flawedDesign();
+        int mendings = 0;
+        for (std::uint32_t variant = 0; variant < 6; ++variant) {
+            const base::StreamKey stream{1, 3, variant, 0, base::Purpose::mending};
+            const auto mended = study::mendDesign(settings, design, {}, stream, {});
+            VERIFY_OK(mended);
+            if (mended->unprintable > 0.0) continue;
+            ++mendings;
+            for (std::size_t i = 0; i < design.size(); ++i) {
+                if (mended->design[i] == design[i]) continue;
+                search::Design restored = mended->design;
+                restored[i] = design[i];
+                const auto left = study::measureUnprintable(settings, restored, {});
+                QVERIFY2(!left || *left > 0.0,
+                         qPrintable(QString("variant %1, number %2").arg(variant).arg(i)));
+            }
+        }
+        QVERIFY(mendings > 0);
+    }
+
     void movesAreCounted() {
         study::MendingPlan plan;
         plan.moves = 1;
