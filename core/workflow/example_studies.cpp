@@ -19,6 +19,7 @@ constexpr std::array kExamples = {
     ExampleStudy{"bolt", "a hexagon bolt M4 x 12, likewise"},
     ExampleStudy{"wedge", "a wedge, which has no symmetry: one in four arrives, 99 % of these right"},
     ExampleStudy{"bracket", "a bracket: ledges behind ten gaps throw out what the gaps leave wrong"},
+    ExampleStudy{"pin", "a pin with a head: likewise, planned in one go and mended for printing"},
     ExampleStudy{"washer", "a washer, laid flat by a free-form trap"},
 };
 

@@ -8,7 +8,7 @@
 
 #include "app/trapwright/bench_run.h"
 #include "app/trapwright/study_jobs.h"
-#include "app/trapwright/track_source.h"
+#include "app/trapwright/track_subject.h"
 #include "app/trapwright/work_display.h"
 #include "sim/engines/registry.h"
 #include "tests/peers/bullet_engine.h"
@@ -84,7 +84,7 @@ app::Attempt<std::vector<peers::Contender>> chooseSteps(const app::BenchOptions&
 
 /// What --transfer is asked for.
 struct TransferOptions {
-    app::TrackRequest track;
+    app::SubjectRequest subject;
     std::string csv;
 };
 
@@ -111,7 +111,7 @@ app::Attempt<app::ExitCode> runTransfer(const TransferOptions& asked, const app:
                                         const app::Console& console) {
     auto contenders = chooseSteps(options, known);
     if (!contenders) return contenders.error();
-    const auto loaded = app::loadTrack(asked.track, console);
+    const auto loaded = app::loadSubject(asked.subject, console);
     if (!loaded) return loaded.error();
     // The reference comes first: the others are held against it.
     const trial::EngineKind& reference = engines::registry().reference();
@@ -121,13 +121,14 @@ app::Attempt<app::ExitCode> runTransfer(const TransferOptions& asked, const app:
     contenders->insert(contenders->begin(), {reference, 0.0});
 
     peers::Transfer transfer =
-        peers::makeTransfer(loaded->settings, loaded->part, loaded->track, options.trials);
+        peers::makeTransfer(loaded->inputs.settings, loaded->inputs.part, loaded->track, options.trials);
     for (const peers::Contender& contender : *contenders) {
         const auto ran = runContender(transfer, contender, console);
         if (!ran) return ran.error();
     }
     console.print(
-        "Points: of success, more than in the first engine. Other: trials that come to something else than "
+        "Correct: of those that arrive. Points: of success, more than in the first engine. Other: trials "
+        "that come to something else than "
         "in the first engine.\n");
     if (asked.csv.empty()) return app::ExitCode::ok;
     const auto written = peers::writeTransferTrials(transfer, asked.csv);
@@ -153,11 +154,16 @@ int main(int argc, char** argv) {
             "Instead: how right the engines are on motions whose truth is known, and what that costs, "
             "at several steps or that of --step; a table and a chart into this folder")
         ->check(CLI::ExistingDirectory);
-    auto* track = program.add_option("--transfer", transfer.track.file,
-                                     "Instead: the trials of this track (JSON) in each engine, as set and "
-                                     "all over the operating box; engines may be named as ode@0.25 for a "
-                                     "step of their own in ms");
-    program.add_option("--part", transfer.track.part.part, "On that track (cuboid)")->needs(track);
+    app::TrackRequest& onTrack = transfer.subject.track;
+    auto* track = program.add_option("--transfer", onTrack.file,
+                                     "Instead: the trials of this track (JSON), or of a study's final one, "
+                                     "in each engine, as set and all over the operating box; engines may "
+                                     "be named as ode@0.25 for a step of their own in ms");
+    program.add_option("--part", onTrack.part.part, "On that track, unless it is a study's (cuboid)")
+        ->needs(track);
+    program.add_option("--material", onTrack.part.material, "Of the part, likewise")->needs(track);
+    program.add_option("--friction", onTrack.friction, "Static and kinetic, likewise (0.5)")->needs(track);
+    program.add_option("--restitution", onTrack.restitution, "Likewise (0.2)")->needs(track);
     program.add_option("--csv", transfer.csv, "Also each of these trials into this file")->needs(track);
     CLI11_PARSE(program, argc, argv);
 
@@ -167,8 +173,8 @@ int main(int argc, char** argv) {
     known.push_back(makePeer<peers::BulletEngine>("bullet"));
     known.push_back(makePeer<peers::PointsEngine>("points"));
     const app::Console console(json);
-    auto result = !folder.empty()                ? runWorkPrecision(folder, options, known, console)
-                  : !transfer.track.file.empty() ? runTransfer(transfer, options, known, console)
-                                                 : app::runBench(options, known, console);
+    auto result = !folder.empty()                        ? runWorkPrecision(folder, options, known, console)
+                  : !transfer.subject.track.file.empty() ? runTransfer(transfer, options, known, console)
+                                                         : app::runBench(options, known, console);
     return static_cast<int>(result ? *result : console.fail(result.error()));
 }

@@ -13,7 +13,8 @@ namespace trapwright::peers {
 
 namespace {
 
-constexpr const char* kColumns = "{:<12} {:>7} {:<13} {:>11} {:>17} {:>7} {:>6} {:>6} {:>9} {:>7} {:>10}\n";
+constexpr const char* kColumns =
+    "{:<12} {:>7} {:<13} {:>11} {:>17} {:>11} {:>7} {:>6} {:>6} {:>9} {:>7} {:>10}\n";
 
 double percent(int count, int of) {
     return 100.0 * count / of;
@@ -84,8 +85,8 @@ std::string transferHeader(const Transfer& transfer) {
     return fmt::format("Success: within {:.0f} degrees of {:.3f} {:.3f} {:.3f} {:.3f} (w x y z)\n",
                        transfer.settings.validation.tolerance / base::kDegree, goal.w(), goal.x(), goal.y(),
                        goal.z()) +
-           fmt::format(kColumns, "Engine", "Step ms", "Conditions", "Success [%]", "95 % bounds", "Trials",
-                       "Wrong", "Stuck", "Fell off", "Points", "Other [%]");
+           fmt::format(kColumns, "Engine", "Step ms", "Conditions", "Success [%]", "95 % bounds",
+                       "Correct [%]", "Trials", "Wrong", "Stuck", "Fell off", "Points", "Other [%]");
 }
 
 std::string describeTransfer(const Transfer& transfer, const TransferRow& row) {
@@ -98,9 +99,11 @@ std::string describeTransfer(const Transfer& transfer, const TransferRow& row) {
     const int trials = tally.trials();
     const stats::Interval bounds = stats::calcClopperPearson(tally.success, trials);
     const double success = percent(tally.success, trials);
+    const int arrived = tally.success + tally.wrongOrientation;
     return fmt::format(
         kColumns, row.engine, step, conditions, fmt::format("{:.1f}", success),
-        fmt::format("{:.1f} ... {:.1f}", 100.0 * bounds.low, 100.0 * bounds.high), trials,
+        fmt::format("{:.1f} ... {:.1f}", 100.0 * bounds.low, 100.0 * bounds.high),
+        arrived > 0 ? fmt::format("{:.1f}", percent(tally.success, arrived)) : "-", trials,
         tally.wrongOrientation, tally.stuck, tally.fellOff,
         fmt::format("{:+.1f}", success - percent(reference.tally.success, reference.tally.trials())),
         fmt::format("{:.1f}", percent(countOtherVerdicts(row, reference), trials)));
