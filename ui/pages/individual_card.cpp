@@ -3,6 +3,8 @@
 #include <QLabel>
 #include <QLocale>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <vector>
 
 #include "core/study/track_design.h"
 #include "ui/look/folding_group.h"
@@ -15,6 +17,8 @@
 namespace trapwright::pages {
 
 namespace {
+
+constexpr std::size_t kFew = 12;  // numbers, to be read one by one
 
 QString fixed(double value, int decimals) {
     return QLocale().toString(value, 'f', decimals);
@@ -109,7 +113,6 @@ void IndividualCard::show(const study::Settings& settings, const study::Individu
 }
 
 void IndividualCard::showNumbers(const search::DesignSpace& space, const search::Design& design) {
-    constexpr std::size_t kFew = 12;  // to be read one by one
     Facts numbers;
     if (design.size() <= kFew && design.size() == space.dimensions.size()) {
         for (std::size_t i = 0; i < design.size(); ++i) {
@@ -127,12 +130,22 @@ void IndividualCard::showNumbers(const search::DesignSpace& space, const search:
 }
 
 void IndividualCard::showTrack(const track::Track& track) {
-    QStringList lengths;
+    std::vector<double> lengths;  // [mm]
     for (int i = track.firstTrapSection; i < track.lastTrapSection; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        lengths << look::numberText(1e3 * (track.sections[at + 1].x - track.sections[at].x));
+        lengths.push_back(1e3 * (track.sections[at + 1].x - track.sections[at].x));
     }
-    lengths_->setText(tr("Segments of %1 mm").arg(lengths.join(", ")));
+    if (lengths.size() > kFew) {
+        const auto [least, most] = std::ranges::minmax(lengths);
+        lengths_->setText(
+            tr("%1 segments of %2 to %3 mm")
+                .arg(QString::number(lengths.size()), look::numberText(least), look::numberText(most)));
+        return;
+    }
+    QStringList texts;
+    for (const double length : lengths)
+        texts << look::numberText(length);
+    lengths_->setText(tr("Segments of %1 mm").arg(texts.join(", ")));
 }
 
 }  // namespace trapwright::pages

@@ -106,6 +106,8 @@ void SceneView::clear() {
 
 void SceneView::showTrack(std::shared_ptr<const track::Track> track, const TrackMarks& marks) {
     state_->contents.marks = marks;
+    state_->contents.traces.clear();
+    state_->contents.contacts.clear();
     state_->setSubject({.track = std::move(track)});
 }
 

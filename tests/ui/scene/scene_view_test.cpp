@@ -172,6 +172,13 @@ class SceneViewTest : public QObject {
         QVERIFY(samples::shareChanged(before, grab()) > 2e-4);
         view_->setContacts({});
 
+        // What was on a track is not on another.
+        view_->setTraces({trace});
+        view_->setContacts(std::vector<scene::ContactArrow>{{poseAt(50e-3).position, {0.0, 0.0, 0.1}}});
+        view_->showTrack(std::make_shared<track::Track>(*cuboidTrack_), scene::TrackMarks::none());
+        view_->setParts({{cuboid_, poseAt(50e-3)}});
+        QVERIFY(view_->contents().traces.empty() && view_->contents().contacts.empty());
+
         // A region of the surface, a line on it, and one inside that is seen all the same.
         auto patch = std::make_shared<geometry::TriangleMesh>();
         patch->vertices = cuboidTrack_->solid.vertices;
