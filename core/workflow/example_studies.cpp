@@ -17,7 +17,6 @@ constexpr std::array kExamples = {
     ExampleStudy{"cuboid-bowl", "the same in the paper's bowl of 175 mm"},
     ExampleStudy{"screw", "a pan-head screw: gaps throw out what lies wrong"},
     ExampleStudy{"bolt", "a hexagon bolt M4 x 12, likewise"},
-    ExampleStudy{"wedge", "a wedge, which has no symmetry: one in four arrives, 99 % of these right"},
     ExampleStudy{"bracket", "a bracket: ledges behind ten gaps throw out what the gaps leave wrong"},
     ExampleStudy{"pin", "a pin with a head: likewise, planned in one go and mended for printing"},
     ExampleStudy{"washer", "a washer, laid flat by a free-form trap"},

@@ -47,6 +47,15 @@ double calcConvexity(const Vec3& normal0, const Vec3& normal1, const Vec3& out0)
     return normal1.dot(out0) >= 0.0 ? angle : -angle;
 }
 
+/// Whether the line of an edge goes on in the solid beyond its end: another edge there (`others`, unit, away
+/// from that end) leads on above the line. `away`: of the edge beyond its end, unit.
+bool goesOnInside(const std::vector<Vec3>& others, const Vec3& away, const Vec3& outward) {
+    constexpr double kBend = 0.02;  // less is straight, and needs nothing
+    return std::ranges::any_of(others, [&](const Vec3& other) {
+        return other.dot(away) > 0.0 && (other - away).dot(outward) > kBend;
+    });
+}
+
 }  // namespace
 
 ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
@@ -77,12 +86,15 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
     // Keep the strictly convex edges, and take the slack of their triangles away again.
     std::map<int, std::vector<Vec3>> edgesAtVertex;
     std::map<int, bool> vertexActs;
-    for (const auto& [key, use] : findEdges(mesh, usable)) {
-        const Vec3& from = mesh.vertices[key.first];
-        const Vec3& to = mesh.vertices[key.second];
-        const Vec3 direction = (to - from).normalized();
-        edgesAtVertex[key.first].push_back(direction);
-        edgesAtVertex[key.second].push_back(-direction);
+    const EdgeMap edges = findEdges(mesh, usable);
+    const auto directionOf = [&](const std::pair<int, int>& key) -> Vec3 {
+        return (mesh.vertices[key.second] - mesh.vertices[key.first]).normalized();
+    };
+    for (const auto& [key, use] : edges) {
+        edgesAtVertex[key.first].push_back(directionOf(key));
+        edgesAtVertex[key.second].push_back(-directionOf(key));
+    }
+    for (const auto& [key, use] : edges) {
         if (use.triangle[1] < 0) continue;
         TrackTriangle& t0 = track.triangles[placeOf[use.triangle[0]]];
         TrackTriangle& t1 = track.triangles[placeOf[use.triangle[1]]];
@@ -92,16 +104,20 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
         t0.edgeOffset[use.corner[0]] -= kEdgeSlack;
         t1.edgeOffset[use.corner[1]] -= kEdgeSlack;
         TrackEdge edge;
-        edge.from = from;
-        edge.to = to;
-        edge.direction = direction;
+        edge.direction = directionOf(key);
         edge.into[0] = -out0;
         edge.into[1] = -out1;
         const Vec3 sum = t0.normal + t1.normal;
         // A blade folded flat onto itself has no mean normal: it points away from both faces' insides.
         edge.outward = sum.norm() > 1e-9 ? Vec3(sum.normalized()) : Vec3((out0 + out1).normalized());
-        edge.centre = 0.5 * (from + to);
-        edge.radius = 0.5 * (to - from).norm();
+        edge.from = mesh.vertices[key.first];
+        edge.to = mesh.vertices[key.second];
+        if (goesOnInside(edgesAtVertex[key.first], -edge.direction, edge.outward))
+            edge.from -= kEdgeSlack * edge.direction;
+        if (goesOnInside(edgesAtVertex[key.second], edge.direction, edge.outward))
+            edge.to += kEdgeSlack * edge.direction;
+        edge.centre = 0.5 * (edge.from + edge.to);
+        edge.radius = 0.5 * (edge.to - edge.from).norm();
         track.edges.push_back(edge);
         vertexActs[key.first] = true;
         vertexActs[key.second] = true;

@@ -19,7 +19,7 @@ struct TrackTriangle {
 
 /// A strictly convex edge of the track: only these push (decisions.md#contact-features).
 struct TrackEdge {
-    base::Vec3 from, to;   // [m]
+    base::Vec3 from, to;   // [m]; kEdgeSlack longer where it ends below the surface, at a valley
     base::Vec3 direction;  // unit
     base::Vec3 into[2];    // in the planes of its two triangles, unit, pointing from the edge into them
     base::Vec3 outward;    // mean of the two normals, unit
@@ -44,8 +44,8 @@ struct ContactTrack {
 /// Edges whose faces meet at less than this beyond flat do not act: treating flat edges as ridges makes parts
 /// jump.
 inline constexpr double kConvexAngle = 2.0 * base::kDegree;
-/// How far beyond a flat or concave edge a triangle's plane still acts, so that no point slips between two.
-/// [m]
+/// How far beyond a flat or concave edge a triangle's plane still acts, so that no point slips between two,
+/// and how far beyond the foot of a slope a ridge, so that no edge slips between two halves of a crest. [m]
 inline constexpr double kEdgeSlack = 20e-6;
 
 /// Prepares a closed, oriented mesh. Degenerate triangles are left out.

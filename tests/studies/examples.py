@@ -6,6 +6,8 @@ examples.py keep NAME STUDY     puts a copy of a learned and validated study amo
                                 without all but its last selection and validation
 examples.py again [NAME ...]    validates each, or those named, as it was published, and compares every row; prints
                                 resources/docs/results.md's table, and ends with 1 where a row differs
+examples.py renew [NAME ...]    the same, and puts what comes out now in place of what was published: after engines were
+                                changed on purpose
 
 From the environment: TRAPWRIGHT, the program (build/release/app/trapwright/trapwright).
 """
@@ -93,8 +95,8 @@ def percent(share):
     return f"{100 * share['share']:.1f} [{100 * share['low']:.1f}, {100 * share['high']:.1f}]"
 
 
-def validate_again(name):
-    """Whether each row is as it was published; prints a line of the table."""
+def validate_again(name, renew=False):
+    """Whether each row is as it was published; prints a line of the table. `renew`: publishes what comes out."""
     published = STUDIES / f"{name}.trap"
     if not published.is_file():
         fail(f"{published} is not there")
@@ -106,6 +108,8 @@ def validate_again(name):
                    "--engine", last["engine"], "--trials", rows[0]["trials"],
                    "--tolerance", repr(last["tolerance"] * 180 / 3.141592653589793))["validation"]
         how = describe(study)
+        if renew:
+            keep(name, study)
     same = True
     for row, now in zip(rows, done["poses"], strict=True):
         before = [row["trials"], row["trials"] - row["failures"], *(row[key] for key in COUNTS[2:])]
@@ -130,11 +134,12 @@ def main():
         print(__doc__.strip())
     elif len(arguments) == 3 and arguments[0] == "keep":
         keep(*arguments[1:])
-    elif arguments and arguments[0] == "again":
+    elif arguments and arguments[0] in ("again", "renew"):
+        renew = arguments[0] == "renew"
         names = arguments[1:] or sorted(path.stem for path in STUDIES.glob("*.trap"))
         print("| example | track | seed | generations x population x trials | trials of the validation | success, all alike [%] "
               "| success, weighted [%] | correct, weighted [%] | again the same |\n|---|---|---|---|---|---|---|---|---|")
-        if not all([validate_again(name) for name in names]):
+        if not all([validate_again(name, renew) for name in names]) and not renew:
             sys.exit(1)
     else:
         sys.exit(__doc__.strip())

@@ -182,6 +182,34 @@ class DetectorTest : public QObject {
         }
     }
 
+    // A crest across a valley of 120 degrees: a part's edge that lies along the valley's bottom is beyond the
+    // ends of both halves of the crest as soon as it is a little too deep.
+    void anEdgeDoesNotSlipBetweenTheHalvesOfACrest() {
+        const double flank = std::tan(60.0 * base::kDegree);
+        const auto saddle = verify::makeSurface(
+            {0.0, 0.09, 0.1, 0.11, 0.3}, {-0.03, 0.0, 0.03},
+            [&](double x, double y) { return (x == 0.1 ? 20e-3 : 15e-3) + std::max(0.0, -y * flank); });
+        const DetectorScene scene(saddle, verify::makePaperCuboid());
+        // An edge of 12 mm down, along x.
+        const Quaternion turn(Eigen::AngleAxisd(50.0 * base::kDegree, Vec3::UnitX()));
+        const Quaternion rotation = turn * lyingAlong();
+        Vec3 lowest = Vec3::UnitZ();
+        for (const Vec3& vertex : scene.part->hull.vertices) {
+            const Vec3 corner = rotation * vertex;
+            if (corner.z() < lowest.z()) lowest = corner;
+        }
+        for (const double y : {-3e-6, -1e-6, 0.0, 1e-6, 3e-6}) {
+            for (const double depth : {0.0, 2e-6, 5e-6, 15e-6}) {
+                const Vec3 edge(0.1, y, 20e-3 - depth);
+                const auto contacts =
+                    scene.findAfresh({rotation, edge - Vec3(0.0, lowest.y(), lowest.z())}, kMargin);
+                const bool held = std::ranges::any_of(
+                    contacts, [](const Contact& contact) { return contact.normal.z() > 0.4; });
+                QVERIFY2(held, qPrintable(QString("y %1 um, %2 um deep").arg(1e6 * y).arg(1e6 * depth)));
+            }
+        }
+    }
+
     // Parts at a blade 0.1 mm thick at its foot and 15 mm high, at all heights, on either side: pushed to
     // their own side by every contact.
     void aThinWallPushesToBothSides() {
