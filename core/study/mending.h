@@ -36,9 +36,9 @@ base::Result<double> measureUnprintable(const TrackSettings& settings, const sea
                                         const geometry::PrintLimits& limits);
 
 /// Changes a number of the design at a time, at random and little, and keeps what leaves less that cannot be
-/// printed, until nothing is left or nothing helps any more; then takes back of every move what is not needed.
-/// Of a design space with points only these move.
-/// The same stream gives the same design, wherever it is not cancelled. An error as measureUnprintable.
+/// printed, until nothing is left or nothing helps any more; then takes back of every move what is not
+/// needed. Of a design space with points only these move. The same stream gives the same design, wherever it
+/// is not cancelled. An error as measureUnprintable.
 base::Result<MendedDesign> mendDesign(const TrackSettings& settings, const search::Design& design,
                                       const MendingPlan& plan, const base::StreamKey& stream,
                                       const base::RunControl& control);

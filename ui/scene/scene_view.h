@@ -34,8 +34,8 @@ class SceneView : public QWidget {
     /// An empty scene, but for the theme and the switches below.
     void clear();
     /// Each of these three takes the place of the others. The view is fitted when the kind of subject changes
-    /// or while the user has not moved the camera. Null shows none. Traces and contacts on the track of before are
-    /// gone.
+    /// or while the user has not moved the camera. Null shows none. Traces and contacts on the track of
+    /// before are gone.
     void showTrack(std::shared_ptr<const track::Track> track, const TrackMarks& marks = {});
     void showSolid(std::shared_ptr<const geometry::TriangleMesh> solid);
     /// `shares`: of parts that land in each group of alike poses, for the labels; empty: the part's own.
