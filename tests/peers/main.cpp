@@ -128,8 +128,7 @@ app::Attempt<app::ExitCode> runTransfer(const TransferOptions& asked, const app:
     }
     console.print(
         "Correct: of those that arrive. Points: of success, more than in the first engine. Other: trials "
-        "that come to something else than "
-        "in the first engine.\n");
+        "that come to something else than in the first engine.\n");
     if (asked.csv.empty()) return app::ExitCode::ok;
     const auto written = peers::writeTransferTrials(transfer, asked.csv);
     if (!written) return app::Failure{app::ExitCode::cannotWrite, written.error().message};
