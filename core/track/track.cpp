@@ -1,6 +1,7 @@
 #include "core/track/track.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -66,6 +67,33 @@ base::Mat3 orientationFrame(const Track& track, double x) {
     const double slope = track.shape.type == FeederType::bowl ? track.shape.slope : 0.0;
     const double turn = slope - std::atan(std::tan(slope) - std::tan(chuteOf(track).angle));
     return frame * Eigen::AngleAxisd(turn, base::Vec3::UnitY()).toRotationMatrix();
+}
+
+bool isBelowSurface(const Track& track, const base::Vec3& roomPoint) {
+    // Of an overhang the upright line meets an underside, too: what is above then is as much air as solid.
+    int above = 0;
+    for (std::size_t t = 0; t < track.surfaceTriangles; ++t) {
+        const auto& [a, b, c] = track.solid.triangles[t];
+        const std::array<base::Vec3, 3> corners = {track.solid.vertices[a] - roomPoint,
+                                                   track.solid.vertices[b] - roomPoint,
+                                                   track.solid.vertices[c] - roomPoint};
+        // Twice the areas that the point spans with each edge, seen from above: of one sign inside. An edge
+        // counts for the triangle on one of its sides alone.
+        std::array<bool, 3> isLeft{};
+        std::array<double, 3> areas{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const base::Vec3& from = corners[(k + 1) % 3];
+            const base::Vec3& to = corners[(k + 2) % 3];
+            areas[k] = from.x() * to.y() - from.y() * to.x();
+            isLeft[k] = areas[k] > 0.0;
+        }
+        const double area = areas[0] + areas[1] + areas[2];
+        if (area == 0.0 || isLeft[0] != isLeft[1] || isLeft[1] != isLeft[2]) continue;
+        const double height =
+            (areas[0] * corners[0].z() + areas[1] * corners[1].z() + areas[2] * corners[2].z()) / area;
+        if (height > 0.0) above += area > 0.0 ? 1 : -1;
+    }
+    return above > 0;
 }
 
 double segmentsToFinish(const Track& track, double x) {

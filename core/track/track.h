@@ -74,6 +74,9 @@ Chute chuteOf(const Track& track);
 base::Mat3 orientationFrame(const Track& track, double x);
 /// How far the chute lies below the lead-out at x; 0 before it. [m]
 double chuteFall(const Track& track, double x);
+/// Whether the surface lies above a point of the room: one that is not below the solid's base is then inside
+/// the solid. [m]
+bool isBelowSurface(const Track& track, const base::Vec3& roomPoint);
 
 /// Distance from x to the finish line in segments, the first and the last one counted by the fraction that
 /// lies between (paper, Eq. 3; decisions.md#distance-and-statistics); 0 at or past the finish. x before the

@@ -26,6 +26,7 @@ std::optional<std::string> findFault(const TrialBatch& batch, const TrialSpec& s
     if (!isFinite(outcome)) return "its pose is not a number";
     const track::Track& track = *batch.track;
     for (const PartOutcome& part : outcome.parts) {
+        if (part.throughSurface) return "it fell through the track's surface";
         const base::Vec3& there = part.farthest.position;
         const double off = std::max(
             {there.x() - track.finish, std::abs(there.y()) - track.width, std::abs(there.z()) - track.width});

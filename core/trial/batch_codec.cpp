@@ -109,8 +109,8 @@ void serialize(Archive& archive, T& batch) {
 
 template <class Archive, base::OrConst<PartOutcome> T>
 void serialize(Archive& archive, T& outcome) {
-    auto& [ending, initial, farthest, time, entered] = outcome;
-    archive(ending, initial, farthest, time, entered);
+    auto& [ending, initial, farthest, time, entered, throughSurface] = outcome;
+    archive(ending, initial, farthest, time, entered, throughSurface);
 }
 
 template <class Archive, base::OrConst<Stop> T>
@@ -128,7 +128,7 @@ void serialize(Archive& archive, T& outcome) {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kMark = {'T', 'R', 'A', 'P'};
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 enum class Kind : std::uint8_t { part, track, batch, outcomes };
 

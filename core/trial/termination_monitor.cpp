@@ -43,6 +43,7 @@ std::optional<Ending> TerminationMonitor::update(std::size_t part, double time, 
     if (ending) {
         noteStop(part, progress, time);
         outcome.ending = *ending;
+        outcome.throughSurface = *ending == Ending::fellOff && track::isBelowSurface(*track_, pose.position);
         --running_;
     }
     return ending;

@@ -21,7 +21,7 @@ class TerminationMonitor {
     /// `part`: its place in TrialSpec::parts. `pose`: part frame to the track's mesh frame (the room with the
     /// drive's displacement taken out). Returns the ending when the part's run is over, which is then not
     /// told of any more. A pose that is not a number ends it as stuck, and stays in the outcome as the
-    /// farthest.
+    /// farthest. One that falls off below the surface is noted, too (PartOutcome::throughSurface).
     std::optional<Ending> update(std::size_t part, double time, const base::Pose& pose);
 
     /// A part that never came, because there was no room for it, is not waited for any more.

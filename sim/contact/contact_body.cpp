@@ -10,6 +10,38 @@ using base::Vec3;
 
 namespace {
 
+/// How far a point is beyond the face that it is farthest beyond; negative inside. [m]
+double calcHeight(const geometry::ConvexPolytope& polytope, const Vec3& point) {
+    double height = -1e300;
+    for (const geometry::PolytopeFace& face : polytope.faces)
+        height = std::max(height, face.normal.dot(point) - face.offset);
+    return height;
+}
+
+/// Whether the other pieces lie against all of a face, as far as points all over it tell.
+bool isCovered(const std::vector<geometry::ConvexPolytope>& pieces, std::size_t piece,
+               const geometry::PolytopeFace& face, double touching) {
+    const std::vector<Vec3>& vertices = pieces[piece].vertices;
+    Vec3 centre = Vec3::Zero();
+    for (const int v : face.loop)
+        centre += vertices[v] / static_cast<double>(face.loop.size());
+    const auto isMet = [&](const Vec3& point) {
+        const Vec3 beyond = point + touching * face.normal;
+        for (std::size_t q = 0; q < pieces.size(); ++q)
+            if (q != piece && calcHeight(pieces[q], beyond) <= touching) return true;
+        return false;
+    };
+    if (!isMet(centre)) return false;
+    for (std::size_t i = 0; i < face.loop.size(); ++i) {
+        const Vec3& from = vertices[face.loop[i]];
+        const Vec3& to = vertices[face.loop[(i + 1) % face.loop.size()]];
+        for (const double out : {0.5, 0.95})
+            for (const Vec3& border : {from, Vec3(0.5 * (from + to))})
+                if (!isMet(centre + out * (border - centre))) return false;
+    }
+    return true;
+}
+
 /// Pieces that are nearer to each other touch: several times what their cuts are off a plane. Relative to the
 /// body's radius.
 constexpr double kTouching = 2e-5;
@@ -52,7 +84,12 @@ ContactBody prepareBody(const std::vector<geometry::ConvexPolytope>& pieces) {
         for (const Vec3& vertex : polytope.vertices)
             body.radius = std::max(body.radius, vertex.norm());
     }
-    if (body.pieces.size() > 1) keepUnionFeatures(body.pieces, kTouching * body.radius);
+    if (body.pieces.size() == 1) return body;
+    const double touching = kTouching * body.radius;
+    keepUnionFeatures(body.pieces, touching);
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+        for (std::size_t f = 0; f < pieces[p].faces.size(); ++f)
+            body.pieces[p].faces[f].isCut = isCovered(pieces, p, pieces[p].faces[f], touching);
     return body;
 }
 

@@ -21,9 +21,14 @@ struct BodyEdge {
 };
 
 struct BodyFace {
-    base::Vec3 normal;  // outward, unit
-    double offset;      // [m]
+    base::Vec3 normal;   // outward, unit
+    double offset;       // [m]
+    bool isCut = false;  // other pieces lie against all of it: nothing is let out there
 };
+
+/// What is at most so far beyond a cut is held by the piece's other faces: it is in the corner of two pieces
+/// and has to be held by both. [m]
+inline constexpr double kCutSlack = 30e-6;
 
 /// One convex piece of a part, with those vertices and edges that are the whole part's (keepUnionFeatures).
 struct BodyPiece {

@@ -47,13 +47,76 @@ double calcConvexity(const Vec3& normal0, const Vec3& normal1, const Vec3& out0)
     return normal1.dot(out0) >= 0.0 ? angle : -angle;
 }
 
-/// Whether the line of an edge goes on in the solid beyond its end: another edge there (`others`, unit, away
-/// from that end) leads on above the line. `away`: of the edge beyond its end, unit.
-bool goesOnInside(const std::vector<Vec3>& others, const Vec3& away, const Vec3& outward) {
-    constexpr double kBend = 0.02;  // less is straight, and needs nothing
-    return std::ranges::any_of(others, [&](const Vec3& other) {
-        return other.dot(away) > 0.0 && (other - away).dot(outward) > kBend;
+/// How far a flank is to act beyond a valley whose other flank is this triangle, with its corner at the
+/// valley's begin (kCornerSlack). [m]
+double calcValleySlack(const geometry::TriangleMesh& mesh, int triangle, int corner) {
+    const Vec3& a = mesh.vertices[mesh.triangles[triangle][corner]];
+    const Vec3& b = mesh.vertices[mesh.triangles[triangle][(corner + 1) % 3]];
+    const Vec3& top = mesh.vertices[mesh.triangles[triangle][(corner + 2) % 3]];
+    const double height = (b - a).cross(top - a).norm() / (b - a).norm();
+    return std::clamp(0.5 * height, kEdgeSlack, kCornerSlack);
+}
+
+/// What of the surface meets at a vertex, seen from there: the solid is on the inner side of all of it.
+class VertexFan {
+ public:
+    /// a, b: unit, to the triangle's other corners, its normal on the side of a x b.
+    void add(const Vec3& a, const Vec3& b) { sectors_.push_back({a, b, a.cross(b).normalized()}); }
+
+    /// Whether what lies this way from the vertex, near to it, is inside the solid.
+    [[nodiscard]] bool isInside(const Vec3& way) const {
+        // Along the great circle to the middle of one of the triangles: which side of the surface is met
+        // first?
+        const Vec3 target = (sectors_.front().a + sectors_.front().b).normalized();
+        const Vec3 ahead = (target - target.dot(way) * way).normalized();
+        const double whole = std::atan2(ahead.dot(target), way.dot(target));
+        double first = whole;
+        bool leaves = sectors_.front().normal.dot(way) < 0.0;
+        for (const Sector& sector : sectors_) {
+            double angle = std::atan2(-sector.normal.dot(way), sector.normal.dot(ahead));
+            if (angle < 0.0) angle += base::kPi;
+            if (!(angle < first)) continue;
+            const Vec3 there = std::cos(angle) * way + std::sin(angle) * ahead;
+            if (sector.a.cross(there).dot(sector.normal) < -kSame ||
+                there.cross(sector.b).dot(sector.normal) < -kSame)
+                continue;
+            first = angle;
+            leaves = sector.normal.dot(way) < 0.0;
+        }
+        return leaves;
+    }
+
+ private:
+    static constexpr double kSame = 1e-12;
+    struct Sector {
+        Vec3 a, b, normal;
+    };
+    std::vector<Sector> sectors_;
+};
+
+/// A ridge as seen from one of its ends.
+struct RidgeEnd {
+    Vec3 into;  // along it, unit
+    Vec3 outward;
+};
+
+/// What meets at a vertex of a mesh.
+struct VertexSurroundings {
+    std::vector<Vec3> edges;  // away from it, unit
+    double shortest = 1e300;  // of the edges [m]
+    std::vector<RidgeEnd> ridges;
+    VertexFan fan;
+};
+
+/// How far a ridge is to act beyond its end there (kCornerSlack). [m]
+double calcCornerSlack(const VertexSurroundings& end, const RidgeEnd& ridge) {
+    constexpr double kAlike = 0.02;  // what bends by less is still straight
+    const Vec3 away = -ridge.into;
+    const bool goesOn = std::ranges::any_of(end.ridges, [&](const RidgeEnd& other) {
+        return (other.into - away).norm() < kAlike && (other.outward - ridge.outward).norm() < kAlike;
     });
+    if (goesOn || !end.fan.isInside((away - kAlike * ridge.outward).normalized())) return 0.0;
+    return std::min(kCornerSlack, end.shortest);
 }
 
 }  // namespace
@@ -84,15 +147,28 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
     }
 
     // Keep the strictly convex edges, and take the slack of their triangles away again.
-    std::map<int, std::vector<Vec3>> edgesAtVertex;
-    std::map<int, bool> vertexActs;
+    std::map<int, VertexSurroundings> surroundings;
+    std::vector<std::pair<int, int>> ends;  // of track.edges
     const EdgeMap edges = findEdges(mesh, usable);
     const auto directionOf = [&](const std::pair<int, int>& key) -> Vec3 {
         return (mesh.vertices[key.second] - mesh.vertices[key.first]).normalized();
     };
     for (const auto& [key, use] : edges) {
-        edgesAtVertex[key.first].push_back(directionOf(key));
-        edgesAtVertex[key.second].push_back(-directionOf(key));
+        const double length = (mesh.vertices[key.second] - mesh.vertices[key.first]).norm();
+        for (const int v : {key.first, key.second}) {
+            VertexSurroundings& here = surroundings[v];
+            here.edges.push_back(v == key.first ? directionOf(key) : Vec3(-directionOf(key)));
+            here.shortest = std::min(here.shortest, length);
+        }
+    }
+    for (const int t : usable) {
+        for (int c = 0; c < 3; ++c) {
+            const Vec3& vertex = mesh.vertices[mesh.triangles[t][c]];
+            const Vec3& next = mesh.vertices[mesh.triangles[t][(c + 1) % 3]];
+            const Vec3& last = mesh.vertices[mesh.triangles[t][(c + 2) % 3]];
+            surroundings[mesh.triangles[t][c]].fan.add((next - vertex).normalized(),
+                                                       (last - vertex).normalized());
+        }
     }
     for (const auto& [key, use] : edges) {
         if (use.triangle[1] < 0) continue;
@@ -100,7 +176,15 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
         TrackTriangle& t1 = track.triangles[placeOf[use.triangle[1]]];
         const Vec3& out0 = t0.edgeNormal[use.corner[0]];
         const Vec3& out1 = t1.edgeNormal[use.corner[1]];
-        if (calcConvexity(t0.normal, t1.normal, out0) < kConvexAngle) continue;
+        const double convexity = calcConvexity(t0.normal, t1.normal, out0);
+        if (convexity < -kConvexAngle) {
+            // No farther than there is something of the other flank to be inside of.
+            t0.edgeOffset[use.corner[0]] +=
+                calcValleySlack(mesh, use.triangle[1], use.corner[1]) - kEdgeSlack;
+            t1.edgeOffset[use.corner[1]] +=
+                calcValleySlack(mesh, use.triangle[0], use.corner[0]) - kEdgeSlack;
+        }
+        if (convexity < kConvexAngle) continue;
         t0.edgeOffset[use.corner[0]] -= kEdgeSlack;
         t1.edgeOffset[use.corner[1]] -= kEdgeSlack;
         TrackEdge edge;
@@ -112,18 +196,24 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
         edge.outward = sum.norm() > 1e-9 ? Vec3(sum.normalized()) : Vec3((out0 + out1).normalized());
         edge.from = mesh.vertices[key.first];
         edge.to = mesh.vertices[key.second];
-        if (goesOnInside(edgesAtVertex[key.first], -edge.direction, edge.outward))
-            edge.from -= kEdgeSlack * edge.direction;
-        if (goesOnInside(edgesAtVertex[key.second], edge.direction, edge.outward))
-            edge.to += kEdgeSlack * edge.direction;
+        edge.centre = Vec3::Zero();  // with its ends, below
+        edge.radius = 0.0;
+        track.edges.push_back(edge);
+        ends.push_back(key);
+        surroundings[key.first].ridges.push_back({edge.direction, edge.outward});
+        surroundings[key.second].ridges.push_back({-edge.direction, edge.outward});
+    }
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        TrackEdge& edge = track.edges[e];
+        const Vec3& along = edge.direction;
+        edge.from -= calcCornerSlack(surroundings[ends[e].first], {along, edge.outward}) * along;
+        edge.to += calcCornerSlack(surroundings[ends[e].second], {-along, edge.outward}) * along;
         edge.centre = 0.5 * (edge.from + edge.to);
         edge.radius = 0.5 * (edge.to - edge.from).norm();
-        track.edges.push_back(edge);
-        vertexActs[key.first] = true;
-        vertexActs[key.second] = true;
     }
-    for (const auto& [vertex, acts] : vertexActs) {
-        const std::vector<Vec3>& directions = edgesAtVertex[vertex];
+    for (const auto& [vertex, here] : surroundings) {
+        if (here.ridges.empty()) continue;
+        const std::vector<Vec3>& directions = here.edges;
         track.vertices.push_back({mesh.vertices[vertex], static_cast<int>(track.vertexEdges.size()),
                                   static_cast<int>(directions.size())});
         track.vertexEdges.insert(track.vertexEdges.end(), directions.begin(), directions.end());

@@ -12,14 +12,14 @@ struct TrackTriangle {
     base::Vec3 corner;         // any of its vertices [m]
     base::Vec3 normal;         // outward, unit
     base::Vec3 edgeNormal[3];  // in its plane, unit, pointing out of the triangle
-    double edgeOffset[3];  // edgeNormal . p <= edgeOffset inside; slack at concave and flat edges included
+    double edgeOffset[3];  // edgeNormal . p <= edgeOffset inside; slack at valleys and flat edges included
     base::Vec3 centre;     // of a ball around it [m]
     double radius;
 };
 
 /// A strictly convex edge of the track: only these push (decisions.md#contact-features).
 struct TrackEdge {
-    base::Vec3 from, to;   // [m]; kEdgeSlack longer where it ends below the surface, at a valley
+    base::Vec3 from, to;   // [m]; longer where the solid goes on (kCornerSlack)
     base::Vec3 direction;  // unit
     base::Vec3 into[2];    // in the planes of its two triangles, unit, pointing from the edge into them
     base::Vec3 outward;    // mean of the two normals, unit
@@ -44,9 +44,13 @@ struct ContactTrack {
 /// Edges whose faces meet at less than this beyond flat do not act: treating flat edges as ridges makes parts
 /// jump.
 inline constexpr double kConvexAngle = 2.0 * base::kDegree;
-/// How far beyond a flat or concave edge a triangle's plane still acts, so that no point slips between two,
-/// and how far beyond the foot of a slope a ridge, so that no edge slips between two halves of a crest. [m]
+/// How far beyond a flat edge a triangle's plane still acts, so that no point slips between two. [m]
 inline constexpr double kEdgeSlack = 20e-6;
+/// How far a flank acts beyond its valley, and a ridge of the track or an edge of the part beyond its end
+/// where what lies there is inside the solid, as at the foot of a slope. What comes into the corner of two
+/// flanks or ridges is nearest to both beyond where they end, by as much as it is too deep, and would slip
+/// between them; and what comes to it fast has to be seen a step before. [m]
+inline constexpr double kCornerSlack = 0.1e-3;
 
 /// Prepares a closed, oriented mesh. Degenerate triangles are left out.
 ContactTrack prepareTrack(const geometry::TriangleMesh& mesh);

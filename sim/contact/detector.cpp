@@ -18,7 +18,7 @@ scalar::Triple toTriple(const Vec3& v) {
 }
 
 scalar::Plane toPlane(const BodyFace& face) {
-    return {toTriple(face.normal), -face.offset};
+    return {toTriple(face.normal), -face.offset - (face.isCut ? kCutSlack : 0.0)};
 }
 
 std::uint64_t nameFeature(unsigned kind, int piece, int bodyFeature, int trackFeature) {
@@ -32,10 +32,12 @@ double distanceToSegment(const Vec3& point, const Vec3& from, const Vec3& direct
 }
 
 /// Largest value of min(face distance of a, face distance of b) over the faces: a lower bound of the distance
-/// of segment a-b to the piece. Stops at the first that reaches `enough`; `face` is tried first and told.
+/// of segment a-b to the piece. Cuts count only where it is beyond them. Stops at the first that reaches
+/// `enough`; `face` is tried first and told.
 double findSeparation(const BodyPiece& piece, const Vec3& a, const Vec3& b, double enough, int& face) {
     const auto distance = [&, from = toTriple(a), to = toTriple(b)](int f) {
-        return scalar::calcSeparation(toPlane(piece.faces[f]), from, to);
+        const double d = scalar::calcSeparation(toPlane(piece.faces[f]), from, to);
+        return piece.faces[f].isCut && d <= 0.0 ? -1e300 : d;
     };
     double best = distance(face);
     if (best >= enough) return best;

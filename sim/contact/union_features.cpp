@@ -6,6 +6,8 @@
 #include <iterator>
 #include <optional>
 
+#include "sim/contact/contact_track.h"
+
 namespace trapwright::contact {
 
 using base::kPi;
@@ -174,6 +176,9 @@ class UnionFeatures {
             for (const BodyVertex& vertex : piece.vertices)
                 keepVertex(p, vertex);
         }
+        for (BodyPiece& piece : kept_)
+            for (BodyEdge& edge : piece.edges)
+                lengthen(edge);
         return std::move(kept_);
     }
 
@@ -221,6 +226,24 @@ class UnionFeatures {
         if (free.width < kPi + kLeastBend) return std::nullopt;
         const auto towards = [&](double angle) { return Vec3(std::cos(angle) * x + std::sin(angle) * y); };
         return Into{towards(free.begin), towards(free.begin + free.width)};
+    }
+
+    /// Lets an edge act a little farther where it ends in a reflex corner, inside the union, or goes on
+    /// straight (kCornerSlack).
+    void lengthen(BodyEdge& edge) const {
+        constexpr double kBelow = 0.02;  // where the union bends away by less it is straight
+        const double slack = std::min(kCornerSlack, edge.length);
+        const Vec3 inward = (edge.into[0] + edge.into[1]).normalized();
+        const auto goesOn = [&](const Vec3& end, const Vec3& away) {
+            const Vec3 beyond = end + slack * (away + kBelow * inward);
+            return std::ranges::any_of(
+                *pieces_, [&](const BodyPiece& piece) { return calcHeight(piece, beyond) <= 0.0; });
+        };
+        const bool before = goesOn(edge.from, -edge.direction);
+        const bool behind = goesOn(edge.to, edge.direction);
+        if (before) edge.from -= slack * edge.direction;
+        if (behind) edge.to += slack * edge.direction;
+        edge.length = (edge.to - edge.from).norm();
     }
 
     [[nodiscard]] bool isKeptAlready(const BodyEdge& edge, const Vec3& point) const {

@@ -208,8 +208,10 @@ inline float findSeparation(const PackedPiece& piece, const Triple& point, int* 
     const int width = static_cast<int>(hn::Lanes(Tag()));
     float best = -kUntouchable;
     for (int first = 0; first < piece.faces.stride(); first += width) {
-        const Plane plane = {loadThree(piece.faces, 0, first), load(piece.faces.row(3) + first)};
-        const Real separation = dot(plane.normal, point) + plane.offset;
+        const Real distance = dot(loadThree(piece.faces, kFaceNormalX, first), point) +
+                              load(piece.faces.row(kPlaneOffset) + first);
+        const Real separation =
+            select(distance > load(piece.faces.row(kCountsFrom) + first), distance, Real(-kUntouchable));
         const float greatest = greatestOf(separation);
         if (greatest <= best) continue;
         best = greatest;
@@ -292,7 +294,8 @@ inline void collectFaces(const Placed& placed, int index) {
         placed.pairs->push_back({gap,
                                  nameFeature(kFaceOnVertex, static_cast<std::uint32_t>(piece), index),
                                  0,
-                                 {relative[0], relative[1], relative[2], row(0), row(1), row(2), row(3)}});
+                                 {relative[0], relative[1], relative[2], row(kFaceNormalX), row(kFaceNormalY),
+                                  row(kFaceNormalZ), row(kPlaneOffset)}});
     });
 }
 

@@ -334,9 +334,11 @@ inline FarthestFace findFarthestFace(const PackedBody& body, const std::uint32_t
         const Mask asked = load(same) > Real(0.0);
         const FloatRows& faces = body.pieces[p].faces;
         for (int f = 0; f < faces.stride(); ++f) {
-            const Plane plane = {{faces.row(0)[f], faces.row(1)[f], faces.row(2)[f]}, faces.row(3)[f]};
+            const Plane plane = {
+                {faces.row(kFaceNormalX)[f], faces.row(kFaceNormalY)[f], faces.row(kFaceNormalZ)[f]},
+                faces.row(kPlaneOffset)[f]};
             const Real gap = distanceBeyond(plane, point);
-            const Mask farther = asked && gap > farthest.gap;
+            const Mask farther = asked && gap > farthest.gap && gap > Real(faces.row(kCountsFrom)[f]);
             farthest.gap = select(farther, gap, farthest.gap);
             farthest.normal = select(farther, plane.normal, farthest.normal);
             farthest.face = select(farther, Real(f), farthest.face);

@@ -152,11 +152,13 @@ PackedPiece pack(const contact::BodyPiece& piece) {
     }
 
     const int faceCount = static_cast<int>(piece.faces.size());
-    packed.faces = FloatRows(4, faceCount);
+    packed.faces = FloatRows(kFaceRows, faceCount);
     for (int f = 0; f < packed.faces.stride(); ++f) {
         const contact::BodyFace& face = piece.faces[f < faceCount ? f : 0];
-        set(packed.faces, 0, f, face.normal);
-        packed.faces.row(3)[f] = f < faceCount ? static_cast<float>(-face.offset) : -1e6F;
+        set(packed.faces, kFaceNormalX, f, face.normal);
+        const double offset = face.offset + (face.isCut ? contact::kCutSlack : 0.0);
+        packed.faces.row(kPlaneOffset)[f] = f < faceCount ? static_cast<float>(-offset) : -1e6F;
+        packed.faces.row(kCountsFrom)[f] = face.isCut ? 0.0F : -1e9F;
     }
     return packed;
 }

@@ -26,6 +26,10 @@ enum EdgeRow : int {
     kEdgeRows
 };
 
+/// Of a face of a piece: normal . p + offset is how far p is beyond, and counts from more than that: of cuts
+/// (contact::BodyFace::isCut) 0, their slack being in the offset.
+enum FaceRow : int { kFaceNormalX, kFaceNormalY, kFaceNormalZ, kPlaneOffset, kCountsFrom, kFaceRows };
+
 /// One convex piece of a part, features side by side. Padding is such that it never touches anything. [m]
 struct PackedPiece {
     float centre[3];
@@ -33,7 +37,7 @@ struct PackedPiece {
     int vertexCount;
     FloatRows vertices;               // x, y, z
     FloatRows edges;                  // EdgeRow
-    FloatRows faces;                  // normal x, y, z, offset: normal . p + offset is how far p is beyond
+    FloatRows faces;                  // FaceRow
     std::vector<int> firstEdge;       // of each vertex, in vertexEdges; one more than there are vertices
     std::vector<float> vertexEdges;   // directions away from the vertex, three each
     std::vector<float> vertexFields;  // of each vertex: VertexPairField up to kPlanes

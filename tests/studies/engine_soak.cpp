@@ -1,7 +1,9 @@
-// Trials of anything on anything, for as long as one likes: random tracks, parts, conditions and steps.
-// Counts what no engine may do: poses that are not numbers, parts that are thrown off, energy that grows,
-// parts inside the track. Each finding is told with what makes it again: engine_soak --seed S --first R
-// --rounds 1.
+// Trials of anything on anything, for as long as one likes: random tracks, parts, conditions and steps; or
+// with --track FILE --part NAME of a given track, which a search has had the time to find faults in. Counts
+// what no engine may do: poses that are not numbers, parts that are thrown off, energy that grows, parts
+// inside the track or falling through its surface. Each finding is told with what makes it again:
+// engine_soak --seed S --first R --rounds 1; with --trial T besides the way of that trial alone is told, by
+// the moments of its last fifth of a second.
 
 #include <fmt/format.h>
 
@@ -23,6 +25,7 @@
 #include "core/study/presets.h"
 #include "core/study/track_design.h"
 #include "core/study/trial_batches.h"
+#include "core/track/track_file.h"
 #include "core/verify/scenes.h"
 #include "core/workflow/part_source.h"
 #include "sim/engines/registry.h"
@@ -31,19 +34,25 @@ using namespace trapwright;
 
 namespace {
 
-constexpr int kTrials = 96;            // of a round
-constexpr int kWatched = 16;           // every so manieth is looked at all the way
-constexpr double kInterval = 8e-3;     // between two looks [s]
-constexpr double kDeep = 0.5e-3;       // inside the track, more than recovery leaves for a moment [m]
-constexpr double kFarOff = 1.0;        // off the track [m]
-constexpr double kEnergyMargin = 2.0;  // over what the drive can give
+constexpr int kTrials = 96;              // of a round
+constexpr int kWatched = 16;             // every so manieth is looked at all the way
+constexpr double kInterval = 8e-3;       // between two looks [s]
+constexpr double kCloseInterval = 1e-3;  // of a way that is told [s]
+constexpr double kDeep = 0.5e-3;         // inside the track, more than recovery leaves for a moment [m]
+constexpr double kProbeDistance = 0.2;   // of two points on an edge, in radii of the part
+constexpr double kFarOff = 1.0;          // off the track [m]
+constexpr double kTold = 0.2;            // of a way [s]
+constexpr double kEnergyMargin = 2.0;    // over what the drive can give
 
 struct Options {
     double seconds = 600.0;
     std::uint64_t seed = 1;
     unsigned first = 0;
     unsigned rounds = 0;  // 0: by time
+    int trial = -1;       // -1: all
     std::string engine = "native";
+    std::string track;  // a track's file; none: random ones
+    std::string part;   // a bundled one, on that track
 };
 
 Options readOptions(int count, char** texts) {
@@ -55,7 +64,10 @@ Options readOptions(int count, char** texts) {
         if (key == "--seed") options.seed = std::strtoull(value, nullptr, 10);
         if (key == "--first") options.first = static_cast<unsigned>(std::atoi(value));
         if (key == "--rounds") options.rounds = static_cast<unsigned>(std::atoi(value));
+        if (key == "--trial") options.trial = std::atoi(value);
         if (key == "--engine") options.engine = value;
+        if (key == "--track") options.track = value;
+        if (key == "--part") options.part = value;
     }
     return options;
 }
@@ -67,26 +79,19 @@ struct Round {
     trial::TrialBatch batch;
 };
 
-/// None where the design gives no track, or one that crosses itself: those are not simulated.
-std::optional<Round> makeRound(const Options& options, unsigned number,
-                               std::span<const std::shared_ptr<const part::Part>> parts) {
-    base::Random random({options.seed, number, 0, 0, base::Purpose::test});
-    const std::shared_ptr<const part::Part>& part =
-        parts[random.below(static_cast<std::uint32_t>(parts.size()))];
-    Round round;
-    study::Settings& settings = round.settings;
-    auto preset = study::presetSettings("cuboid");
-    if (!preset) return std::nullopt;
-    settings = *preset;
-    settings.evolution.seed = options.seed;
-    const std::uint32_t kind = random.below(4);
-    settings = kind == 3 ? study::sortingMode(settings, *part) : study::turningMode(settings, *part);
+void drawTrackSettings(study::Settings& settings, const part::Part& part, base::Random& random) {
+    const std::uint32_t kind = random.below(5);
+    settings = kind == 4   ? study::ledgeMode(settings, part)
+               : kind == 3 ? study::sortingMode(settings, part)
+                           : study::turningMode(settings, part);
     // The paper's free points make surfaces that overhang; few of them do not cross themselves.
     if (kind < 3) settings.track.crossSections = 1 + static_cast<int>(random.below(5));
     if (kind == 2) settings.track.encoding = traps::PointEncoding::free;
     if (random.boolean())
         settings.track.shape = {track::FeederType::bowl, 0.175, track::Conveying::clockwise};
+}
 
+void drawSimulation(study::Settings& settings, base::Random& random) {
     settings.simulation.contact.kineticFriction = random.uniform(0.15, 1.0);
     settings.simulation.contact.staticFriction =
         settings.simulation.contact.kineticFriction * random.uniform(1.0, 1.4);
@@ -100,46 +105,85 @@ std::optional<Round> makeRound(const Options& options, unsigned number,
     settings.evolution.conditions = study::TrialConditions::varied;
     constexpr std::array kSteps = {0.0, 0.1e-3, 0.2e-3, 0.3e-3, 0.5e-3, 1e-3};
     settings.evolution.learningStep = kSteps[random.below(kSteps.size())];
+}
 
+/// None where the design gives no track, or one that crosses itself: those are not simulated.
+std::shared_ptr<const track::Track> drawTrack(const study::TrackSettings& settings, base::Random& random) {
     search::Design design;
-    for (std::size_t i = 0; i < study::designSpace(settings.track).dimensions.size(); ++i)
+    for (std::size_t i = 0; i < study::designSpace(settings).dimensions.size(); ++i)
         design.push_back(random.uniform());
-    auto built = study::decodeTrack(settings.track, design);
-    if (!built || geometry::countOverlappingTriangles(built->solid, built->surfaceTriangles) > 0)
-        return std::nullopt;
-    round.batch = study::makeLearningBatch(
-        study::makeScene(settings, part, std::make_shared<const track::Track>(std::move(*built))),
-        {static_cast<int>(number), 0}, kTrials);
-    round.about = fmt::format("{} on {}{}, step {:g} ms", part->name, settings.track.traps,
-                              settings.track.shape.type == track::FeederType::bowl ? " in a bowl" : "",
-                              settings.evolution.learningStep * 1e3);
+    auto built = study::decodeTrack(settings, design);
+    if (!built || geometry::countOverlappingTriangles(built->solid, built->surfaceTriangles) > 0) return {};
+    return std::make_shared<const track::Track>(std::move(*built));
+}
+
+/// `given`: the track, or none for a random one.
+std::optional<Round> makeRound(const Options& options, unsigned number,
+                               std::span<const std::shared_ptr<const part::Part>> parts,
+                               const std::shared_ptr<const track::Track>& given) {
+    base::Random random({options.seed, number, 0, 0, base::Purpose::test});
+    const std::shared_ptr<const part::Part>& part =
+        parts[random.below(static_cast<std::uint32_t>(parts.size()))];
+    Round round;
+    study::Settings& settings = round.settings;
+    auto preset = study::presetSettings("cuboid");
+    if (!preset) return std::nullopt;
+    settings = *preset;
+    settings.evolution.seed = options.seed;
+    drawTrackSettings(settings, *part, random);
+    drawSimulation(settings, random);
+    const std::shared_ptr<const track::Track> track = given ? given : drawTrack(settings.track, random);
+    if (!track) return std::nullopt;
+    round.batch = study::makeLearningBatch(study::makeScene(settings, part, track),
+                                           {static_cast<int>(number), 0}, kTrials);
+    round.about =
+        fmt::format("{} on {}{}, step {:g} ms", part->name, given ? options.track : settings.track.traps,
+                    track->shape.type == track::FeederType::bowl ? " in a bowl" : "",
+                    settings.evolution.learningStep * 1e3);
     return round;
 }
 
-/// What the energy of a trial's part may be, over height 0: what it began with, and half the square of the
-/// speed at which bouncing on the track gains no more. [J]
+/// What the energy of a trial's part may be, over height 0: what it has as high as the track is anywhere, and
+/// half the square of the speed at which bouncing on the track gains no more. [J]
 double calcMostEnergy(const trial::TrialBatch& batch) {
     const trial::TrialSpec& spec = batch.trials.front();
     const trial::Vibration& drive = batch.driveOf(spec);
     const double e = batch.contactOf(spec).restitution;
     const double speed = drive.angularFrequency() * drive.halfStroke * (1.0 + e) / (1.0 - e);
     const double mass = batch.partOf(spec).massProperties.mass;
-    return mass *
-           (batch.gravity * spec.parts.front().pose.position.z() + kEnergyMargin * 0.5 * speed * speed);
+    double top = spec.parts.front().pose.position.z();
+    for (const base::Vec3& vertex : batch.track->solid.vertices)
+        top = std::max(top, vertex.z() + batch.partOf(spec).boundingRadius);
+    const double begin = spec.parts.front().velocity.squaredNorm();
+    return mass * (batch.gravity * top + 0.5 * begin + kEnergyMargin * 0.5 * speed * speed);
 }
 
-/// How deep any corner of the part is inside the track. [m]
-double calcDepth(const geometry::SolidProbe& probe, const part::Part& part, const track::Track& track,
-                 const base::Pose& pose) {
+/// Corners of the part, and points on its edges: one that lies over a crest has its corners in the air.
+std::vector<base::Vec3> listProbes(const part::Part& part) {
+    std::vector<base::Vec3> probes;
+    for (const geometry::ConvexPolytope& piece : part.pieces) {
+        probes.insert(probes.end(), piece.vertices.begin(), piece.vertices.end());
+        for (const geometry::PolytopeEdge& edge : piece.edges) {
+            const base::Vec3& from = piece.vertices[edge.from];
+            const base::Vec3 along = piece.vertices[edge.to] - from;
+            const int between = static_cast<int>(along.norm() / (kProbeDistance * part.boundingRadius));
+            for (int i = 1; i <= between; ++i)
+                probes.emplace_back(from + i / (between + 1.0) * along);
+        }
+    }
+    return probes;
+}
+
+/// How deep any of the points is inside the track. [m]
+double calcDepth(const geometry::SolidProbe& probe, std::span<const base::Vec3> points,
+                 const track::Track& track, const base::Pose& pose) {
     const base::Pose there{base::Quaternion(track.shape.tangentFrame(pose.position.x())) * pose.rotation,
                            track.shape.toRoom(pose.position)};
     double deepest = 0.0;
-    for (const auto& piece : part.pieces) {
-        for (const base::Vec3& vertex : piece.vertices) {
-            const base::Vec3 point = there.apply(vertex);
-            if (point.z() > track.height || point.z() < 0.0 || !probe.isInside(point)) continue;
-            deepest = std::max(deepest, (probe.findNearest(point) - point).norm());
-        }
+    for (const base::Vec3& own : points) {
+        const base::Vec3 point = there.apply(own);
+        if (!probe.isInside(point)) continue;
+        deepest = std::max(deepest, (probe.findNearest(point) - point).norm());
     }
     return deepest;
 }
@@ -152,6 +196,7 @@ struct Finding {
 
 Finding judgeEnd(const trial::TrialBatch& batch, const trial::Outcome& outcome) {
     if (outcome.parts.size() != 1 || !trial::isFinite(outcome)) return {"not a number", ""};
+    if (outcome.parts.front().throughSurface) return {"fell through", ""};
     const base::Vec3& there = outcome.parts.front().farthest.position;
     const double off = std::max({there.x() - batch.track->finish, std::abs(there.y()), std::abs(there.z())});
     if (off > kFarOff) return {"thrown", fmt::format("{:g} m", off)};
@@ -162,16 +207,35 @@ Finding judgeEnd(const trial::TrialBatch& batch, const trial::Outcome& outcome) 
 Finding judgeWay(const trial::TrialBatch& batch, const trial::Trajectory& trajectory,
                  const geometry::SolidProbe& probe) {
     const double most = calcMostEnergy(batch);
+    const std::vector<base::Vec3> points = listProbes(batch.partOf(batch.trials.front()));
     double energy = 0.0;
     double depth = 0.0;
     for (const trial::TrajectorySample& sample : trajectory.samples) {
         energy = std::max(energy, verify::calcEnergy(batch, sample) / most);
-        depth = std::max(depth, calcDepth(probe, batch.partOf(batch.trials.front()), *batch.track,
-                                          sample.parts.front().track));
+        depth = std::max(depth, calcDepth(probe, points, *batch.track, sample.parts.front().track));
     }
     if (energy > 1.0) return {"too quick", fmt::format("{:.2f} times the most", energy)};
-    if (depth > kDeep) return {"through the surface", fmt::format("{:.2f} mm", depth * 1e3)};
+    if (depth > kDeep) return {"inside the track", fmt::format("{:.2f} mm", depth * 1e3)};
     return {};
+}
+
+/// One trial's last moments.
+void tellWay(const trial::TrialBatch& batch, const trial::Trajectory& trajectory,
+             const geometry::SolidProbe& probe) {
+    const std::vector<base::Vec3> points = listProbes(batch.partOf(batch.trials.front()));
+    const trial::PartOutcome& end = trajectory.outcome.parts.front();
+    for (const trial::TrajectorySample& sample : trajectory.samples) {
+        if (sample.time < end.time - kTold) continue;
+        const trial::PartState& state = sample.parts.front();
+        const base::Vec3 at = state.track.position * 1e3;
+        fmt::print(
+            "{:.4f} s: ({:.2f}, {:.2f}, {:.2f}) mm, {:.3f} m/s, {:.1f} rad/s, {} contacts, {:.3f} mm "
+            "inside\n",
+            sample.time, at.x(), at.y(), at.z(), state.velocity.norm(), state.angularVelocity.norm(),
+            state.contacts, 1e3 * calcDepth(probe, points, *batch.track, state.track));
+    }
+    fmt::print("{} after {:.4f} s{}\n", trial::endingName(end.ending), end.time,
+               end.throughSurface ? ", through the surface" : "");
 }
 
 }  // namespace
@@ -182,10 +246,21 @@ int main(int count, char** texts) {
     if (kind == nullptr) return 2;
     const auto engine = kind->make({});
     std::vector<std::shared_ptr<const part::Part>> parts;
+    std::shared_ptr<const track::Track> given;
+    if (!options.track.empty()) {
+        auto file = track::readTrackFile(options.track);
+        if (!file) {
+            fmt::print(stderr, "{}\n", file.error().message);
+            return 2;
+        }
+        given = std::make_shared<const track::Track>(std::move(file->track));
+    }
     for (const part::BundledPart& bundled : part::listBundledParts()) {
+        if (!options.part.empty() && bundled.name != options.part) continue;
         const auto loaded = workflow::importPart({std::string(bundled.name)});
         if (loaded) parts.push_back(loaded->part);
     }
+    if (parts.empty()) return 2;
     std::map<std::string, int> findings;
     std::map<std::string, int> endings;
     int trials = 0;
@@ -198,7 +273,7 @@ int main(int count, char** texts) {
     for (unsigned number = options.first;
          options.rounds > 0 ? number < options.first + options.rounds : seconds() < options.seconds;
          ++number) {
-        const auto round = makeRound(options, number, parts);
+        const auto round = makeRound(options, number, parts, given);
         if (!round) continue;
         ++rounds;
         const trial::TrialBatch& batch = round->batch;
@@ -208,6 +283,16 @@ int main(int count, char** texts) {
             fmt::print("round {} trial {}: {} {} ({})\n", number, trial, finding.kind, finding.about,
                        round->about);
         };
+        if (options.trial >= 0) {
+            const auto replay =
+                engine->replay(batch, static_cast<std::size_t>(options.trial), kCloseInterval, {});
+            if (!replay) continue;
+            trial::TrialBatch alone = batch;
+            alone.trials = {batch.trials.at(static_cast<std::size_t>(options.trial))};
+            fmt::print("{}\n", round->about);
+            tellWay(alone, *replay, geometry::SolidProbe(batch.track->solid));
+            continue;
+        }
         const auto outcomes = engine->run({&batch, 1}, {});
         if (!outcomes) {
             tell(0, {"error", outcomes.error().message});
@@ -238,7 +323,8 @@ int main(int count, char** texts) {
                watched, seconds());
     for (const auto& [name, number] : endings)
         fmt::print("{}: {}\n", name, number);
-    for (const char* name : {"error", "not a number", "thrown", "too quick", "through the surface"})
+    for (const char* name :
+         {"error", "not a number", "thrown", "fell through", "too quick", "inside the track"})
         fmt::print("{}: {}\n", name, findings[name]);
     return 0;
 }

@@ -191,6 +191,41 @@ class TrackBuilderTest : public QObject {
     }
 
     // A sloped linear track lies in its own axes; only gravity leans.
+    void whatIsBelowTheSurface_data() { addShapes(); }
+    void whatIsBelowTheSurface() {
+        QFETCH(FeederShape, shape);
+        // The surface is 20 mm high, over the middle third of its width alone, with an overhang beside it
+        // that comes back at 5 mm: below its lip is air.
+        CrossSection section{40e-3, {}};
+        for (const auto& [y, z] : std::vector<std::pair<double, double>>{
+                 {-30e-3, 0.0}, {-10e-3, 0.0}, {-10e-3, 20e-3}, {20e-3, 20e-3}, {10e-3, 5e-3}, {30e-3, 0.0}})
+            section.points.emplace_back(y, z);
+        TrackParameters parameters;
+        parameters.shape = shape;
+        CrossSection begin = section;
+        begin.x = 1e-3;
+        const auto track = build(parameters, {begin, section});
+        const double x = track.sections[2].x + 20.1e-3;
+        const auto isBelow = [&](double y, double z) {
+            return track::isBelowSurface(track, track.shape.toRoom({x, y, z}));
+        };
+        QVERIFY(isBelow(0.3e-3, 19e-3));
+        QVERIFY(isBelow(0.3e-3, -2e-3));
+        QVERIFY(isBelow(15.3e-3, 1e-3));
+        QVERIFY(isBelow(15.3e-3, 16e-3));
+        QVERIFY(!isBelow(15.3e-3, 8e-3));  // below the lip
+        QVERIFY(!isBelow(0.3e-3, 21e-3));
+        QVERIFY(!isBelow(-20.3e-3, 0.5e-3));
+        QVERIFY(isBelow(-20.3e-3, -0.5e-3));
+        QVERIFY(!isBelow(31.3e-3, -2e-3));
+        QVERIFY(!isBelow(-31.3e-3, -2e-3));
+        // On the line that its two halves share, seen from above, too.
+        const auto& [a, b, c] = track.solid.triangles[0];
+        const base::Vec3 shared = 0.5 * (track.solid.vertices[b] + track.solid.vertices[c]);
+        QVERIFY(track::isBelowSurface(track, shared - base::Vec3(0.0, 0.0, 1e-3)));
+        QVERIFY(!track::isBelowSurface(track, shared + base::Vec3(0.0, 0.0, 1e-3)));
+    }
+
     void aTiltedFeederHasTheSameSolid() {
         TrackParameters parameters;
         const auto trap = testing::drawTrap(TrapParameters{}, 5);

@@ -20,6 +20,7 @@ namespace {
 struct Faults {
     std::set<unsigned> lost{};    // its pose is not a number
     std::set<unsigned> thrown{};  // far off the track
+    std::set<unsigned> sunk{};    // through the track's surface
     std::set<unsigned> fatal{};   // ends the whole call with an error
 };
 
@@ -61,6 +62,7 @@ class FaultyEngine : public trial::Engine {
         if (faults_.lost.contains(spec.stream.trial))
             part.farthest.position.z() = std::numeric_limits<double>::quiet_NaN();
         if (faults_.thrown.contains(spec.stream.trial)) part.farthest.position.x() = 1e6;
+        part.throughSurface = faults_.sunk.contains(spec.stream.trial);
         return {{part}, {}};
     }
 
@@ -120,20 +122,28 @@ class BackedEngineTest : public QObject {
     void whatCannotBeFinishedIsMadeAgain_data() {
         QTest::addColumn<QList<int>>("lost");
         QTest::addColumn<QList<int>>("thrown");
+        QTest::addColumn<QList<int>>("sunk");
         QTest::addColumn<QList<int>>("fatal");
-        QTest::newRow("none") << QList<int>{} << QList<int>{} << QList<int>{};
-        QTest::newRow("lost") << QList<int>{0, 13} << QList<int>{} << QList<int>{};
-        QTest::newRow("thrown") << QList<int>{} << QList<int>{19} << QList<int>{};
-        QTest::newRow("an error") << QList<int>{} << QList<int>{} << QList<int>{7};
-        QTest::newRow("all kinds") << QList<int>{1, 18} << QList<int>{5} << QList<int>{0, 9, 10};
+        const QList<int> none;
+        QTest::newRow("none") << none << none << none << none;
+        QTest::newRow("lost") << QList<int>{0, 13} << none << none << none;
+        QTest::newRow("thrown") << none << QList<int>{19} << none << none;
+        QTest::newRow("through the surface") << none << none << QList<int>{2, 11} << none;
+        QTest::newRow("an error") << none << none << none << QList<int>{7};
+        QTest::newRow("all kinds") << QList<int>{1, 18} << QList<int>{5} << QList<int>{3}
+                                   << QList<int>{0, 9, 10};
     }
     void whatCannotBeFinishedIsMadeAgain() {
         QFETCH(QList<int>, lost);
         QFETCH(QList<int>, thrown);
+        QFETCH(QList<int>, sunk);
         QFETCH(QList<int>, fatal);
         const auto remade = std::make_shared<trial::RemadeTrials>();
-        const trial::EngineRegistry engines = registryOf(
-            {{lost.begin(), lost.end()}, {thrown.begin(), thrown.end()}, {fatal.begin(), fatal.end()}}, {});
+        const trial::EngineRegistry engines = registryOf({{lost.begin(), lost.end()},
+                                                          {thrown.begin(), thrown.end()},
+                                                          {sunk.begin(), sunk.end()},
+                                                          {fatal.begin(), fatal.end()}},
+                                                         {});
         const auto engine = engines.make("quick", {1, 0.0, nullptr, remade}).value();
         const std::vector<TrialBatch> batches = makeBatches();
         const base::RunControl control;
@@ -141,7 +151,7 @@ class BackedEngineTest : public QObject {
         QVERIFY2(outcomes.ok(), outcomes.ok() ? "" : outcomes.error().message.c_str());
         // Each trial counts once.
         QCOMPARE(control.done(), std::int64_t{20});
-        const QList<int> all = lost + thrown + fatal;
+        const QList<int> all = lost + thrown + sunk + fatal;
         QCOMPARE(remade->count(), static_cast<std::size_t>(all.size()));
         for (std::size_t b = 0; b < batches.size(); ++b) {
             for (std::size_t i = 0; i < batches[b].trials.size(); ++i) {
@@ -161,6 +171,7 @@ class BackedEngineTest : public QObject {
             QCOMPARE(trial.reason,
                      std::string(lost.contains(number)     ? "its pose is not a number"
                                  : thrown.contains(number) ? "it was thrown 1e+06 m off the track"
+                                 : sunk.contains(number)   ? "it fell through the track's surface"
                                                            : "it broke"));
         }
     }
@@ -168,7 +179,7 @@ class BackedEngineTest : public QObject {
     // Only what the reference cannot finish either counts as stuck, where it began.
     void whatNobodyFinishesIsStuck() {
         const auto remade = std::make_shared<trial::RemadeTrials>();
-        const trial::EngineRegistry engines = registryOf({{3, 4}, {}, {5}}, {{3}, {5}, {}});
+        const trial::EngineRegistry engines = registryOf({{3, 4}, {}, {}, {5}}, {{3}, {}, {5}, {}});
         const auto engine = engines.make("quick", {1, 0.0, nullptr, remade}).value();
         const std::vector<TrialBatch> batches = makeBatches();
         const auto outcomes = engine->run(batches, {});
@@ -200,7 +211,8 @@ class BackedEngineTest : public QObject {
         for (unsigned i = 0; i < 20; ++i)
             all.insert(i);
         const auto remade = std::make_shared<trial::RemadeTrials>();
-        const auto engine = registryOf({{}, {}, all}, {{}, {}, all}).make("quick", {1, 0.0, nullptr, remade});
+        const auto engine =
+            registryOf({{}, {}, {}, all}, {{}, {}, {}, all}).make("quick", {1, 0.0, nullptr, remade});
         const auto outcomes = (*engine)->run(makeBatches(), {});
         QVERIFY(!outcomes.ok());
         QCOMPARE(outcomes.error().message,
@@ -212,7 +224,7 @@ class BackedEngineTest : public QObject {
     void brokenBatchesAreAnError() {
         std::vector<TrialBatch> batches = makeBatches();
         batches[1].parts.clear();
-        const auto engine = registryOf({{}, {}, {2}}, {}).make("quick", {});
+        const auto engine = registryOf({{}, {}, {}, {2}}, {}).make("quick", {});
         const auto outcomes = (*engine)->run(batches, {});
         QVERIFY(!outcomes.ok());
         QCOMPARE(outcomes.error().message, std::string("it broke"));
@@ -221,13 +233,13 @@ class BackedEngineTest : public QObject {
     void cancellingEndsIt() {
         base::RunControl control;
         control.cancel();
-        const auto engine = registryOf({{}, {}, {2}}, {}).make("quick", {});
+        const auto engine = registryOf({{}, {}, {}, {2}}, {}).make("quick", {});
         QVERIFY(!(*engine)->run(makeBatches(), control).ok());
     }
 
     // A replay shows the trial that counts.
     void replayShowsWhoMadeIt() {
-        const auto engine = registryOf({{1}, {2}, {3}}, {{}, {}, {}}).make("quick", {}).value();
+        const auto engine = registryOf({{1}, {2}, {}, {3}}, {}).make("quick", {}).value();
         const std::vector<TrialBatch> batches = makeBatches();
         const auto outcomes = engine->run(batches, {});
         for (std::size_t i = 0; i < 5; ++i) {

@@ -147,6 +147,7 @@ std::vector<trial::Outcome> makeOutcomes() {
          {trial::Ending::finished, trial::Ending::fellOff, trial::Ending::stuck, trial::Ending::timedOut})
         outcomes.push_back({{{ending, next.pose(), next.pose(), next(), next()}}, {}});
     outcomes.back().parts.front().entered.reset();
+    outcomes[1].parts.front().throughSurface = true;
     outcomes.back().stops = {{0, next(), next()}, {1, next(), next()}};
     outcomes.back().parts.push_back(outcomes.front().parts.front());
     outcomes.emplace_back();
@@ -264,7 +265,7 @@ bool same(const trial::TrialBatch& a, const trial::TrialBatch& b) {
 bool same(const std::vector<trial::Outcome>& a, const std::vector<trial::Outcome>& b) {
     const auto samePart = [](const trial::PartOutcome& x, const trial::PartOutcome& y) {
         return x.ending == y.ending && same(x.initial, y.initial) && same(x.farthest, y.farthest) &&
-               same(x.time, y.time) && x.entered == y.entered;
+               same(x.time, y.time) && x.entered == y.entered && x.throughSurface == y.throughSurface;
     };
     return allSame(a, b, [&](const trial::Outcome& x, const trial::Outcome& y) {
         return allSame(x.parts, y.parts, samePart) && x.stops == y.stops;
@@ -400,8 +401,8 @@ class BatchCodecTest : public QObject {
         changed = track;
         changed[5] = 2;
         QCOMPARE(reason(changed),
-                 QString("These bytes are not a track: they have version 520, and this program "
-                         "knows version 8; run the same Trapwright on both sides."));
+                 QString("These bytes are not a track: they have version 521, and this program "
+                         "knows version 9; run the same Trapwright on both sides."));
         QCOMPARE(reason(trial::encode(makeOutcomes())),
                  QString("These bytes are not a track: they are outcomes of trials."));
         QCOMPARE(reason(track.substr(0, track.size() - 1)),

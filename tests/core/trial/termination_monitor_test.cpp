@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/track/track_builder.h"
+
 using namespace trapwright;
 using trial::Ending;
 
@@ -70,6 +72,19 @@ class TerminationMonitorTest : public QObject {
         QVERIFY(monitor.update(0, 0.1, at(std::nan(""))) == Ending::stuck);
         QVERIFY(monitor.isOver());
         QVERIFY(!trial::isFinite(monitor.outcome()));
+    }
+
+    // What falls beside the track falls off; what falls inside its outline went through the surface.
+    void aFallThroughTheSurfaceIsTold() {
+        track::CrossSection level{40e-3, {{-30e-3, 0.0}, {0.0, 0.0}, {30e-3, 0.0}}};
+        const track::Track track = track::buildTrack({}, std::vector{level}).value();
+        trial::TerminationMonitor monitor(track, {}, 2);
+        QVERIFY(!monitor.update(0, 0.0, at(0.1)));
+        QVERIFY(!monitor.update(1, 0.0, at(0.1)));
+        QVERIFY(monitor.update(0, 0.1, at(0.1, 0.031, -0.002)) == Ending::fellOff);
+        QVERIFY(monitor.update(1, 0.1, at(0.1, 0.029, -0.002)) == Ending::fellOff);
+        QVERIFY(!monitor.outcome().parts[0].throughSurface);
+        QVERIFY(monitor.outcome().parts[1].throughSurface);
     }
 
     void itIsNotOverBeforeTheLastOne() {

@@ -1,4 +1,5 @@
 #include "sim/contact/contact_body.h"
+#include "sim/contact/contact_track.h"
 
 #include <QtTest>
 #include <algorithm>
@@ -336,7 +337,8 @@ class ContactBodyTest : public QObject {
             }
         }
 
-        // Each place of an expected edge is on one kept edge, with the faces of the union.
+        // Each place of an expected edge is on one kept edge, with the faces of the union; where edges end
+        // inside the union or go on as another they are longer, and near there it may be on two.
         const std::vector<BodyEdge> edges = allEdges(body);
         double length = 0.0;
         double expectedLength = 0.0;
@@ -348,15 +350,21 @@ class ContactBodyTest : public QObject {
             expectedLength += (expected.to - expected.from).norm();
             for (const double share : {0.013, 0.237, 0.519, 0.771, 0.987}) {
                 const Vec3 place = expected.from + share * (expected.to - expected.from);
-                QCOMPARE(std::count_if(edges.begin(), edges.end(),
-                                       [&](const BodyEdge& edge) {
-                                           return distanceToSegment(place, edge.from, edge.to) < kNear &&
-                                                  hasInto(edge, expected.into);
-                                       }),
-                         1);
+                const auto isOn = [&](const BodyEdge& edge) {
+                    return distanceToSegment(place, edge.from, edge.to) < kNear &&
+                           hasInto(edge, expected.into);
+                };
+                const auto isInMiddle = [&](const BodyEdge& edge) {
+                    const double toEnd = std::min((place - edge.from).norm(), (place - edge.to).norm());
+                    return isOn(edge) && toEnd > 2.0 * contact::kCornerSlack;
+                };
+                QVERIFY(std::any_of(edges.begin(), edges.end(), isOn));
+                QVERIFY(std::count_if(edges.begin(), edges.end(), isInMiddle) <= 1);
             }
         }
-        QVERIFY(std::abs(length - expectedLength) < 1e-4 * expectedLength);
+        const double slack = 2.0 * contact::kCornerSlack * static_cast<double>(edges.size());
+        QVERIFY(length > (1.0 - 1e-4) * expectedLength);
+        QVERIFY(length < (1.0 + 1e-4) * expectedLength + slack);
     }
 
     void aPartKeepsWhatItsHullHas_data() {
@@ -383,12 +391,17 @@ class ContactBodyTest : public QObject {
             for (const double share : {0.03, 0.21, 0.47, 0.78, 0.97}) {
                 const Vec3 place = from + share * (to - from);
                 // Some edges of the hull lead over what is open.
-                if (calcHeight(body, place) < kNear)
-                    QCOMPARE(std::count_if(edges.begin(), edges.end(),
-                                           [&](const BodyEdge& kept) {
-                                               return distanceToSegment(place, kept.from, kept.to) < kNear;
-                                           }),
-                             1);
+                if (calcHeight(body, place) >= kNear) continue;
+                // Near their ends two edges may both be there.
+                std::ptrdiff_t on = 0;
+                std::ptrdiff_t inMiddle = 0;
+                for (const BodyEdge& kept : edges) {
+                    if (distanceToSegment(place, kept.from, kept.to) >= kNear) continue;
+                    const double toEnd = std::min((place - kept.from).norm(), (place - kept.to).norm());
+                    ++on;
+                    if (toEnd > 2.0 * contact::kCornerSlack) ++inMiddle;
+                }
+                QVERIFY(on >= 1 && inMiddle <= 1);
             }
         }
     }
@@ -409,14 +422,14 @@ class ContactBodyTest : public QObject {
             QVERIFY(calcHeight(body, middle - kAside * inside) > 0.01 * kAside);
             QVERIFY(calcHeight(body, middle + kAside * inside) < -0.01 * kAside);
         }
-        // A feature is looked for only where its piece is.
+        // A feature is looked for only where its piece is, and slack acts only near it.
         for (const BodyPiece& piece : body.pieces) {
             for (const contact::BodyVertex& vertex : piece.vertices)
                 QVERIFY((vertex.position - piece.centre).norm() < piece.radius + kNear);
             for (const BodyEdge& edge : piece.edges)
                 for (const contact::BodyFace& face : piece.faces)
                     QVERIFY(std::max(face.normal.dot(edge.from), face.normal.dot(edge.to)) <
-                            face.offset + kNear);
+                            face.offset + contact::kCornerSlack + kNear);
         }
     }
 };

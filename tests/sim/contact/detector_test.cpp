@@ -210,6 +210,83 @@ class DetectorTest : public QObject {
         }
     }
 
+    // A bracket hangs on the track's border, by the end of its inner corner, which lies askew to the border:
+    // the border comes into the corner of two of its edges, the flange's below and the leg's inside.
+    void anEdgeDoesNotSlipIntoAnInnerCorner() {
+        auto built = part::buildPart(part::makeBundledShape("bracket"), {.name = "bracket"}).value();
+        const DetectorScene scene(verify::makeFlat(), std::make_shared<part::Part>(std::move(built.part)));
+        Vec3 low = Vec3::Constant(1.0);
+        Vec3 high = Vec3::Constant(-1.0);
+        for (const Vec3& vertex : scene.part->mesh.vertices) {
+            low = low.cwiseMin(vertex);
+            high = high.cwiseMax(vertex);
+        }
+        base::Mat3 hanging;
+        hanging.col(0) = Vec3::UnitY();   // the flange lies on the track
+        hanging.col(1) = -Vec3::UnitZ();  // the leg hangs down beside it
+        hanging.col(2) = -Vec3::UnitX();
+        constexpr double kThick = 2.5e-3;
+        for (const bool atFirst : {true, false}) {
+            const Vec3 corner(low.x() + kThick, low.y() + kThick, atFirst ? low.z() : high.z());
+            const Eigen::AngleAxisd askew((atFirst ? 4.0 : -4.0) * base::kDegree, Vec3::UnitZ());
+            const Quaternion rotation(askew.toRotationMatrix() * hanging);
+            for (const double beside : {2e-6, 17e-6, 50e-6}) {
+                for (const double depth : {2e-6, 17e-6, 50e-6}) {
+                    const Vec3 there(0.1013, -30e-3 + beside, 15e-3 - depth);
+                    const auto contacts = scene.findAfresh({rotation, there - rotation * corner}, kMargin);
+                    const auto pushes = [&](const Vec3& way) {
+                        return std::ranges::any_of(contacts, [&](const Contact& contact) {
+                            return contact.normal.dot(way) > 0.9 && (contact.point - there).norm() < 1e-3;
+                        });
+                    };
+                    const auto about = QString("end %1, %2 um beside, %3 um deep")
+                                           .arg(atFirst ? 1 : 2)
+                                           .arg(1e6 * beside)
+                                           .arg(1e6 * depth);
+                    QVERIFY2(pushes(Vec3::UnitZ()), qPrintable(about));
+                    QVERIFY2(pushes(-Vec3::UnitY()), qPrintable(about));
+                }
+            }
+        }
+    }
+
+    // A bracket hangs over the corner at the track's end, which comes into the corner of flange and leg in
+    // the middle: both hold it, though the cut between the two is nearer than the leg's face.
+    void aCornerInAnInnerCornerIsHeldByBothFaces() {
+        auto built = part::buildPart(part::makeBundledShape("bracket"), {.name = "bracket"}).value();
+        const DetectorScene scene(verify::makeFlat(), std::make_shared<part::Part>(std::move(built.part)));
+        Vec3 low = Vec3::Constant(1.0);
+        Vec3 end = Vec3::Constant(-1.0);
+        for (const Vec3& vertex : scene.part->mesh.vertices)
+            low = low.cwiseMin(vertex);
+        for (const Vec3& vertex : scene.track->solid.vertices)
+            end = end.cwiseMax(vertex);
+        base::Mat3 hanging;
+        hanging.col(0) = Vec3::UnitY();
+        hanging.col(1) = -Vec3::UnitZ();
+        hanging.col(2) = -Vec3::UnitX();
+        constexpr double kThick = 2.5e-3;
+        const Vec3 inner(low.x() + kThick, low.y() + kThick, 0.0);
+        const Eigen::AngleAxisd askew(30.0 * base::kDegree, Vec3::UnitZ());
+        const Quaternion rotation(askew.toRotationMatrix() * hanging);
+        const Vec3 away = askew * -Vec3::UnitY();
+        const Vec3 corner(end.x(), -30e-3, 15e-3);
+        for (const double beside : {2e-6, 10e-6, 25e-6}) {
+            for (const double depth : {-5e-6, 2e-6, 17e-6}) {
+                const Vec3 there = corner - beside * away - depth * Vec3::UnitZ();
+                const auto contacts = scene.findAfresh({rotation, there - rotation * inner}, kMargin);
+                const auto pushes = [&](const Vec3& way) {
+                    return std::ranges::any_of(contacts, [&](const Contact& contact) {
+                        return contact.normal.dot(way) > 0.99 && (contact.point - corner).norm() < 0.5e-3;
+                    });
+                };
+                const auto about = QString("%1 um beside, %2 um deep").arg(1e6 * beside).arg(1e6 * depth);
+                QVERIFY2(pushes(Vec3::UnitZ()), qPrintable(about));
+                QVERIFY2(pushes(away), qPrintable(about));
+            }
+        }
+    }
+
     // Parts at a blade 0.1 mm thick at its foot and 15 mm high, at all heights, on either side: pushed to
     // their own side by every contact.
     void aThinWallPushesToBothSides() {
