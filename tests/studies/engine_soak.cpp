@@ -260,7 +260,10 @@ int main(int count, char** texts) {
         const auto loaded = workflow::importPart({std::string(bundled.name)});
         if (loaded) parts.push_back(loaded->part);
     }
-    if (parts.empty()) return 2;
+    if (parts.empty()) {
+        fmt::print(stderr, "--part {}: the bundled parts are {}\n", options.part, part::nameBundledParts());
+        return 2;
+    }
     std::map<std::string, int> findings;
     std::map<std::string, int> endings;
     int trials = 0;
@@ -286,7 +289,10 @@ int main(int count, char** texts) {
         if (options.trial >= 0) {
             const auto replay =
                 engine->replay(batch, static_cast<std::size_t>(options.trial), kCloseInterval, {});
-            if (!replay) continue;
+            if (!replay) {
+                tell(static_cast<std::size_t>(options.trial), {"error", replay.error().message});
+                continue;
+            }
             trial::TrialBatch alone = batch;
             alone.trials = {batch.trials.at(static_cast<std::size_t>(options.trial))};
             fmt::print("{}\n", round->about);
