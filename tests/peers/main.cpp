@@ -86,6 +86,7 @@ app::Attempt<std::vector<peers::Contender>> chooseSteps(const app::BenchOptions&
 struct TransferOptions {
     app::SubjectRequest subject;
     std::string csv;
+    std::vector<double> stretch;  // none, or its two ends [mm]
 };
 
 /// Simulates the transfer's trials in this engine and prints its rows.
@@ -122,13 +123,26 @@ app::Attempt<app::ExitCode> runTransfer(const TransferOptions& asked, const app:
 
     peers::Transfer transfer =
         peers::makeTransfer(loaded->inputs.settings, loaded->inputs.part, loaded->track, options.trials);
+    if (!asked.stretch.empty()) {
+        const peers::Stretch stretch{asked.stretch.front() * base::kMillimetre,
+                                     asked.stretch.back() * base::kMillimetre};
+        const base::RunControl control;
+        if (!(stretch.from < stretch.to))
+            return app::Failure{app::ExitCode::usage, "--stretch: give where it begins, then where it ends."};
+        if (const auto begun = peers::beginAtStretch(transfer, stretch, contenders->front(), control); !begun)
+            return app::describeRunFailure(control, begun.error());
+    }
     for (const peers::Contender& contender : *contenders) {
         const auto ran = runContender(transfer, contender, console);
         if (!ran) return ran.error();
     }
-    console.print(
-        "Correct: of those that arrive. Points: of success, more than in the first engine. Other: trials "
-        "that come to something else than in the first engine.\n");
+    if (transfer.stretch)
+        console.print(
+            "Passes too, stays too: of those that pass in the first engine, and of those that do not.\n");
+    else
+        console.print(
+            "Correct: of those that arrive. Points: of success, more than in the first engine. Other: trials "
+            "that come to something else than in the first engine.\n");
     if (asked.csv.empty()) return app::ExitCode::ok;
     const auto written = peers::writeTransferTrials(transfer, asked.csv);
     if (!written) return app::Failure{app::ExitCode::cannotWrite, written.error().message};
@@ -163,6 +177,13 @@ int main(int argc, char** argv) {
     program.add_option("--material", onTrack.part.material, "Of the part, likewise")->needs(track);
     program.add_option("--friction", onTrack.friction, "Static and kinetic, likewise (0.5)")->needs(track);
     program.add_option("--restitution", onTrack.restitution, "Likewise (0.2)")->needs(track);
+    program
+        .add_option("--stretch", transfer.stretch,
+                    "Where it begins and ends, in mm along the track: each trial begins as the reference "
+                    "engine's part is "
+                    "when it comes there, and what is counted is who comes to the end")
+        ->needs(track)
+        ->expected(2);
     program.add_option("--csv", transfer.csv, "Also each of these trials into this file")->needs(track);
     CLI11_PARSE(program, argc, argv);
 

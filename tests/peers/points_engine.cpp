@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/convex_hull.h"
 #include "sim/contact/drive_motion.h"
 #include "sim/contact/law.h"
 
@@ -170,7 +171,7 @@ void addFace(const geometry::ConvexPolytope& solid, const geometry::PolytopeFace
         }
 }
 
-std::vector<CloudPoint> makeCloud(const geometry::ConvexPolytope& solid) {
+std::vector<CloudPoint> cloudOf(const geometry::ConvexPolytope& solid) {
     std::vector<CloudPoint> cloud;
     for (const Vec3& vertex : solid.vertices)
         cloud.push_back({vertex, kCornerStiffness});
@@ -181,9 +182,24 @@ std::vector<CloudPoint> makeCloud(const geometry::ConvexPolytope& solid) {
     return cloud;
 }
 
+/// On the surface of all pieces together: what lies in or on another one is on a cut between them, or in an
+/// inner corner, which nothing of a track can reach.
+std::vector<CloudPoint> makeCloud(const std::vector<geometry::ConvexPolytope>& pieces) {
+    constexpr double kOnBorder = 1e-6;  // [m]
+    std::vector<CloudPoint> cloud;
+    for (const geometry::ConvexPolytope& piece : pieces)
+        for (const CloudPoint& point : cloudOf(piece)) {
+            const bool isCovered = std::ranges::any_of(pieces, [&](const geometry::ConvexPolytope& other) {
+                return &other != &piece && geometry::contains(other, point.place, kOnBorder);
+            });
+            if (!isCovered) cloud.push_back(point);
+        }
+    return cloud;
+}
+
 struct PointsScene : PeerScene {
     PointsScene(const trial::TrialBatch& b, const part::Part& p, double step)
-        : batch(b), part(p), dt(step), surface(*b.track), cloud(makeCloud(p.hull)) {}
+        : batch(b), part(p), dt(step), surface(*b.track), cloud(makeCloud(p.pieces)) {}
     [[nodiscard]] std::unique_ptr<PeerTrial> start(std::size_t trial) const override;
 
     const trial::TrialBatch& batch;
@@ -347,7 +363,6 @@ std::unique_ptr<PeerTrial> PointsScene::start(std::size_t trial) const {
 
 base::Result<std::unique_ptr<PeerScene>> PointsEngine::prepare(const trial::TrialBatch& batch,
                                                                const part::Part& part) const {
-    if (part.pieces.size() != 1) return base::Error{"The engine 'points' can do convex parts only."};
     for (std::size_t t = 0; t < batch.track->surfaceTriangles; ++t)
         if (geometry::triangleNormal(batch.track->solid, t).z() < kLeastUpward)
             return base::Error{"The engine 'points' knows heights only, and the surface overhangs."};

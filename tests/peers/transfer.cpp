@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/base/file.h"
@@ -40,6 +43,58 @@ void judgeRow(const Transfer& transfer, TransferRow& row) {
     row.tally = trial::tally(row.outcomes, transfer.goal, transfer.part->symmetry, tolerance);
 }
 
+constexpr const char* kStretchColumns = "{:<12} {:>7} {:<13} {:>10} {:>17} {:>7} {:>10} {:>10}\n";
+
+/// Of the scene's trials in this engine: those that begin at the stretch as it has its parts there. Adds to
+/// `longest` how long it takes them to its end, at most.
+base::Result<std::vector<trial::TrialSpec>> findStarts(const trial::Engine& engine,
+                                                       const trial::TrialBatch& batch, const Stretch& stretch,
+                                                       double& longest, const base::RunControl& control) {
+    constexpr double kInterval = 1e-3;  // [s]
+    std::vector<trial::TrialSpec> starts;
+    for (std::size_t i = 0; i < batch.trials.size(); ++i) {
+        const auto way = engine.replay(batch, i, kInterval, control);
+        if (!way) return way.error();
+        const auto reaches = [&](double x) {
+            return std::ranges::find_if(way->samples, [&](const trial::TrajectorySample& sample) {
+                return !sample.parts.empty() && sample.parts.front().track.position.x() >= x;
+            });
+        };
+        const auto begin = reaches(stretch.from);
+        if (begin == way->samples.end()) continue;
+        const trial::PartState& part = begin->parts.front();
+        trial::TrialSpec& spec = starts.emplace_back(batch.trials[i]);
+        spec.phase =
+            std::fmod(spec.phase + 2.0 * std::numbers::pi * batch.driveOf(spec).frequency * begin->time,
+                      2.0 * std::numbers::pi);
+        spec.parts.front().pose = part.track;
+        spec.parts.front().velocity = part.velocity;
+        spec.parts.front().angularVelocity = part.angularVelocity;
+        if (const auto end = reaches(stretch.to); end != way->samples.end())
+            longest = std::max(longest, end->time - begin->time);
+    }
+    return starts;
+}
+
+std::string describeStretch(const TransferRow& row, const TransferRow& reference, const std::string& step,
+                            const std::string& conditions) {
+    const int trials = static_cast<int>(row.passed.size());
+    const int passed = static_cast<int>(std::ranges::count(row.passed, true));
+    int passedBefore = 0;
+    int bothPass = 0;
+    for (std::size_t i = 0; i < row.passed.size(); ++i) {
+        passedBefore += reference.passed[i] ? 1 : 0;
+        bothPass += row.passed[i] && reference.passed[i] ? 1 : 0;
+    }
+    const int stayedBefore = trials - passedBefore;
+    const int bothStay = stayedBefore - (passed - bothPass);
+    const stats::Interval bounds = stats::calcClopperPearson(passed, trials);
+    return fmt::format(
+        kStretchColumns, row.engine, step, conditions, fmt::format("{:.1f}", percent(passed, trials)),
+        fmt::format("{:.1f} ... {:.1f}", 100.0 * bounds.low, 100.0 * bounds.high), trials,
+        fmt::format("{} of {}", bothPass, passedBefore), fmt::format("{} of {}", bothStay, stayedBefore));
+}
+
 int countOtherVerdicts(const TransferRow& row, const TransferRow& reference) {
     int count = 0;
     for (std::size_t i = 0; i < row.verdicts.size(); ++i)
@@ -59,7 +114,32 @@ Transfer makeTransfer(const study::Settings& settings, const std::shared_ptr<con
             {{"as set", study::makePlaceBatch(settings, part, track, asSet)},
              {"over the box", study::makePlaceBatch(settings, part, track, anywhere)}},
             {},
+            {},
             {}};
+}
+
+base::Status beginAtStretch(Transfer& transfer, const Stretch& stretch, const Contender& contender,
+                            const base::RunControl& control) {
+    const std::shared_ptr<const trial::Engine> engine = contender.kind.make({1, contender.step});
+    if (auto checked = study::checkInputs({transfer.settings, transfer.part, engine}); !checked)
+        return checked;
+    if (transfer.scenes.front().batch.track->shape.type != track::FeederType::linear)
+        return base::Error{"A stretch can be taken of linear tracks only."};
+    constexpr double kLeast = 0.5;  // [s]
+    double longest = kLeast;
+    for (TransferScene& scene : transfer.scenes) {
+        auto starts = findStarts(*engine, scene.batch, stretch, longest, control);
+        if (!starts) return starts.error();
+        scene.batch.trials = std::move(*starts);
+    }
+    std::erase_if(transfer.scenes, [](const TransferScene& scene) { return scene.batch.trials.empty(); });
+    if (transfer.scenes.empty())
+        return base::Error{
+            fmt::format("No part comes to {:g} mm in {}.", stretch.from / base::kMillimetre, engine->name())};
+    for (TransferScene& scene : transfer.scenes)
+        scene.batch.termination.timeLimit = std::min(scene.batch.termination.timeLimit, 2.0 * longest);
+    transfer.stretch = stretch;
+    return base::success();
 }
 
 base::Status addEngine(Transfer& transfer, const Contender& contender, const base::RunControl& control) {
@@ -75,12 +155,21 @@ base::Status addEngine(Transfer& transfer, const Contender& contender, const bas
             transfer.goal = trial::findGoal(std::nullopt, row.outcomes, transfer.part->symmetry,
                                             transfer.settings.validation.tolerance);
         judgeRow(transfer, row);
+        if (transfer.stretch)
+            for (const trial::Outcome& outcome : row.outcomes)
+                row.passed.push_back(outcome.parts.front().farthest.position.x() >= transfer.stretch->to);
         transfer.rows.push_back(std::move(row));
     }
     return base::success();
 }
 
 std::string transferHeader(const Transfer& transfer) {
+    if (transfer.stretch)
+        return fmt::format("From {:g} to {:g} mm, all as the first engine's parts begin there\n",
+                           transfer.stretch->from / base::kMillimetre,
+                           transfer.stretch->to / base::kMillimetre) +
+               fmt::format(kStretchColumns, "Engine", "Step ms", "Conditions", "Passes [%]", "95 % bounds",
+                           "Trials", "Passes too", "Stays too");
     const base::Quaternion& goal = transfer.goal.shown();
     return fmt::format("Success: within {:.0f} degrees of {:.3f} {:.3f} {:.3f} {:.3f} (w x y z)\n",
                        transfer.settings.validation.tolerance / base::kDegree, goal.w(), goal.x(), goal.y(),
@@ -95,6 +184,7 @@ std::string describeTransfer(const Transfer& transfer, const TransferRow& row) {
     if (!row.problem.empty())
         return fmt::format("{:<12} {:>7} {:<13} cannot: {}\n", row.engine, step, conditions, row.problem);
     const TransferRow& reference = transfer.rows[row.scene];
+    if (transfer.stretch) return describeStretch(row, reference, step, conditions);
     const trial::Tally& tally = row.tally;
     const int trials = tally.trials();
     const stats::Interval bounds = stats::calcClopperPearson(tally.success, trials);

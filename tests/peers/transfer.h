@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,13 @@ struct TransferRow {
     std::vector<trial::Outcome> outcomes;
     std::vector<trial::Verdict> verdicts;
     trial::Tally tally;
+    std::vector<bool> passed;  // of a stretch: who came to its end
+};
+
+/// A stretch of the track that parts go along, in place of all of it. [m]
+struct Stretch {
+    double from = 0.0;
+    double to = 0.0;
 };
 
 /// How a track does in engines that it was not learned in.
@@ -41,6 +49,7 @@ struct Transfer {
     study::Settings settings;
     std::shared_ptr<const part::Part> part;
     std::vector<TransferScene> scenes;
+    std::optional<Stretch> stretch;
     trial::Goal goal;               // what counts as success, in all engines
     std::vector<TransferRow> rows;  // engine by engine, all scenes of each; the first engine's are what the
                                     // others are held against
@@ -50,6 +59,13 @@ struct Transfer {
 /// those that study::measureRobustness() makes with these settings, whose ranges must not be cut off.
 Transfer makeTransfer(const study::Settings& settings, const std::shared_ptr<const part::Part>& part,
                       const std::shared_ptr<const track::Track>& track, int trials);
+
+/// Narrows the transfer down to a stretch: its trials begin as the parts of `engine` are and move when they
+/// first come to where it begins, so that engines that part before it can be told apart on it. Trials whose
+/// parts do not come so far there are left out, and none is longer than twice the longest that comes to the
+/// stretch's end. Errors: a bowl, the engine's, none that comes so far.
+base::Status beginAtStretch(Transfer& transfer, const Stretch& stretch, const Contender& contender,
+                            const base::RunControl& control);
 
 /// Simulates all scenes in one engine, on one thread, and adds their rows. The mode of the first engine's
 /// trials as set becomes the goal. Advances `control` by one per trial. Errors: settings or part that cannot
