@@ -77,7 +77,9 @@ Attempt<OpenStudy> openOrCreate(const Options& options, const Console& console) 
             fmt::format("There is no study {} yet. Learn some generations without --corners first, "
                         "or set evolution.cornerShare and evolution.cornersFrom.",
                         options.study)};
-    auto file = createStudy(options.study, options.creation, options.settings, console);
+    CreationOptions creation = options.creation;
+    creation.threads = options.threads;
+    auto file = createStudy(options.study, creation, options.settings, console);
     if (!file) return file.error();
     return loadStudy(std::move(*file));
 }

@@ -84,15 +84,16 @@ Attempt<double> readDuration(const std::string& text) {
     return seconds;
 }
 
-/// Settings for the part and the time, told to the user.
+/// Settings for the part and the time on so many threads, told to the user.
 Attempt<study::Settings> propose(const study::Settings& settings,
                                  const std::shared_ptr<const part::Part>& part, double seconds,
+                                 unsigned threads, std::optional<workflow::TrackIdea> idea,
                                  const Console& console) {
     auto engine = makeEngine(
-        engines::registry().nameFor(settings.simulation.engine, trial::EngineUse::learning), {0, 0.0});
+        engines::registry().nameFor(settings.simulation.engine, trial::EngineUse::learning), {threads, 0.0});
     if (!engine) return engine.error();
-    const auto proposal =
-        workflow::proposeSettings({settings, part, *engine, base::availableThreads()}, seconds, {});
+    if (threads == 0) threads = base::availableThreads();
+    const auto proposal = workflow::proposeSettings({settings, part, *engine, threads}, seconds, {}, idea);
     if (!proposal) return Failure{ExitCode::usage, "--time: " + proposal.error().message};
     for (const std::string& reason : proposal->reasons)
         console.note(reason);
@@ -196,11 +197,10 @@ void addCreationOptions(Command command, CreationOptions& options) {
             .addOption(
                 "--time", options.time,
                 "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
-                "part, and how much of it for this time on this machine")
+                "part (unless --sorting or --ledges says it), and how much of it for this time on this "
+                "machine")
             .type("DURATION")
-            .excludes(paper)
-            .excludes(sorting)
-            .excludes(ledges);
+            .excludes(paper);
     Option beginWith =
         command
             .addOption(
@@ -373,20 +373,18 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }
-    if (creation.sorting) {
-        *settings = study::sortingMode(*settings, *loaded->part);
-        applied = applySettings(*settings, options);
-        if (!applied) return applied.error();
-    }
-    if (creation.ledges) {
-        *settings = study::ledgeMode(*settings, *loaded->part);
-        applied = applySettings(*settings, options);
-        if (!applied) return applied.error();
-    }
     if (seconds) {
-        auto proposed = propose(*applied, loaded->part, *seconds, console);
+        auto idea = creation.sorting  ? std::optional(workflow::TrackIdea::gaps)
+                    : creation.ledges ? std::optional(workflow::TrackIdea::ledges)
+                                      : std::nullopt;
+        auto proposed = propose(*applied, loaded->part, *seconds, creation.threads, idea, console);
         if (!proposed) return proposed.error();
         applied = applySettings(*proposed, options);
+        if (!applied) return applied.error();
+    } else if (creation.sorting || creation.ledges) {
+        const auto mode = creation.sorting ? study::sortingMode : study::ledgeMode;
+        *settings = mode(*settings, *loaded->part);
+        applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }
     applied->part = loaded->settings;

@@ -25,6 +25,7 @@ struct CreationOptions {
     bool sorting = false;
     bool ledges = false;
     std::optional<std::string> time;  // that the user has: "10min"
+    unsigned threads = 0;             // which it is for; 0: all processors
     // A study whose part, settings and tracks it begins with; instead of all of the above.
     std::optional<std::string> beginWith;
     // A track, or a study, that traps which throw out what lies wrong are learned behind.
@@ -57,8 +58,8 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
 /// True if anything changed.
 Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options);
 
-/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting` or what is proposed for
-/// `time`, the single settings.
+/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting`, `ledges` or what
+/// is proposed for `time`, the single settings.
 /// Refuses settings that cannot be used, and a part that does not fit the track.
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& settings, const Console& console);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/search/racing.h"
 #include "core/study/evaluator.h"
 #include "core/study/planning.h"
 #include "core/study/track_design.h"
@@ -82,6 +83,15 @@ base::Result<double> timeLayout(const study::StudyInputs& inputs, double budget,
     });
 }
 
+/// Of the race that a generation is, if its ranking stays as it begins.
+std::int64_t countTrials(const study::EvolutionSettings& evolution) {
+    const auto stages =
+        search::makeRacingStages(static_cast<std::size_t>(evolution.populationSize), evolution.racingTrials,
+                                 evolution.trialsPerEvaluation, evolution.racingShare);
+    return search::countRacingTrials(std::vector<int>(evolution.populationSize, 0), evolution.populationSize,
+                                     stages);
+}
+
 /// Before there is a generation. [s]
 double planningTime(const study::EvolutionSettings& evolution, const TrialCost& cost) {
     const std::int64_t traps = study::estimatePlanningTrials(evolution, cost.ways, cost.ledgesFollow);
@@ -140,14 +150,14 @@ base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budg
     study::EvolutionSettings& evolution = timed.settings.evolution;
     const bool isPlanned = study::isPlanned(evolution);
     const double each = budget / (isPlanned ? 3.0 : 2.0);
-    // A race's share of trials is its own.
-    if (evolution.racingTrials == 0)
-        evolution.trialsPerEvaluation = std::min(evolution.trialsPerEvaluation, kTimedTrials);
+    // Of the few tracks that are timed a race would run nearly all to its end.
+    evolution.racingTrials = 0;
+    evolution.trialsPerEvaluation = std::min(evolution.trialsPerEvaluation, kTimedTrials);
     const auto random = timeRandomTracks(timed, each, control);
     if (!random) return random.error();
     const auto flat = timeLayout(timed, each, control);
     if (!flat) return flat.error();
-    TrialCost cost{evolution.racingTrials == 0 ? std::max(*random, *flat) : *random, 0.0, 0};
+    TrialCost cost{std::max(*random, *flat), 0.0, 0};
     if (!isPlanned) return cost;
     const auto sample = study::samplePlanning(timed, each, control);
     if (!sample) return sample.error();
@@ -158,8 +168,7 @@ base::Result<TrialCost> timeTrials(const study::StudyInputs& inputs, double budg
 }
 
 double learningTime(const study::EvolutionSettings& evolution, int generations, const TrialCost& cost) {
-    double time = static_cast<double>(evolution.populationSize) * evolution.trialsPerEvaluation *
-                  generations * cost.learning;
+    double time = static_cast<double>(countTrials(evolution)) * generations * cost.learning;
     if (generations >= evolution.generations) time += planningTime(evolution, cost);
     return time;
 }

@@ -21,6 +21,8 @@ constexpr double kTimingBudget = 3.0;  // [s]
 constexpr double kBalanced = 0.03;
 /// Of the user's time: the rest is for checks and selection, and for what an estimate misses.
 constexpr double kLearningShare = 0.85;
+/// Fewer do not find ledges worth their time.
+constexpr int kTrapsForLedges = 1000;
 
 /// Whether a part looks another way when it comes the other end first: a track has to tell the two apart.
 bool hasTwoEnds(const part::SymmetryGroup& symmetry) {
@@ -52,67 +54,112 @@ std::string trackText(const study::TrackSettings& track) {
 study::EvolutionSettings mostOfSearch(study::EvolutionSettings evolution) {
     constexpr int kMostEach = 400;
     constexpr int kMostTraps = 100000;
-    evolution.plannedTraps = kMostTraps;
+    constexpr int kMostTrapsBeforeExchanges = 6000;  // twice as many as were ever tried (learning.md)
+    constexpr int kMostGenerations = 2000;
+    const bool exchanges = evolution.search == search::Method::exchange;
+    evolution.plannedTraps = exchanges ? kMostTrapsBeforeExchanges : kMostTraps;
+    if (exchanges) evolution.generations = kMostGenerations;
     if (study::isPlanned(evolution)) return evolution;
     evolution.populationSize = kMostEach;
     evolution.trialsPerEvaluation = kMostEach;
-    evolution.generations = 2000;
+    evolution.generations = kMostGenerations;
     return evolution;
+}
+
+study::Settings applyIdea(TrackIdea idea, study::Settings settings, const part::Part& part) {
+    if (idea == TrackIdea::ledges) return study::ledgeMode(std::move(settings), part);
+    if (idea == TrackIdea::gaps) return study::sortingMode(std::move(settings), part);
+    return study::turningMode(std::move(settings), part);
+}
+
+/// An idea, and how much of it there is time for.
+struct FittedIdea {
+    TrackIdea idea = TrackIdea::turning;
+    study::Settings settings;
+    double seconds = 0.0;  // of learning, estimated
+};
+
+/// None where the time is too short for it. An error as of proposeSettings.
+base::Result<std::optional<FittedIdea>> fitIdea(TrackIdea idea, const study::StudyInputs& inputs,
+                                                double seconds, const base::RunControl& control) {
+    study::StudyInputs proposed = inputs;
+    proposed.settings = applyIdea(idea, inputs.settings, *inputs.part);
+    study::EvolutionSettings& evolution = proposed.settings.evolution;
+    const auto cost = timeTrials(proposed, kTimingBudget, control);
+    if (!cost) return cost.error();
+    const auto fitted = fitEvolution(mostOfSearch(evolution), kLearningShare * seconds, *cost);
+    if (!fitted) return std::optional<FittedIdea>();
+    evolution = *fitted;
+    return std::optional(
+        FittedIdea{idea, std::move(proposed.settings), learningTime(*fitted, fitted->generations, *cost)});
+}
+
+/// What suits the part, as far as there is time for it.
+base::Result<std::optional<FittedIdea>> chooseIdea(const study::StudyInputs& inputs, double seconds,
+                                                   const base::RunControl& control,
+                                                   std::optional<TrackIdea> asked) {
+    if (asked) return fitIdea(*asked, inputs, seconds, control);
+    if (!hasTwoEnds(inputs.part->symmetry)) return fitIdea(TrackIdea::turning, inputs, seconds, control);
+    auto ledges = fitIdea(TrackIdea::ledges, inputs, seconds, control);
+    if (!ledges || (*ledges && (*ledges)->settings.evolution.plannedTraps >= kTrapsForLedges)) return ledges;
+    return fitIdea(TrackIdea::gaps, inputs, seconds, control);
 }
 
 }  // namespace
 
 base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double seconds,
-                                       const base::RunControl& control) {
+                                       const base::RunControl& control, std::optional<TrackIdea> asked) {
     if (!(seconds >= kShortestTime))
         return base::Error{fmt::format("{:g} s are too short to learn a track in; give {:.0f} s or more.",
                                        seconds, kShortestTime)};
     const part::Part& part = *inputs.part;
-    const bool isSorted = hasTwoEnds(part.symmetry);
-    study::StudyInputs proposed = inputs;
-    study::Settings& settings = proposed.settings;
-    settings = isSorted ? study::sortingMode(settings, part) : study::turningMode(settings, part);
-    const auto cost = timeTrials(proposed, kTimingBudget, control);
-    if (!cost) return cost.error();
-    const auto fitted = fitEvolution(mostOfSearch(settings.evolution), kLearningShare * seconds, *cost);
-    if (!fitted)
+    auto chosen = chooseIdea(inputs, seconds, control, asked);
+    if (!chosen) return chosen.error();
+    if (!*chosen)
         return base::Error{
-            fmt::format("In {} no track for {} can be learned on this machine: a trial takes {:.2g} ms. Take "
-                        "more time, or a "
-                        "part of fewer pieces.",
-                        durationText(seconds), part.name, 1e3 * cost->learning)};
-    settings.evolution = *fitted;
+            fmt::format("In {} no track for {} can be learned {}on this machine. Take more "
+                        "time, or a part of fewer pieces.",
+                        durationText(seconds), part.name, asked ? "that way " : "")};
+    FittedIdea& fitted = **chosen;
+    const TrackIdea idea = fitted.idea;
+    const study::EvolutionSettings& evolution = fitted.settings.evolution;
+    const bool isSorted = hasTwoEnds(part.symmetry);
 
     Proposal proposal;
-    proposal.seconds = learningTime(*fitted, fitted->generations, *cost);
-    if (isSorted) {
-        proposal.reasons.push_back(
-            fmt::format("{} (symmetry {}) looks another way with its other end in front, and hardly any "
-                        "track turns such a "
-                        "part round: what lies wrong is thrown out, by eight gaps planned from {} traps "
-                        "tried one by one.",
-                        part.name, part.symmetry.name, fitted->plannedTraps));
-        const part::LengthInPose uneven = part::findUnevenLength(part);
-        if (uneven.offset < kBalanced * uneven.length) {
-            proposal.reasons.push_back(fmt::format(
-                "Its centre of mass is {:.2g} mm from the middle of its length of {:.3g} mm: of "
-                "parts that balance so gaps do not tell which end comes first, and about half "
-                "will come the other way round. Ledges behind gaps throw these out of some parts: --ledges, "
-                "or Let only one way pass among the presets of a track.",
-                uneven.offset / base::kMillimetre, uneven.length / base::kMillimetre));
-        }
-    } else {
+    proposal.seconds = fitted.seconds;
+    if (idea == TrackIdea::turning) {
         proposal.reasons.push_back(fmt::format(
             "{} (symmetry {}) looks alike with either end in front: a free-form trap turns it over, and "
             "all that is fed is to arrive.",
             part.name, part.symmetry.name));
+    } else {
+        const std::string why =
+            isSorted ? fmt::format(
+                           "{} (symmetry {}) looks another way with its other end in front, and hardly "
+                           "any track turns such a part round: what lies wrong is thrown out",
+                           part.name, part.symmetry.name)
+                     : std::string("As you asked, what lies wrong is thrown out");
+        const std::string by =
+            idea == TrackIdea::ledges ? "eight gaps and six ledges behind them" : "eight gaps";
+        proposal.reasons.push_back(fmt::format("{}, by {} planned from {} traps tried one by one.", why, by,
+                                               evolution.plannedTraps));
+        const part::LengthInPose uneven = part::findUnevenLength(part);
+        if (uneven.offset < kBalanced * uneven.length)
+            proposal.reasons.push_back(fmt::format(
+                "Its centre of mass is {:.2g} mm from the middle of its length of {:.3g} mm: of "
+                "parts that balance so gaps do not tell which end comes first{}",
+                uneven.offset / base::kMillimetre, uneven.length / base::kMillimetre,
+                idea == TrackIdea::ledges
+                    ? ", and ledges behind them of some parts only."
+                    : ", and about half will come the other way round. Ledges behind gaps throw these out of "
+                      "some parts: --ledges, or Let only one way pass among the presets of a track."));
     }
-    proposal.reasons.push_back("In proportion to the part: " + trackText(settings.track) + ".");
+    proposal.reasons.push_back("In proportion to the part: " + trackText(fitted.settings.track) + ".");
     proposal.reasons.push_back(
         fmt::format("{} generations of {} individuals x {} trials: about {} here, of {}.",
-                    fitted->generations, fitted->populationSize, fitted->trialsPerEvaluation,
+                    evolution.generations, evolution.populationSize, evolution.trialsPerEvaluation,
                     durationText(proposal.seconds), durationText(seconds)));
-    proposal.settings = std::move(settings);
+    proposal.settings = std::move(fitted.settings);
     return proposal;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,13 @@
 #include "core/study/evaluator.h"
 
 namespace trapwright::workflow {
+
+/// What a track does with parts that come the wrong way.
+enum class TrackIdea {
+    turning,  // turns them over, on a free-form trap (study::turningMode)
+    gaps,     // throws them out by gaps (study::sortingMode)
+    ledges,   // the same, and by ledges behind the gaps (study::ledgeMode)
+};
 
 /// What is to be learned for a part in the time that the user has.
 struct Proposal {
@@ -19,14 +27,15 @@ struct Proposal {
 /// The shortest time that something can be proposed for [s].
 inline constexpr double kShortestTime = 60.0;
 
-/// Chooses by the part how a track is learned, and by the time how much of it
-/// (decisions.md#automatic-settings): a part that no rotation maps onto itself is sorted
-/// (study::sortingMode), any other is turned on a free-form trap, both with lengths in proportion to the
-/// part. Population, trials and generations are as many as take `seconds`, by trials that are timed on this
-/// machine for a few seconds. Drive, contact, engine, seed and all that is not learning stay as they are in
-/// `inputs`. Errors: less than kShortestTime, a part for which not even the smallest search fits, settings or
-/// part that cannot be used, engine, cancelled.
+/// Chooses by the part how a track is learned, unless that is `asked` for, and by the time how much of it
+/// (decisions.md#automatic-settings): a part that looks another way with its other end in front is sorted,
+/// any other is turned, with lengths in proportion to the part. Population, trials and generations are as
+/// many as take `seconds`, by trials that are timed on this machine for a few seconds. Drive, contact,
+/// engine, seed and all that is not learning stay as they are in `inputs`. Errors: less than kShortestTime,
+/// a part for which not even the smallest search fits, settings or part that cannot be used, engine,
+/// cancelled.
 base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double seconds,
-                                       const base::RunControl& control);
+                                       const base::RunControl& control,
+                                       std::optional<TrackIdea> asked = std::nullopt);
 
 }  // namespace trapwright::workflow

@@ -213,8 +213,17 @@ class CommandsTest : public QObject {
         QVERIFY2(made.errors.contains("wedge (symmetry C1) looks another way"), made.all());
         QVERIFY2(made.errors.contains("here, of 1 h 30 min."), made.all());
         const QJsonObject settings = ask({"settings", "timed.trap", "--json"}).json();
-        QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
+        QVERIFY(settings["track"].toObject()["traps"].toString().startsWith("groove, groove, 8 x gap"));
         QCOMPARE(settings["evolution"].toObject()["generations"].toInt(), 3);
+
+        // How it is learned can be the user's, and only how much of it goes by the time.
+        const Ran asked = ask(
+            {"new", "ledges.trap", "--part", "wedge", "--engine", "native", "--time", "1h30min", "--ledges"});
+        QVERIFY2(asked.code == 0, asked.all());
+        QVERIFY2(asked.errors.contains("here, of 1 h 30 min."), asked.all());
+        const QJsonObject ofLedges = ask({"settings", "ledges.trap", "--json"}).json();
+        QVERIFY(ofLedges["track"].toObject()["traps"].toString().endsWith("6 x ledge"));
+        QCOMPARE(ofLedges["evolution"].toObject()["search"].toString(), "exchange");
 
         // Refused before anything is made, with what to write instead.
         for (const char* wrong : {"", "10", "10 apples", "min", "-1h", "1h nonsense"}) {
@@ -225,7 +234,6 @@ class CommandsTest : public QObject {
         const Ran tooShort = ask({"new", "no.trap", "--part", "wedge", "--time", "30s"});
         QCOMPARE(tooShort.code, 2);
         QVERIFY2(tooShort.errors.contains("60 s or more"), tooShort.all());
-        QCOMPARE(ask({"new", "no.trap", "--part", "wedge", "--time", "2min", "--sorting"}).code, 2);
         QCOMPARE(ask({"new", "no.trap", "--part", "wedge", "--time", "2min", "--paper"}).code, 2);
         QVERIFY(!QFile::exists("no.trap"));
         QCOMPARE(ask({"evolve", "timed.trap", "--time", "2min"}).code, 2);

@@ -42,6 +42,7 @@ class ProposalTest : public QObject {
         QFETCH(bool, isSorted);
         const study::StudyInputs inputs = inputsFor(name.constData());
         double before = 0.0;
+        bool hadLedges = false;
         for (const double seconds : {60.0, 600.0, 36000.0}) {
             const auto proposal = workflow::proposeSettings(inputs, seconds, {});
             QVERIFY2(proposal.ok(), proposal.ok() ? "" : proposal.error().message.c_str());
@@ -49,22 +50,42 @@ class ProposalTest : public QObject {
             QVERIFY(study::findProblems(settings).empty());
             QVERIFY(study::findPartProblems(settings, *inputs.part).empty());
             QCOMPARE(study::isPlanned(settings.evolution), isSorted);
-            QCOMPARE(settings.evolution.objectives == "sorting", isSorted);
+            const bool hasLedges = settings.track.traps.ends_with("ledge");
+            QCOMPARE(settings.evolution.objectives == "sorting", isSorted && !hasLedges);
+            QCOMPARE(settings.evolution.search == search::Method::exchange, hasLedges);
+            QVERIFY(!hasLedges || settings.evolution.plannedTraps >= 1000);
+            // None wrong where there is time for it.
+            if (seconds == 36000.0) QCOMPARE(hasLedges, isSorted);
             QVERIFY(proposal->seconds > 0.0 && proposal->seconds <= seconds);
             QVERIFY(proposal->reasons.size() >= 3);
             // More of it where there is more time.
-            const double size = isSorted ? settings.evolution.plannedTraps
-                                         : 1.0 * settings.evolution.populationSize *
-                                               settings.evolution.generations *
-                                               settings.evolution.trialsPerEvaluation;
-            QVERIFY(size >= before);
+            const double traps = isSorted ? settings.evolution.plannedTraps : 0.0;
+            const double size = 100.0 * traps + 1.0 * settings.evolution.populationSize *
+                                                    settings.evolution.generations *
+                                                    settings.evolution.trialsPerEvaluation;
+            QVERIFY(size >= before || hasLedges != hadLedges);
             before = size;
+            hadLedges = hasLedges;
             // What is not learning is the user's.
             QCOMPARE(settings.simulation.drive.halfStroke, 0.7e-3);
             QCOMPARE(settings.evolution.seed, std::uint64_t{5});
             study::SimulationSettings simulation = inputs.settings.simulation;
             if (isSorted) simulation.termination.timeLimit = 30.0;
             QVERIFY(settings.simulation == simulation && settings.part == inputs.settings.part);
+        }
+    }
+
+    // The user's idea goes before what the part suggests, and is refused where there is no time for it.
+    void whatIsAskedForIsProposed() {
+        const study::StudyInputs inputs = inputsFor("clip");
+        using workflow::TrackIdea;
+        for (const auto& [idea, traps] :
+             {std::pair{TrackIdea::turning, "free-form"},
+              std::pair{TrackIdea::gaps, "groove, groove, 8 x gap"},
+              std::pair{TrackIdea::ledges, "groove, groove, 8 x gap, 6 x ledge"}}) {
+            const auto proposal = workflow::proposeSettings(inputs, 36000.0, {}, idea);
+            QVERIFY(proposal.ok());
+            QCOMPARE(proposal->settings.track.traps, traps);
         }
     }
 
