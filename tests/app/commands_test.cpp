@@ -217,13 +217,15 @@ class CommandsTest : public QObject {
         QCOMPARE(settings["evolution"].toObject()["generations"].toInt(), 3);
 
         // How it is learned can be the user's, and only how much of it goes by the time.
-        const Ran asked = ask(
-            {"new", "ledges.trap", "--part", "wedge", "--engine", "native", "--time", "1h30min", "--ledges"});
-        QVERIFY2(asked.code == 0, asked.all());
-        QVERIFY2(asked.errors.contains("here, of 1 h 30 min."), asked.all());
-        const QJsonObject ofLedges = ask({"settings", "ledges.trap", "--json"}).json();
-        QVERIFY(ofLedges["track"].toObject()["traps"].toString().endsWith("6 x ledge"));
-        QCOMPARE(ofLedges["evolution"].toObject()["search"].toString(), "exchange");
+        for (const auto& [idea, last] : {std::pair("--sorting", "gap"), std::pair("--ledges", "ledge")}) {
+            const std::string name = std::string("asked") + idea + ".trap";
+            const Ran asked = ask(
+                {"new", name.c_str(), "--part", "wedge", "--engine", "native", "--time", "1h30min", idea});
+            QVERIFY2(asked.code == 0, asked.all());
+            QVERIFY2(asked.errors.contains("here, of 1 h 30 min."), asked.all());
+            const QJsonObject fitted = ask({"settings", name.c_str(), "--json"}).json();
+            QVERIFY(fitted["track"].toObject()["traps"].toString().endsWith(QString(" x ") + last));
+        }
 
         // Refused before anything is made, with what to write instead.
         for (const char* wrong : {"", "10", "10 apples", "min", "-1h", "1h nonsense"}) {
