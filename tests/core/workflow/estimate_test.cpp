@@ -64,6 +64,23 @@ class EstimateTest : public QObject {
         QVERIFY(makeDraft(small, 1e-3) == small);
     }
 
+    // Of a race two of 32 run to its end, and of the others few get far.
+    void aRaceTakesAsLongAsItsTrials() {
+        study::EvolutionSettings race;
+        race.populationSize = 32;
+        race.trialsPerEvaluation = 1920;
+        race.racingTrials = 60;
+        race.racingShare = 2.0 / 32.0;
+        study::EvolutionSettings all = race;
+        all.racingTrials = 0;
+        const workflow::TrialCost cost{1e-3, 0.0, 0};
+        QVERIFY(std::abs(workflow::learningTime(all, 1, cost) - 1e-3 * 32 * 1920) < 1e-9);
+        const double raced = workflow::learningTime(race, 1, cost);
+        // Everybody has the first trials, two have all.
+        QVERIFY(raced > 1e-3 * (30 * 60 + 2 * 1920));
+        QVERIFY(raced < 0.2 * workflow::learningTime(all, 1, cost));
+    }
+
     // Before its first generation, and only then.
     void aPlanTakesTime() {
         study::EvolutionSettings graded;
