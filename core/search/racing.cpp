@@ -55,4 +55,14 @@ std::int64_t countRacingTrials(std::span<const int> trials, int running,
     return total;
 }
 
+std::int64_t countRacingTrials(std::span<const RacingStage> stages) {
+    std::int64_t total = 0;
+    int before = 0;
+    for (const RacingStage& stage : stages) {
+        total += static_cast<std::int64_t>(stage.places) * (stage.trials - before);
+        before = stage.trials;
+    }
+    return total;
+}
+
 }  // namespace trapwright::search

@@ -40,5 +40,7 @@ std::vector<RacingStep> findNextRound(std::span<const double> fitnesses, std::sp
 /// How many trials the race will take in all, those made or begun included, if no later round changes the
 /// ranking. `running` of the individuals take part.
 std::int64_t countRacingTrials(std::span<const int> trials, int running, std::span<const RacingStage> stages);
+/// The same before it begins, if all of the population take part.
+std::int64_t countRacingTrials(std::span<const RacingStage> stages);
 
 }  // namespace trapwright::search

@@ -83,13 +83,13 @@ base::Result<double> timeLayout(const study::StudyInputs& inputs, double budget,
     });
 }
 
-/// Of the race that a generation is, if its ranking stays as it begins.
+/// Of the race that a generation is, if its ranking stays as it begins. Any numbers may have been set.
 std::int64_t countTrials(const study::EvolutionSettings& evolution) {
-    const auto stages =
-        search::makeRacingStages(static_cast<std::size_t>(evolution.populationSize), evolution.racingTrials,
-                                 evolution.trialsPerEvaluation, evolution.racingShare);
-    return search::countRacingTrials(std::vector<int>(evolution.populationSize, 0), evolution.populationSize,
-                                     stages);
+    const auto population = static_cast<std::size_t>(std::max(evolution.populationSize, 0));
+    const bool isShare = evolution.racingShare >= 0.0 && evolution.racingShare <= 1.0;
+    return search::countRacingTrials(search::makeRacingStages(population, evolution.racingTrials,
+                                                              evolution.trialsPerEvaluation,
+                                                              isShare ? evolution.racingShare : 1.0));
 }
 
 /// Before there is a generation. [s]

@@ -1,6 +1,7 @@
 #include "core/workflow/estimate.h"
 
 #include <QtTest>
+#include <limits>
 
 #include "core/study/field_text.h"
 #include "core/study/planning.h"
@@ -79,6 +80,11 @@ class EstimateTest : public QObject {
         // Everybody has the first trials, two have all.
         QVERIFY(raced > 1e-3 * (30 * 60 + 2 * 1920));
         QVERIFY(raced < 0.2 * workflow::learningTime(all, 1, cost));
+        // Settings are told of as wrong only after they were estimated.
+        for (const int wrong : {-1, 0, std::numeric_limits<int>::max()}) {
+            race.populationSize = wrong;
+            QVERIFY(workflow::learningTime(race, 1, cost) >= 0.0);
+        }
     }
 
     // Before its first generation, and only then.
