@@ -17,6 +17,8 @@ std::vector<Row> runSliding(const trial::EngineKind& kind, const base::RunContro
 std::vector<Row> runToppling(const trial::EngineKind& kind, const base::RunControl& control);
 
 std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runStickSlipOnCrests(const trial::EngineKind& kind, const base::RunControl& control);
+std::vector<Row> runCreep(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runSlopedFeeder(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runClimbingBowl(const trial::EngineKind& kind, const base::RunControl& control);
 std::vector<Row> runHopping(const trial::EngineKind& kind, const base::RunControl& control);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/trial/predicted_speed.h"
 #include "core/verify/cases.h"
@@ -38,6 +41,63 @@ track::FeederShape climbing(track::FeederType type, double slope) {
     shape.bowlRadius = 50.0;
     shape.slope = slope;
     return shape;
+}
+
+/// Level at 15 mm but for what one tooth of 2 mm does, over and over: places in it and how deep they are. [m]
+struct Tooth {
+    const char* name;
+    std::vector<std::pair<double, double>> profile;
+};
+
+std::shared_ptr<const track::Track> makeTeeth(const Tooth& tooth) {
+    constexpr double kFirst = 0.06;
+    constexpr double kLast = 0.16;
+    constexpr double kPitch = 2.0 * kMillimetre;
+    std::vector<double> xs{0.0};
+    std::vector<double> depths{0.0};
+    for (double x = kFirst; x < kLast; x += kPitch)
+        for (const auto& [place, depth] : tooth.profile) {
+            xs.push_back(x + place);
+            depths.push_back(depth);
+        }
+    xs.insert(xs.end(), {kLast, 0.4});
+    depths.insert(depths.end(), {0.0, 0.0});
+    return makeSurface(xs, {-0.03, -0.01, 0.01, 0.03}, [&](double x, double) {
+        const auto at = std::lower_bound(xs.begin(), xs.end(), x) - xs.begin();
+        return 15.0 * kMillimetre - depths[static_cast<std::size_t>(at)];
+    });
+}
+
+/// Mean velocity of a point that slides and sticks on a track that leans by `lean` to its side, along the
+/// track and down the lean: Newton's equations in small steps. Below lift-off. [m/s]
+std::pair<double, double> calcCreep(const trial::Vibration& drive, double friction, double lean,
+                                    double gravity) {
+    constexpr double kStep = 1e-6;  // [s]
+    constexpr int kSettled = 25;    // periods
+    constexpr int kEnd = 50;
+    const double omega = drive.angularFrequency();
+    const auto steps = std::lround(drive.period() / kStep);
+    double along = 0.0;
+    double down = 0.0;
+    double wayAlong = 0.0;
+    double wayDown = 0.0;
+    for (long step = 0; step < kEnd * steps; ++step) {
+        const double push =
+            -drive.halfStroke * omega * omega * std::sin(omega * (static_cast<double>(step) + 0.5) * kStep);
+        const double weight = gravity + push * std::sin(drive.angle);  // per mass, on the vibrating track
+        along -= kStep * push * std::cos(drive.angle);
+        down += kStep * weight * std::sin(lean);
+        const double speed = std::hypot(along, down);
+        const double held = kStep * friction * weight * std::cos(lean);
+        const double left = speed > held ? 1.0 - held / speed : 0.0;
+        along *= left;
+        down *= left;
+        if (step < kSettled * steps) continue;
+        wayAlong += kStep * along;
+        wayDown += kStep * down;
+    }
+    const double time = (kEnd - kSettled) * drive.period();
+    return {wayAlong / time, wayDown / time};
 }
 
 /// Mean speed along the surface between two whole numbers of periods, of samples one period apart, on a track
@@ -144,6 +204,66 @@ std::vector<KnownMotion> makeStickSlip() {
     return motions;
 }
 
+std::vector<KnownMotion> makeStickSlipOnCrests() {
+    constexpr int kSettled = 25;
+    constexpr int kEnd = 50;
+    constexpr double kMm = kMillimetre;
+    const Tooth teeth[] = {
+        {"teeth that fall forward", {{0.0, 0.0}, {0.25 * kMm, 0.5 * kMm}}},
+        {"teeth that fall backward", {{0.0, 0.0}, {1.75 * kMm, 0.5 * kMm}}},
+        {"upright teeth that fall forward", {{0.0, 0.0}, {0.01 * kMm, 0.5 * kMm}}},
+        {"upright teeth that fall backward", {{0.0, 0.0}, {1.99 * kMm, 0.5 * kMm}}},
+        {"slots", {{0.0, 0.0}, {0.01 * kMm, 1.0 * kMm}, {0.5 * kMm, 1.0 * kMm}, {0.51 * kMm, 0.0}}}};
+    std::vector<KnownMotion> motions;
+    for (const Tooth& tooth : teeth) {
+        trial::Vibration drive;
+        drive.halfStroke = 0.45e-3;
+        const double period = drive.period();
+        trial::TrialBatch scene = makeLying(drive, (kEnd + 0.5) * period);
+        scene.track = makeTeeth(tooth);
+        motions.push_back({fmt::format("stick-slip on {}", tooth.name), std::move(scene), period,
+                           trial::calcStickSlipSpeed(drive, scene.contact.kineticFriction, scene.gravity),
+                           [period](const trial::Trajectory& trajectory) {
+                               return calcSpeed(trajectory, period, kSettled, kEnd);
+                           }});
+    }
+    return motions;
+}
+
+std::vector<KnownMotion> makeCreep() {
+    constexpr int kSettled = 25;
+    constexpr int kEnd = 50;
+    constexpr double kX = 0.1;
+    std::vector<KnownMotion> motions;
+    for (const double lean : {3.0 * base::kDegree, 8.0 * base::kDegree}) {
+        trial::Vibration drive;
+        drive.halfStroke = 0.45e-3;
+        const double period = drive.period();
+        const auto track = makeSlope(0.0, lean);
+        const Vec3 normal(0.0, -std::sin(lean), std::cos(lean));
+        const Quaternion lying = Quaternion::FromTwoVectors(Vec3::UnitZ(), normal) *
+                                 Quaternion::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ());
+        const Vec3 foot(kX, 0.0, findSurfaceHeight(*track, kX, 0.0));
+        trial::TrialBatch scene =
+            makeStillScene(track, makePaperCuboid(), {lying, foot + (2.0 * kMillimetre + 1e-9) * normal},
+                           (kEnd + 0.5) * period);
+        scene.drive = drive;
+        const auto [along, down] = calcCreep(drive, scene.contact.kineticFriction, lean, scene.gravity);
+        const std::string about = fmt::format("leaning by {:g} deg", lean / base::kDegree);
+        motions.push_back({about + ": along", scene, period, along, [period](const trial::Trajectory& way) {
+                               return calcSpeed(way, period, kSettled, kEnd);
+                           }});
+        motions.push_back({about + ": creep down", std::move(scene), period, down,
+                           [period, lean](const trial::Trajectory& way) {
+                               if (static_cast<int>(way.samples.size()) <= kEnd) return std::nan("");
+                               const double across = way.samples[kSettled].parts[0].room.position.y() -
+                                                     way.samples[kEnd].parts[0].room.position.y();
+                               return across / std::cos(lean) / ((kEnd - kSettled) * period);
+                           }});
+    }
+    return motions;
+}
+
 std::vector<KnownMotion> makeHopping() {
     constexpr int kPeriods = 50;
     std::vector<KnownMotion> motions;
@@ -201,6 +321,14 @@ std::vector<KnownMotion> makeClimbing(track::FeederType type) {
 
 std::vector<Row> runStickSlip(const trial::EngineKind& kind, const base::RunControl& control) {
     return judgeSpeeds(makeStickSlip(), kind, 0.02, 3, control);
+}
+
+std::vector<Row> runStickSlipOnCrests(const trial::EngineKind& kind, const base::RunControl& control) {
+    return judgeSpeeds(makeStickSlipOnCrests(), kind, 0.02, 3, control);
+}
+
+std::vector<Row> runCreep(const trial::EngineKind& kind, const base::RunControl& control) {
+    return judgeSpeeds(makeCreep(), kind, 0.03, 3, control);
 }
 
 std::vector<Row> runSlopedFeeder(const trial::EngineKind& kind, const base::RunControl& control) {

@@ -27,6 +27,12 @@ std::vector<KnownMotion> makeClimbing(track::FeederType type);
 /// On a level track above lift-off, at half-strokes at which the motion becomes periodic: a chaotic one has
 /// no speed to agree on. [m/s]
 std::vector<KnownMotion> makeHopping();
+/// Below lift-off on level teeth and on lands between slots, 2 mm apart and narrow against the part, which
+/// lies on their crests all the time: as on a level track. What is caught at crests is not. [m/s]
+std::vector<KnownMotion> makeStickSlipOnCrests();
+/// Along and across a track that leans to its side, below lift-off: slipping along it lets the part creep
+/// down although friction would hold it. [m/s]
+std::vector<KnownMotion> makeCreep();
 /// Rebound over impact speed of the cuboid, dropped flat and on a corner in turn. [1]
 std::vector<KnownMotion> makeBounces();
 

@@ -15,6 +15,8 @@ std::vector<Case> allCases() {
             {"sliding", runSliding},
             {"toppling", runToppling},
             {"stick-slip", runStickSlip},
+            {"stick-slip-on-crests", runStickSlipOnCrests},
+            {"creep", runCreep},
             {"sloped-feeder", runSlopedFeeder},
             {"climbing-bowl", runClimbingBowl},
             {"hopping", runHopping},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/contact/formulas/scalar.h"
 #include "sim/contact/union_features.h"
 
 namespace trapwright::contact {
@@ -75,6 +76,29 @@ BodyPiece preparePiece(const geometry::ConvexPolytope& polytope) {
     return piece;
 }
 
+/// Takes the ends off edges (scalar::kBorder) from which no other one goes on.
+void shortenEdges(std::vector<BodyPiece>& pieces, double touching) {
+    std::vector<BodyEdge> whole;
+    for (const BodyPiece& piece : pieces)
+        whole.insert(whole.end(), piece.edges.begin(), piece.edges.end());
+    const auto goesOn = [&](const Vec3& end, const Vec3& away) {
+        return std::ranges::any_of(whole, [&](const BodyEdge& other) {
+            const bool begins = (other.from - end).norm() <= touching;
+            const bool ends = (other.to - end).norm() <= touching;
+            return (begins && other.direction.dot(away) > scalar::kBend) ||
+                   (ends && -other.direction.dot(away) > scalar::kBend);
+        });
+    };
+    for (BodyPiece& piece : pieces)
+        for (BodyEdge& edge : piece.edges) {
+            const bool begins = !goesOn(edge.from, -edge.direction);
+            const bool ends = !goesOn(edge.to, edge.direction);
+            if (begins) edge.from += scalar::kBorder * edge.direction;
+            if (ends) edge.to -= scalar::kBorder * edge.direction;
+            edge.length = (edge.to - edge.from).norm();
+        }
+}
+
 }  // namespace
 
 ContactBody prepareBody(const std::vector<geometry::ConvexPolytope>& pieces) {
@@ -84,12 +108,14 @@ ContactBody prepareBody(const std::vector<geometry::ConvexPolytope>& pieces) {
         for (const Vec3& vertex : polytope.vertices)
             body.radius = std::max(body.radius, vertex.norm());
     }
-    if (body.pieces.size() == 1) return body;
     const double touching = kTouching * body.radius;
-    keepUnionFeatures(body.pieces, touching);
-    for (std::size_t p = 0; p < pieces.size(); ++p)
-        for (std::size_t f = 0; f < pieces[p].faces.size(); ++f)
-            body.pieces[p].faces[f].isCut = isCovered(pieces, p, pieces[p].faces[f], touching);
+    if (body.pieces.size() > 1) {
+        keepUnionFeatures(body.pieces, touching);
+        for (std::size_t p = 0; p < pieces.size(); ++p)
+            for (std::size_t f = 0; f < pieces[p].faces.size(); ++f)
+                body.pieces[p].faces[f].isCut = isCovered(pieces, p, pieces[p].faces[f], touching);
+    }
+    shortenEdges(body.pieces, touching);
     return body;
 }
 

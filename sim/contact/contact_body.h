@@ -14,7 +14,7 @@ struct BodyVertex {
 };
 
 struct BodyEdge {
-    base::Vec3 from, to;   // [m]
+    base::Vec3 from, to;   // without their ends (scalar::kBorder) [m]
     base::Vec3 direction;  // unit
     double length;         // [m]
     base::Vec3 into[2];    // in the planes of its two faces, unit, pointing from the edge into them

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "sim/contact/formulas/scalar.h"
+
 namespace trapwright::contact {
 
 using base::Vec3;
@@ -55,6 +57,13 @@ double calcValleySlack(const geometry::TriangleMesh& mesh, int triangle, int cor
     const Vec3& top = mesh.vertices[mesh.triangles[triangle][(corner + 2) % 3]];
     const double height = (b - a).cross(top - a).norm() / (b - a).norm();
     return std::clamp(0.5 * height, kEdgeSlack, kCornerSlack);
+}
+
+/// How near to a ridge of that convexity [rad] its triangles do not act (scalar::kBorder). Less at blunt
+/// ones: a vertex there would have to sink the deeper until a flank holds it again, the less they differ. [m]
+double calcRidgeInset(double convexity) {
+    constexpr double kBlunt = 30.0 * base::kDegree;
+    return scalar::kBorder * std::min(1.0, std::sin(std::min(convexity, kBlunt)) / std::sin(kBlunt));
 }
 
 /// What of the surface meets at a vertex, seen from there: the solid is on the inner side of all of it.
@@ -142,6 +151,7 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
             triangle.radius = std::max(triangle.radius, (vertex - triangle.centre).norm());
             triangle.edgeNormal[c] = edgeNormalOf(mesh, static_cast<int>(t), c, normal);
             triangle.edgeOffset[c] = triangle.edgeNormal[c].dot(vertex) + kEdgeSlack;
+            triangle.isRidge[c] = false;
         }
         track.triangles.push_back(triangle);
     }
@@ -185,8 +195,11 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
                 calcValleySlack(mesh, use.triangle[0], use.corner[0]) - kEdgeSlack;
         }
         if (convexity < kConvexAngle) continue;
-        t0.edgeOffset[use.corner[0]] -= kEdgeSlack;
-        t1.edgeOffset[use.corner[1]] -= kEdgeSlack;
+        const double taken = kEdgeSlack + calcRidgeInset(convexity);
+        t0.edgeOffset[use.corner[0]] -= taken;
+        t1.edgeOffset[use.corner[1]] -= taken;
+        t0.isRidge[use.corner[0]] = true;
+        t1.isRidge[use.corner[1]] = true;
         TrackEdge edge;
         edge.direction = directionOf(key);
         edge.into[0] = -out0;

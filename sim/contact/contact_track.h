@@ -12,7 +12,9 @@ struct TrackTriangle {
     base::Vec3 corner;         // any of its vertices [m]
     base::Vec3 normal;         // outward, unit
     base::Vec3 edgeNormal[3];  // in its plane, unit, pointing out of the triangle
-    double edgeOffset[3];  // edgeNormal . p <= edgeOffset inside; slack at valleys and flat edges included
+    double edgeOffset[3];  // edgeNormal . p <= edgeOffset inside; slack at valleys and flat edges included,
+                           // at ridges something taken off (scalar::kBorder)
+    bool isRidge[3];       // whether its sides are strictly convex edges
     base::Vec3 centre;     // of a ball around it [m]
     double radius;
 };

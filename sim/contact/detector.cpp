@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trapwright::contact {
 
@@ -12,6 +13,8 @@ namespace {
 
 /// How far a part may travel before the list of near-by features is made anew. [m]
 constexpr double kSkin = 4e-3;
+/// Farther than any vertex is from what it is near to. [m]
+constexpr double kFar = 1e3;
 
 scalar::Triple toTriple(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
@@ -31,22 +34,32 @@ double distanceToSegment(const Vec3& point, const Vec3& from, const Vec3& direct
     return (from + along * direction - point).norm();
 }
 
-/// Largest value of min(face distance of a, face distance of b) over the faces: a lower bound of the distance
-/// of segment a-b to the piece. Cuts count only where it is beyond them. Stops at the first that reaches
-/// `enough`; `face` is tried first and told.
-double findSeparation(const BodyPiece& piece, const Vec3& a, const Vec3& b, double enough, int& face) {
+/// Distances of segment a-b from the planes of a piece's faces.
+struct Separation {
+    double largest = -1e300;  // a lower bound of the distance of the segment to the piece [m]
+    double second = -1e300;   // of the other faces [m]
+};
+
+/// By min(face distance of a, face distance of b). Cuts count only where it is beyond them. Stops at the
+/// first that reaches `enough`; `face` is tried first and told.
+Separation findSeparation(const BodyPiece& piece, const Vec3& a, const Vec3& b, double enough, int& face) {
     const auto distance = [&, from = toTriple(a), to = toTriple(b)](int f) {
         const double d = scalar::calcSeparation(toPlane(piece.faces[f]), from, to);
         return piece.faces[f].isCut && d <= 0.0 ? -1e300 : d;
     };
-    double best = distance(face);
-    if (best >= enough) return best;
+    const int first = face;
+    Separation best;
+    best.largest = distance(face);
+    if (best.largest >= enough) return best;
     for (int f = 0; f < static_cast<int>(piece.faces.size()); ++f) {
+        if (f == first) continue;
         const double d = distance(f);
-        if (d > best) {
-            best = d;
+        if (d > best.largest) {
+            best.second = std::exchange(best.largest, d);
             face = f;
-            if (best >= enough) return best;
+            if (best.largest >= enough) return best;
+        } else {
+            best.second = std::max(best.second, d);
         }
     }
     return best;
@@ -57,6 +70,8 @@ double findSeparation(const BodyPiece& piece, const Vec3& a, const Vec3& b, doub
 struct Detector::Query {
     Mat3 toTrack;   // rotation part -> track
     Vec3 position;  // of the part's origin in the track frame
+    Vec3 shift;     // in the part frame, as ...
+    Vec3 turn;      // ... this
     double margin;
     std::vector<Contact>* contacts;
 
@@ -65,14 +80,20 @@ struct Detector::Query {
     [[nodiscard]] Vec3 vectorToPart(const Vec3& v) const { return toTrack.transpose() * v; }
 };
 
-void Detector::findContacts(const base::Pose& partInTrack, double moved, double margin,
-                            std::vector<Contact>& contacts) {
+void Detector::findContacts(const base::Pose& partInTrack, const ComingWay& coming, double moved,
+                            double margin, std::vector<Contact>& contacts) {
     contacts.clear();
     travel_ += moved;
     if (travel_ + margin < nextLook_) return;
     if (travel_ + margin >= collectAt_) collectCandidates(partInTrack, margin);
 
-    const Query query{partInTrack.rotation.toRotationMatrix(), partInTrack.position, margin, &contacts};
+    const Mat3 toTrack = partInTrack.rotation.toRotationMatrix();
+    const Query query{toTrack,
+                      partInTrack.position,
+                      toTrack.transpose() * coming.shift,
+                      toTrack.transpose() * coming.turn,
+                      margin,
+                      &contacts};
     nextLook_ = collectAt_;
     for (Candidate& candidate : candidates_) {
         if (travel_ + margin >= candidate.clearUntil) {
@@ -143,15 +164,18 @@ double Detector::testTriangle(const Query& query, const Candidate& candidate) co
     const scalar::Plane sides[3] = {toPart(triangle.edgeNormal[0], triangle.edgeOffset[0]),
                                     toPart(triangle.edgeNormal[1], triangle.edgeOffset[1]),
                                     toPart(triangle.edgeNormal[2], triangle.edgeOffset[2])};
+    const auto ridge = [&](int c) { return triangle.isRidge[c] ? kFar : 0.0; };
+    const double ridges[3] = {ridge(0), ridge(1), ridge(2)};
     double nearest = 1e300;
     for (int v = 0; v < static_cast<int>(piece.vertices.size()); ++v) {
         const BodyVertex& vertex = piece.vertices[v];
-        const scalar::VertexTest test =
-            scalar::testVertex(toTriple(vertex.position), plane, sides, query.margin);
+        const scalar::VertexTest test = scalar::testVertex(toTriple(vertex.position), plane, sides);
         nearest = std::min(nearest, test.clear);
+        if (test.clear >= query.margin) continue;
+        const scalar::Triple way = toTriple(query.shift + query.turn.cross(vertex.position));
         // The part must lie above the plane: otherwise the vertex passes by (along the border of the face
         // that the part lies on) or touches the other flank of a thin wall.
-        bool above = test.over;
+        bool above = scalar::meetsTriangle(test, way, plane, sides, ridges);
         for (int e = 0; e < vertex.edgeCount && above; ++e)
             above =
                 dot(plane.normal, toTriple(piece.vertexEdges[vertex.firstEdge + e])) >= -scalar::kConeSlack;
@@ -172,7 +196,8 @@ double Detector::testEdge(const Query& query, Candidate& candidate) const {
     const double ball = distanceToSegment(piece.centre, from, direction, length) - piece.radius;
     if (ball >= query.margin) return ball;
     const double apart =
-        findSeparation(piece, from, from + length * direction, query.margin, candidate.separatingFace);
+        findSeparation(piece, from, from + length * direction, query.margin, candidate.separatingFace)
+            .largest;
     if (apart >= query.margin) return apart;
 
     const scalar::Triple outward = toTriple(query.vectorToPart(edge.outward));
@@ -200,12 +225,13 @@ double Detector::testVertex(const Query& query, Candidate& candidate) const {
     const TrackVertex& vertex = track_->vertices[candidate.feature];
     const BodyPiece& piece = body_->pieces[candidate.piece];
     const Vec3 point = query.pointToPart(vertex.position);
-    const double gap = findSeparation(piece, point, point, query.margin, candidate.separatingFace);
+    const Separation separation = findSeparation(piece, point, point, query.margin, candidate.separatingFace);
+    const double gap = separation.largest;
     if (gap >= query.margin || gap <= -kDeepest) return std::max(gap, -gap - kDeepest);
 
     const Vec3 normal = query.toTrack * -piece.faces[candidate.separatingFace].normal;
     // The track must lie below the face: a part that slides level over a border is not stopped by it.
-    bool inside = true;
+    bool inside = separation.second <= -scalar::kBorder;
     for (int e = 0; e < vertex.edgeCount && inside; ++e)
         inside = normal.dot(track_->vertexEdges[vertex.firstEdge + e]) <= scalar::kConeSlack;
     if (inside)

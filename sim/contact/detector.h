@@ -21,6 +21,12 @@ struct Contact {
     trial::Body bodyB = 0;
 };
 
+/// How a part is about to move if nothing touches it, relative to the track and in its axes.
+struct ComingWay {
+    base::Vec3 shift = base::Vec3::Zero();  // of its origin [m]
+    base::Vec3 turn = base::Vec3::Zero();   // [rad]
+};
+
 /// Finds the contacts of one part with one track, step after step. Three kinds of feature pairs: part vertex
 /// on track triangle, part edge across strictly convex track edge, track vertex on part face. A pair that is
 /// far away is not looked at again before the part can have come near. One detector per running trial.
@@ -29,8 +35,8 @@ class Detector {
     Detector(const ContactTrack& track, const ContactBody& body) : track_(&track), body_(&body) {}
 
     /// All pairs with a gap below `margin`. `moved` bounds how far any point of the part has moved relative
-    /// to the track since the last call. [m]
-    void findContacts(const base::Pose& partInTrack, double moved, double margin,
+    /// to the track since the last call. [m] `coming`: what vertices slide past on this way is left out.
+    void findContacts(const base::Pose& partInTrack, const ComingWay& coming, double moved, double margin,
                       std::vector<Contact>& contacts);
 
  private:

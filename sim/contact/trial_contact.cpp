@@ -39,7 +39,11 @@ void TrialContact::findTrackContacts(int slot, const SteppedPart& part) {
     const double turn = std::abs(next_.sine - now_.sine) * own.body->radius;
     const double reach = (part.free.velocity * dt_ - trackStep).norm() +
                          part.free.angularVelocity.norm() * dt_ * own.body->radius + turn;
-    own.detector.findContacts(now_.toTrack(part.pose), own.lastReach, 1.1 * reach + kTravelMargin, found_);
+    const Vec3 trackTurn(0.0, 0.0, next_.sine * now_.cosine - next_.cosine * now_.sine);
+    const ComingWay coming{now_.turnBack(part.free.velocity * dt_ - trackStep),
+                           now_.turnBack(part.free.angularVelocity * dt_) - trackTurn};
+    own.detector.findContacts(now_.toTrack(part.pose), coming, own.lastReach, 1.1 * reach + kTravelMargin,
+                              found_);
     if (laws_.track.roughness > 0.0) roughen(found_);
     for (Contact& contact : found_) {
         contact.bodyB = slot;

@@ -184,8 +184,7 @@ inline void collectVertices(const Placed& placed, int index) {
     };
     const FeatureGroups& vertices = placed.body->vertices;
     forEachNear(placed, vertices, farthestBeyond, [&](int first, int end) {
-        const VertexTest test =
-            testVertex(loadThree(vertices.features, 0, first), planes[0], sides, placed.reach);
+        const VertexTest test = testVertex(loadThree(vertices.features, 0, first), planes[0], sides);
         const std::uint32_t bits = bitsOf(test.clear < Real(placed.reach));
         if (bits == 0) return;
         alignas(64) float clear[kWidestVector];
@@ -357,6 +356,8 @@ inline void writeVertexPair(const PackedPiece& piece, const PackedTrack& track, 
         to[2 * kWidestVector] = triangle.nz[c];
         to[3 * kWidestVector] = pair.own[static_cast<std::size_t>(c)];
     }
+    for (int c = 0; c < 3; ++c, to += kWidestVector)
+        to[0] = triangle.ridges[c];
 }
 inline void writeEdgePair(const PackedPiece& piece, const PackedTrack& track, const NearPair& pair,
                           float* to) {

@@ -230,10 +230,10 @@ inline void lookAtVertices(TrialLanes& group, const PlacedLanes& placed, PairTab
         const Triple point = placed.away + placed.axes * pairThree(pairs, row, kVertexX, placed.slot);
         const Plane sides[3] = {planeOf(placed, pairs, row, 1), planeOf(placed, pairs, row, 2),
                                 planeOf(placed, pairs, row, 3)};
-        const VertexTest test = testVertex(point, planeOf(placed, pairs, row, 0), sides, placed.margin);
+        const VertexTest test = testVertex(point, planeOf(placed, pairs, row, 0), sides);
         setDue(placed, pairs, row, test.clear);
         rows[count] = row;
-        count += any(test.over) ? 1 : 0;
+        count += any(test.clear < placed.margin) ? 1 : 0;
     }
     looked.due = min(looked.due, findNextDue(placed, pairs));
 
@@ -243,11 +243,15 @@ inline void lookAtVertices(TrialLanes& group, const PlacedLanes& placed, PairTab
         const Plane plane = planeOf(placed, pairs, row, 0);
         const Plane sides[3] = {planeOf(placed, pairs, row, 1), planeOf(placed, pairs, row, 2),
                                 planeOf(placed, pairs, row, 3)};
-        const VertexTest test = testVertex(placed.away + arm, plane, sides, placed.margin);
+        const Real ridges[3] = {load(pairs.field(row, kRidge0) + placed.slot),
+                                load(pairs.field(row, kRidge1) + placed.slot),
+                                load(pairs.field(row, kRidge2) + placed.slot)};
+        const VertexTest test = testVertex(placed.away + arm, plane, sides);
         // The part must lie above the plane: otherwise the vertex passes by (along the border of the face
         // that the part lies on) or touches the other flank of a thin wall.
         const Triple up = multiplyTransposed(placed.axes, plane.normal);
-        Mask touching = test.over;
+        const Triple way = placed.step + cross(placed.turn, arm);
+        Mask touching = test.clear < placed.margin && meetsTriangle(test, way, plane, sides, ridges);
         for (int e = 0; e < kConeEdges; ++e)
             touching =
                 touching && dot(up, pairThree(pairs, row, kCone + 3 * e, placed.slot)) >= Real(-kConeSlack);
@@ -315,13 +319,14 @@ inline void lookAtEdges(TrialLanes& group, const PlacedLanes& placed, PairTable&
 /// The face of its piece that a point of each lane is farthest beyond, and how far.
 struct FarthestFace {
     Real gap;
+    Real second;  // of the other faces
     Triple normal;
     Real face;
 };
 
 inline FarthestFace findFarthestFace(const PackedBody& body, const std::uint32_t* trackFeature,
                                      std::uint32_t bits, const Triple& point) {
-    FarthestFace farthest = {-kUntouchable, {0.0, 0.0, 0.0}, 0.0};
+    FarthestFace farthest = {-kUntouchable, -kUntouchable, {0.0, 0.0, 0.0}, 0.0};
     while (bits != 0) {
         // Lanes with the same piece together.
         const std::uint32_t p = pieceOf(trackFeature[hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)]);
@@ -338,7 +343,9 @@ inline FarthestFace findFarthestFace(const PackedBody& body, const std::uint32_t
                 {faces.row(kFaceNormalX)[f], faces.row(kFaceNormalY)[f], faces.row(kFaceNormalZ)[f]},
                 faces.row(kPlaneOffset)[f]};
             const Real gap = distanceBeyond(plane, point);
-            const Mask farther = asked && gap > farthest.gap && gap > Real(faces.row(kCountsFrom)[f]);
+            const Mask counts = asked && gap > Real(faces.row(kCountsFrom)[f]);
+            const Mask farther = counts && gap > farthest.gap;
+            farthest.second = select(counts, max(farthest.second, min(gap, farthest.gap)), farthest.second);
             farthest.gap = select(farther, gap, farthest.gap);
             farthest.normal = select(farther, plane.normal, farthest.normal);
             farthest.face = select(farther, Real(f), farthest.face);
@@ -363,7 +370,8 @@ inline void lookAtFaces(TrialLanes& group, const PlacedLanes& placed, PairTable&
 
         const FarthestFace farthest =
             findFarthestFace(*group.model().body, pairs.trackFeature(row) + placed.slot, bitsOf(near), point);
-        const Mask touching = near && farthest.gap < placed.margin && farthest.gap > Real(-kDeepest);
+        const Mask touching = near && farthest.gap < placed.margin && farthest.gap > Real(-kDeepest) &&
+                              farthest.second <= Real(-kBorder);
         // Which face it is belongs to the contact's name.
         store(farthest.face, pairs.faces(row) + placed.slot);
         stage(group, placed, row,

@@ -14,6 +14,7 @@ enum VertexPairField : int {
     kVertexX, kVertexY, kVertexZ,                                // part frame [m]
     kCone, kConeLast = kCone + 8,                                // its edges away from it, if there are at most three
     kPlanes, kPlanesLast = kPlanes + 15,                         // of the triangle, of its sides: normal, offset
+    kRidge0, kRidge1, kRidge2,                                   // which sides are ridges (meetsTriangle)
     kVertexPairFields
 };
 /// Of a part's edge near an edge of the track.

@@ -117,7 +117,7 @@ class ContactForce : public SimTK::Force::Custom::Implementation {
         const double moved = (pose.position - lastPose_.position).norm() +
                              pose.rotation.angularDistance(lastPose_.rotation) * bodyRadius_;
         lastPose_ = pose;
-        detector_.findContacts(pose, moved, kWatch, points_);
+        detector_.findContacts(pose, {}, moved, kWatch, points_);
         for (contact::Contact& point : points_)
             point.normal = contact::tiltNormal(law_, point.point, point.normal);
         return points_;

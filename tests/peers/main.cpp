@@ -138,7 +138,8 @@ app::Attempt<app::ExitCode> runTransfer(const TransferOptions& asked, const app:
     }
     if (transfer.stretch)
         console.print(
-            "Passes too, stays too: of those that pass in the first engine, and of those that do not.\n");
+            "Passes too, stays too: of those that pass in the first engine, and of those that do not.\n\n" +
+            peers::describeWays(transfer));
     else
         console.print(
             "Correct: of those that arrive. Points: of success, more than in the first engine. Other: trials "

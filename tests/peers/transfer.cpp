@@ -4,13 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <random>
+#include <span>
 #include <utility>
 
 #include "core/base/file.h"
 #include "core/stats/binomial.h"
 #include "core/study/evaluator.h"
+#include "core/study/orientation_shares.h"
 #include "core/study/robustness.h"
+#include "core/trial/orientations.h"
 
 namespace trapwright::peers {
 
@@ -76,16 +81,18 @@ base::Result<std::vector<trial::TrialSpec>> findStarts(const trial::Engine& engi
     return starts;
 }
 
+bool finishes(const trial::Outcome& outcome) {
+    return outcome.parts.front().ending == trial::Ending::finished;
+}
+
 std::string describeStretch(const TransferRow& row, const TransferRow& reference, const std::string& step,
                             const std::string& conditions) {
-    const int trials = static_cast<int>(row.passed.size());
-    const int passed = static_cast<int>(std::ranges::count(row.passed, true));
-    int passedBefore = 0;
+    const int trials = static_cast<int>(row.outcomes.size());
+    const int passed = static_cast<int>(std::ranges::count_if(row.outcomes, finishes));
+    const int passedBefore = static_cast<int>(std::ranges::count_if(reference.outcomes, finishes));
     int bothPass = 0;
-    for (std::size_t i = 0; i < row.passed.size(); ++i) {
-        passedBefore += reference.passed[i] ? 1 : 0;
-        bothPass += row.passed[i] && reference.passed[i] ? 1 : 0;
-    }
+    for (std::size_t i = 0; i < row.outcomes.size(); ++i)
+        bothPass += finishes(row.outcomes[i]) && finishes(reference.outcomes[i]) ? 1 : 0;
     const int stayedBefore = trials - passedBefore;
     const int bothStay = stayedBefore - (passed - bothPass);
     const stats::Interval bounds = stats::calcClopperPearson(passed, trials);
@@ -93,6 +100,101 @@ std::string describeStretch(const TransferRow& row, const TransferRow& reference
         kStretchColumns, row.engine, step, conditions, fmt::format("{:.1f}", percent(passed, trials)),
         fmt::format("{:.1f} ... {:.1f}", 100.0 * bounds.low, 100.0 * bounds.high), trials,
         fmt::format("{} of {}", bothPass, passedBefore), fmt::format("{} of {}", bothStay, stayedBefore));
+}
+
+/// For each trial the first of the ways in which its part comes to the end, or the one behind them all for
+/// those that come in another, or one further for those that do not come.
+std::vector<std::size_t> findWays(const Transfer& transfer, const TransferRow& row,
+                                  std::span<const study::EndMode> modes) {
+    std::vector<std::size_t> ways;
+    for (const trial::Outcome& outcome : row.outcomes) {
+        const auto mode = std::ranges::find_if(modes, [&](const study::EndMode& known) {
+            return trial::calcOrientationAngle(
+                       outcome.parts.front().farthest.rotation, known.orientation, transfer.part->symmetry,
+                       trial::OrientationDistance::symmetric) <= transfer.settings.validation.tolerance;
+        });
+        ways.push_back(finishes(outcome) ? static_cast<std::size_t>(mode - modes.begin()) : modes.size() + 1);
+    }
+    return ways;
+}
+
+/// Trials whose part comes to the end as in the first engine, or in neither.
+int countAlike(const Transfer& transfer, const TransferRow& row, const TransferRow& reference) {
+    int count = 0;
+    for (std::size_t i = 0; i < row.outcomes.size(); ++i) {
+        const trial::Outcome& one = row.outcomes[i];
+        const trial::Outcome& other = reference.outcomes[i];
+        const double angle = trial::calcOrientationAngle(
+            one.parts.front().farthest.rotation, other.parts.front().farthest.rotation,
+            transfer.part->symmetry, trial::OrientationDistance::symmetric);
+        const bool areAlike = !finishes(one) || angle <= transfer.settings.validation.tolerance;
+        count += finishes(one) == finishes(other) && areAlike ? 1 : 0;
+    }
+    return count;
+}
+
+std::vector<int> countWays(std::span<const std::size_t> ways, std::size_t kinds) {
+    std::vector<int> counts(kinds);
+    for (const std::size_t way : ways)
+        ++counts[way];
+    return counts;
+}
+
+/// Half the sum of the differences of the shares of two engines with as many trials, the first half of `ways`
+/// being of the one.
+double calcDistance(std::span<const std::size_t> ways, std::size_t kinds) {
+    const std::size_t trials = ways.size() / 2;
+    const std::vector<int> one = countWays(ways.first(trials), kinds);
+    const std::vector<int> other = countWays(ways.last(trials), kinds);
+    int sum = 0;
+    for (std::size_t way = 0; way < kinds; ++way)
+        sum += std::abs(one[way] - other[way]);
+    return 0.5 * sum / static_cast<double>(trials);
+}
+
+/// What the distance stays below 95 times in 100 if both engines do the same.
+double calcChance(std::vector<std::size_t> ways, std::size_t kinds) {
+    constexpr std::size_t kDeals = 1000;
+    std::mt19937 random;
+    std::vector<double> distances;
+    for (std::size_t deal = 0; deal < kDeals; ++deal) {
+        std::ranges::shuffle(ways, random);
+        distances.push_back(calcDistance(ways, kinds));
+    }
+    std::ranges::sort(distances);
+    return distances[kDeals * 95 / 100];
+}
+
+/// The ways of one scene, engine by engine.
+std::string describeSceneWays(const Transfer& transfer, std::size_t scene) {
+    constexpr std::size_t kMostWays = 12;
+    const TransferRow& reference = transfer.rows[scene];
+    const auto isOfScene = [&](const TransferRow& row) { return row.scene == scene && row.problem.empty(); };
+    std::vector<trial::Outcome> outcomes;
+    for (const TransferRow& row : transfer.rows)
+        if (isOfScene(row)) outcomes.insert(outcomes.end(), row.outcomes.begin(), row.outcomes.end());
+    const std::vector<study::EndMode> modes =
+        study::findEndModes(*transfer.part, outcomes, transfer.settings.validation.tolerance, kMostWays);
+    const std::size_t kinds = modes.size() + 2;
+    const std::vector<std::size_t> before = findWays(transfer, reference, modes);
+    std::string text = fmt::format("{}: trials that come to the end in these ways\n{:<12} {:>7}",
+                                   transfer.scenes[scene].conditions, "Engine", "Step ms");
+    for (const study::EndMode& mode : modes)
+        text += fmt::format(" {:>7}", fmt::format("{}{:+.0f}", mode.pose + 1, mode.heading / base::kDegree));
+    text += fmt::format(" {:>7} {:>7} {:>9} {:>11} {:>10}\n", "other", "none", "Alike [%]", "Differs [%]",
+                        "Chance [%]");
+    for (const TransferRow& row : transfer.rows) {
+        if (!isOfScene(row)) continue;
+        std::vector<std::size_t> ways = findWays(transfer, row, modes);
+        text += fmt::format("{:<12} {:>7}", row.engine, fmt::format("{:g}", 1e3 * row.step));
+        for (const int count : countWays(ways, kinds))
+            text += fmt::format(" {:>7}", count);
+        const double alike = percent(countAlike(transfer, row, reference), static_cast<int>(ways.size()));
+        ways.insert(ways.begin(), before.begin(), before.end());
+        text += fmt::format(" {:>9.1f} {:>11.1f} {:>10.1f}\n", alike, 100.0 * calcDistance(ways, kinds),
+                            100.0 * calcChance(ways, kinds));
+    }
+    return text;
 }
 
 int countOtherVerdicts(const TransferRow& row, const TransferRow& reference) {
@@ -127,7 +229,14 @@ base::Status beginAtStretch(Transfer& transfer, const Stretch& stretch, const Co
         return base::Error{"A stretch can be taken of linear tracks only."};
     constexpr double kLeast = 0.5;  // [s]
     double longest = kLeast;
+    const auto shortened = std::make_shared<track::Track>(*transfer.scenes.front().batch.track);
+    if (stretch.to > shortened->finish)
+        return base::Error{fmt::format("The stretch ends at {:g} mm, behind the finish line at {:g} mm.",
+                                       stretch.to / base::kMillimetre,
+                                       shortened->finish / base::kMillimetre)};
+    shortened->finish = stretch.to;
     for (TransferScene& scene : transfer.scenes) {
+        scene.batch.track = shortened;
         auto starts = findStarts(*engine, scene.batch, stretch, longest, control);
         if (!starts) return starts.error();
         scene.batch.trials = std::move(*starts);
@@ -155,9 +264,6 @@ base::Status addEngine(Transfer& transfer, const Contender& contender, const bas
             transfer.goal = trial::findGoal(std::nullopt, row.outcomes, transfer.part->symmetry,
                                             transfer.settings.validation.tolerance);
         judgeRow(transfer, row);
-        if (transfer.stretch)
-            for (const trial::Outcome& outcome : row.outcomes)
-                row.passed.push_back(outcome.parts.front().farthest.position.x() >= transfer.stretch->to);
         transfer.rows.push_back(std::move(row));
     }
     return base::success();
@@ -197,6 +303,17 @@ std::string describeTransfer(const Transfer& transfer, const TransferRow& row) {
         tally.wrongOrientation, tally.stuck, tally.fellOff,
         fmt::format("{:+.1f}", success - percent(reference.tally.success, reference.tally.trials())),
         fmt::format("{:.1f}", percent(countOtherVerdicts(row, reference), trials)));
+}
+
+std::string describeWays(const Transfer& transfer) {
+    std::string text;
+    for (std::size_t scene = 0; scene < transfer.scenes.size(); ++scene)
+        text += describeSceneWays(transfer, scene);
+    return text +
+           "Ways: stable pose and heading, in degrees. Alike: each trial as in the first engine. Differs: of "
+           "the first engine's shares; chance alone "
+           "stays "
+           "below the last column 95 times in 100.\n";
 }
 
 base::Status writeTransferTrials(const Transfer& transfer, const std::filesystem::path& file) {

@@ -174,16 +174,23 @@ std::vector<base::Vec3> listProbes(const part::Part& part) {
     return probes;
 }
 
-/// How deep any of the points is inside the track. [m]
-double calcDepth(const geometry::SolidProbe& probe, std::span<const base::Vec3> points,
-                 const track::Track& track, const base::Pose& pose) {
+/// Of some points the one that is deepest inside the track.
+struct Deepest {
+    double depth = 0.0;                        // [m]
+    base::Vec3 place = base::Vec3::Zero();     // in the frame of the track's mesh [m]
+    base::Vec3 ownPlace = base::Vec3::Zero();  // in the part frame [m]
+};
+
+Deepest findDeepest(const geometry::SolidProbe& probe, std::span<const base::Vec3> points,
+                    const track::Track& track, const base::Pose& pose) {
     const base::Pose there{base::Quaternion(track.shape.tangentFrame(pose.position.x())) * pose.rotation,
                            track.shape.toRoom(pose.position)};
-    double deepest = 0.0;
+    Deepest deepest;
     for (const base::Vec3& own : points) {
         const base::Vec3 point = there.apply(own);
         if (!probe.isInside(point)) continue;
-        deepest = std::max(deepest, (probe.findNearest(point) - point).norm());
+        const double depth = (probe.findNearest(point) - point).norm();
+        if (depth > deepest.depth) deepest = {depth, point, own};
     }
     return deepest;
 }
@@ -212,7 +219,7 @@ Finding judgeWay(const trial::TrialBatch& batch, const trial::Trajectory& trajec
     double depth = 0.0;
     for (const trial::TrajectorySample& sample : trajectory.samples) {
         energy = std::max(energy, verify::calcEnergy(batch, sample) / most);
-        depth = std::max(depth, calcDepth(probe, points, *batch.track, sample.parts.front().track));
+        depth = std::max(depth, findDeepest(probe, points, *batch.track, sample.parts.front().track).depth);
     }
     if (energy > 1.0) return {"too quick", fmt::format("{:.2f} times the most", energy)};
     if (depth > kDeep) return {"inside the track", fmt::format("{:.2f} mm", depth * 1e3)};
@@ -228,11 +235,21 @@ void tellWay(const trial::TrialBatch& batch, const trial::Trajectory& trajectory
         if (sample.time < end.time - kTold) continue;
         const trial::PartState& state = sample.parts.front();
         const base::Vec3 at = state.track.position * 1e3;
-        fmt::print(
-            "{:.4f} s: ({:.2f}, {:.2f}, {:.2f}) mm, {:.3f} m/s, {:.1f} rad/s, {} contacts, {:.3f} mm "
-            "inside\n",
-            sample.time, at.x(), at.y(), at.z(), state.velocity.norm(), state.angularVelocity.norm(),
-            state.contacts, 1e3 * calcDepth(probe, points, *batch.track, state.track));
+        const Deepest deepest = findDeepest(probe, points, *batch.track, state.track);
+        fmt::print("{:.4f} s: ({:.2f}, {:.2f}, {:.2f}) mm, {:.3f} m/s, {:.1f} rad/s, {:.3f} mm inside",
+                   sample.time, at.x(), at.y(), at.z(), state.velocity.norm(), state.angularVelocity.norm(),
+                   1e3 * deepest.depth);
+        if (deepest.depth > 0.0)
+            fmt::print(" at ({:.3f}, {:.3f}, {:.3f}) mm, the part's ({:.3f}, {:.3f}, {:.3f})",
+                       1e3 * deepest.place.x(), 1e3 * deepest.place.y(), 1e3 * deepest.place.z(),
+                       1e3 * deepest.ownPlace.x(), 1e3 * deepest.ownPlace.y(), 1e3 * deepest.ownPlace.z());
+        fmt::print("\n");
+        for (const trial::ContactForce& contact : sample.forces) {
+            const base::Vec3 place = contact.point * 1e3;
+            const base::Vec3 push = contact.force * 1e3;
+            fmt::print("    at ({:.3f}, {:.3f}, {:.3f}) mm: ({:.1f}, {:.1f}, {:.1f}) mN\n", place.x(),
+                       place.y(), place.z(), push.x(), push.y(), push.z());
+        }
     }
     fmt::print("{} after {:.4f} s{}\n", trial::endingName(end.ending), end.time,
                end.throughSurface ? ", through the surface" : "");

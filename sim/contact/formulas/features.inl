@@ -10,6 +10,15 @@ constexpr double kConeSlack = 0.05;
 /// Edges nearer to parallel than this have no contact of their own: their ends do. (square of the sine)
 constexpr double kParallel = 0.026 * 0.026;
 
+/// How near to where it ends a triangle (at ridges), a part's edge or a face does not act: what is there
+/// does. Parts slide over ridges as low as these are, but for what is rounded, and the flank of each would
+/// push them on. [m]
+constexpr double kBorder = 5e-6;
+/// An edge of a part whose end another one goes on from, bent by less than this, acts up to there. (cosine)
+constexpr double kBend = 0.2;
+/// Less than this is no way. [m]
+constexpr double kLeastApproach = 1e-9;
+
 /// normal . p + offset is how far p is beyond a plane.
 struct Plane {
     Triple normal;
@@ -26,19 +35,33 @@ struct VertexTest {
     Real gap;        // above the triangle's plane
     Real beside[3];  // beyond the triangle's sides
     Real clear;      // the part may travel this far before they can touch
-    Mask over;       // within the triangle's sides and near enough
 };
 
 /// sides: the planes of the triangle's sides, normals out of the triangle.
-inline VertexTest testVertex(const Triple& vertex, const Plane& plane, const Plane (&sides)[3], Real margin) {
+inline VertexTest testVertex(const Triple& vertex, const Plane& plane, const Plane (&sides)[3]) {
     VertexTest test;
     test.gap = distanceBeyond(plane, vertex);
     for (int c = 0; c < 3; ++c)
         test.beside[c] = distanceBeyond(sides[c], vertex);
     const Real beside = max(max(test.beside[0], test.beside[1]), test.beside[2]);
     test.clear = max(max(test.gap, -test.gap - Real(kDeepest)), beside);
-    test.over = test.gap < margin && test.gap > Real(-kDeepest) && beside <= Real(0.0);
     return test;
+}
+
+/// Whether a vertex meets the triangle that it was tested with, which goes `way` in the coming step if
+/// nothing holds it. It is enough that it is within the triangle's sides now or where it comes to the plane;
+/// at ridges it must be there: what slides level over a ridge comes to the plane of the flank behind it above
+/// that ridge, not on the flank. ridges: how far beyond its sides a vertex is taken to be now, 0 or, at
+/// ridges, very far.
+inline Mask meetsTriangle(const VertexTest& test, const Triple& way, const Plane& plane,
+                          const Plane (&sides)[3], const Real (&ridges)[3]) {
+    const Real approach = -dot(plane.normal, way);
+    const Real share = min(max(test.gap, Real(0.0)) / max(approach, Real(kLeastApproach)), Real(1.0));
+    const Triple until = select(approach > Real(0.0), share, Real(0.0)) * way;
+    Real beside = -Real(kDeepest);
+    for (int c = 0; c < 3; ++c)
+        beside = max(beside, min(test.beside[c] + ridges[c], test.beside[c] + dot(sides[c].normal, until)));
+    return beside <= Real(0.0) && test.gap > Real(-kDeepest);
 }
 
 /// An edge with the directions from it into its two faces, unit, in their planes.

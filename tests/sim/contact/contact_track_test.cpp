@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/verify/scenes.h"
+#include "sim/contact/formulas/scalar.h"
 
 using namespace trapwright;
 using base::Vec3;
@@ -68,13 +69,14 @@ class ContactTrackTest : public QObject {
             QVERIFY(std::abs(edge.into[0].x() + edge.into[1].x()) < 1e-12);
         }
         QCOMPARE(track.vertices.size(), 3U);
-        // No triangle reaches past the crest.
+        // No triangle reaches to the crest.
         for (std::size_t t = 0; t < track.triangles.size(); ++t) {
             for (int side = 0; side < 3; ++side) {
                 const Vec3 middle = 0.5 * (mesh.vertices[mesh.triangles[t][side]] +
                                            mesh.vertices[mesh.triangles[t][(side + 1) % 3]]);
                 const bool crest = middle.z() == 0.01;
-                const double expected = crest ? 0.0 : contact::kEdgeSlack;
+                const double expected = crest ? -contact::scalar::kBorder : contact::kEdgeSlack;
+                QCOMPARE(track.triangles[t].isRidge[side], crest);
                 QVERIFY(std::abs(slackOf(track.triangles[t], side, mesh, t) - expected) < 1e-15);
             }
         }

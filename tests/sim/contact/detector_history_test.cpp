@@ -70,7 +70,7 @@ class DetectorHistoryTest : public QObject {
             double moved = 0.0;
             for (int step = 0; step < 150; ++step) {
                 const double margin = step % 7 == 0 ? random.uniform(0.0, 1e-3) : 10e-6;
-                detector.findContacts(pose, moved, margin, contacts);
+                detector.findContacts(pose, {}, moved, margin, contacts);
                 const auto got = sorted(contacts);
                 const auto expected = sorted(scene.findAfresh(pose, margin));
                 QCOMPARE(got.size(), expected.size());

@@ -25,7 +25,7 @@ struct DetectorScene {
     [[nodiscard]] std::vector<contact::Contact> findAfresh(const base::Pose& pose, double margin) const {
         contact::Detector detector(contactTrack, contactBody);
         std::vector<contact::Contact> contacts;
-        detector.findContacts(pose, 0.0, margin, contacts);
+        detector.findContacts(pose, {}, 0.0, margin, contacts);
         return contacts;
     }
 };

@@ -355,6 +355,25 @@ class DetectorTest : public QObject {
 
     // Where part and track are a few micrometres apart the nearest contact is as far away as plain geometry
     // over all features says.
+    // The rear corners are just ahead of a crest that comes after them: as low as it is they slide over it, a
+    // little lower they meet its flank.
+    void whatSlidesOverACrestIsNotCaughtByItsFlank() {
+        constexpr double kTop = 20.0 * kMillimetre;
+        const DetectorScene scene(makeRidge(1.0 * kMillimetre, kTop), verify::makePaperCuboid());
+        const auto countPushes = [&](double lower) {
+            const base::Pose pose{
+                lyingAlong(), Vec3(0.1 + 6.0 * kMillimetre + 20e-6, 0.0, kTop + 2.0 * kMillimetre - lower)};
+            contact::Detector detector(scene.contactTrack, scene.contactBody);
+            std::vector<Contact> contacts;
+            detector.findContacts(pose, {Vec3(-40e-6, 0.0, 0.0), Vec3::Zero()}, 0.0, 50e-6, contacts);
+            return std::ranges::count_if(contacts,
+                                         [](const Contact& contact) { return contact.normal.x() > 0.5; });
+        };
+        for (const double lower : {0.0, 1e-9, 0.1e-6})
+            QCOMPARE(countPushes(lower), 0);
+        QVERIFY(countPushes(50e-6) >= 2);
+    }
+
     void theNearestContactIsTheDistance() {
         const DetectorScene scene(verify::makeRough(), verify::makePaperCuboid());
         base::Random random({2, 0, 0, 0, base::Purpose::test});

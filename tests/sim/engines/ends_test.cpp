@@ -87,7 +87,8 @@ class EndsTest : public QObject {
         base::Vec3 mean = base::Vec3::Zero();
         for (const trial::PartOutcome& part : run(makeLying(parameters, kTrials))) {
             QVERIFY(part.ending == trial::Ending::finished);
-            QVERIFY2(part.farthest.position.z() < 0.0,
+            // On the track they are at 2 mm; on the chute they hop.
+            QVERIFY2(part.farthest.position.z() < 1e-3,
                      qPrintable(QString::number(part.farthest.position.z())));
             mean += part.farthest.rotation * base::Vec3::UnitX();
         }
