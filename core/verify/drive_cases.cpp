@@ -51,16 +51,16 @@ struct Tooth {
 
 std::shared_ptr<const track::Track> makeTeeth(const Tooth& tooth) {
     constexpr double kFirst = 0.06;
-    constexpr double kLast = 0.16;
     constexpr double kPitch = 2.0 * kMillimetre;
+    constexpr int kTeeth = 50;
     std::vector<double> xs{0.0};
     std::vector<double> depths{0.0};
-    for (double x = kFirst; x < kLast; x += kPitch)
+    for (int i = 0; i < kTeeth; ++i)
         for (const auto& [place, depth] : tooth.profile) {
-            xs.push_back(x + place);
+            xs.push_back(kFirst + i * kPitch + place);
             depths.push_back(depth);
         }
-    xs.insert(xs.end(), {kLast, 0.4});
+    xs.insert(xs.end(), {kFirst + kTeeth * kPitch, 0.4});
     depths.insert(depths.end(), {0.0, 0.0});
     return makeSurface(xs, {-0.03, -0.01, 0.01, 0.03}, [&](double x, double) {
         const auto at = std::lower_bound(xs.begin(), xs.end(), x) - xs.begin();
@@ -221,8 +221,9 @@ std::vector<KnownMotion> makeStickSlipOnCrests() {
         const double period = drive.period();
         trial::TrialBatch scene = makeLying(drive, (kEnd + 0.5) * period);
         scene.track = makeTeeth(tooth);
-        motions.push_back({fmt::format("stick-slip on {}", tooth.name), std::move(scene), period,
-                           trial::calcStickSlipSpeed(drive, scene.contact.kineticFriction, scene.gravity),
+        const double expected =
+            trial::calcStickSlipSpeed(drive, scene.contact.kineticFriction, scene.gravity);
+        motions.push_back({fmt::format("stick-slip on {}", tooth.name), std::move(scene), period, expected,
                            [period](const trial::Trajectory& trajectory) {
                                return calcSpeed(trajectory, period, kSettled, kEnd);
                            }});

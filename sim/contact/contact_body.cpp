@@ -78,15 +78,18 @@ BodyPiece preparePiece(const geometry::ConvexPolytope& polytope) {
 
 /// Takes the ends off edges (scalar::kBorder) from which no other one goes on.
 void shortenEdges(std::vector<BodyPiece>& pieces, double touching) {
-    std::vector<BodyEdge> whole;
+    struct End {
+        Vec3 place, into;
+    };
+    std::vector<End> whole;
     for (const BodyPiece& piece : pieces)
-        whole.insert(whole.end(), piece.edges.begin(), piece.edges.end());
+        for (const BodyEdge& edge : piece.edges) {
+            whole.push_back({edge.from, edge.direction});
+            whole.push_back({edge.to, -edge.direction});
+        }
     const auto goesOn = [&](const Vec3& end, const Vec3& away) {
-        return std::ranges::any_of(whole, [&](const BodyEdge& other) {
-            const bool begins = (other.from - end).norm() <= touching;
-            const bool ends = (other.to - end).norm() <= touching;
-            return (begins && other.direction.dot(away) > scalar::kBend) ||
-                   (ends && -other.direction.dot(away) > scalar::kBend);
+        return std::ranges::any_of(whole, [&](const End& other) {
+            return (other.place - end).norm() <= touching && other.into.dot(away) > scalar::kBend;
         });
     };
     for (BodyPiece& piece : pieces)
