@@ -20,6 +20,10 @@ using base::Vec3;
 
 namespace {
 
+/// Below lift-off speeds are told from here to there. [periods]
+constexpr int kSettled = 25;
+constexpr int kEnd = 50;
+
 /// The paper's cuboid lying on the flat track (8 x 12 mm face down) under a drive.
 trial::TrialBatch makeLying(const trial::Vibration& drive, double duration,
                             const track::FeederShape& shape = {}) {
@@ -73,8 +77,6 @@ std::shared_ptr<const track::Track> makeTeeth(const Tooth& tooth) {
 std::pair<double, double> calcCreep(const trial::Vibration& drive, double friction, double lean,
                                     double gravity) {
     constexpr double kStep = 1e-6;  // [s]
-    constexpr int kSettled = 25;    // periods
-    constexpr int kEnd = 50;
     const double omega = drive.angularFrequency();
     const auto steps = std::lround(drive.period() / kStep);
     double along = 0.0;
@@ -183,8 +185,6 @@ double measureFlight(const trial::Engine& engine, double throwNumber, const base
 }  // namespace
 
 std::vector<KnownMotion> makeStickSlip() {
-    constexpr int kSettled = 25;
-    constexpr int kEnd = 50;
     std::vector<KnownMotion> motions;
     for (const double halfStroke : {0.25e-3, 0.35e-3, 0.45e-3}) {
         for (const double friction : {0.3, 0.5}) {
@@ -205,8 +205,6 @@ std::vector<KnownMotion> makeStickSlip() {
 }
 
 std::vector<KnownMotion> makeStickSlipOnCrests() {
-    constexpr int kSettled = 25;
-    constexpr int kEnd = 50;
     constexpr double kMm = kMillimetre;
     const Tooth teeth[] = {
         {"teeth that fall forward", {{0.0, 0.0}, {0.25 * kMm, 0.5 * kMm}}},
@@ -232,8 +230,6 @@ std::vector<KnownMotion> makeStickSlipOnCrests() {
 }
 
 std::vector<KnownMotion> makeCreep() {
-    constexpr int kSettled = 25;
-    constexpr int kEnd = 50;
     constexpr double kX = 0.1;
     std::vector<KnownMotion> motions;
     for (const double lean : {3.0 * base::kDegree, 8.0 * base::kDegree}) {
@@ -287,8 +283,6 @@ std::vector<KnownMotion> makeHopping() {
 }
 
 std::vector<KnownMotion> makeClimbing(track::FeederType type) {
-    constexpr int kSettled = 25;
-    constexpr int kEnd = 50;
     // As steep as drives of bowls are, so that what the slope takes from the angle leaves a speed to tell.
     const bool bowl = type == track::FeederType::bowl;
     const double angle = bowl ? 20.0 * base::kDegree : trial::Vibration().angle;

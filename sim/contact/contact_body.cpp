@@ -76,6 +76,9 @@ BodyPiece preparePiece(const geometry::ConvexPolytope& polytope) {
     return piece;
 }
 
+/// An edge goes on from another's end if it bends away by less than this. (cosine)
+constexpr double kBend = 0.2;
+
 /// Takes the ends off edges (scalar::kBorder) from which no other one goes on.
 void shortenEdges(std::vector<BodyPiece>& pieces, double touching) {
     struct End {
@@ -89,7 +92,7 @@ void shortenEdges(std::vector<BodyPiece>& pieces, double touching) {
         }
     const auto goesOn = [&](const Vec3& end, const Vec3& away) {
         return std::ranges::any_of(whole, [&](const End& other) {
-            return (other.place - end).norm() <= touching && other.into.dot(away) > scalar::kBend;
+            return (other.place - end).norm() <= touching && other.into.dot(away) > kBend;
         });
     };
     for (BodyPiece& piece : pieces)

@@ -151,7 +151,7 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
             triangle.radius = std::max(triangle.radius, (vertex - triangle.centre).norm());
             triangle.edgeNormal[c] = edgeNormalOf(mesh, static_cast<int>(t), c, normal);
             triangle.edgeOffset[c] = triangle.edgeNormal[c].dot(vertex) + kEdgeSlack;
-            triangle.isRidge[c] = false;
+            triangle.ridges[c] = 0.0;
         }
         track.triangles.push_back(triangle);
     }
@@ -198,8 +198,8 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
         const double taken = kEdgeSlack + calcRidgeInset(convexity);
         t0.edgeOffset[use.corner[0]] -= taken;
         t1.edgeOffset[use.corner[1]] -= taken;
-        t0.isRidge[use.corner[0]] = true;
-        t1.isRidge[use.corner[1]] = true;
+        t0.ridges[use.corner[0]] = kFar;
+        t1.ridges[use.corner[1]] = kFar;
         TrackEdge edge;
         edge.direction = directionOf(key);
         edge.into[0] = -out0;

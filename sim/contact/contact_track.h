@@ -14,7 +14,7 @@ struct TrackTriangle {
     base::Vec3 edgeNormal[3];  // in its plane, unit, pointing out of the triangle
     double edgeOffset[3];  // edgeNormal . p <= edgeOffset inside; slack at valleys and flat edges included,
                            // at ridges something taken off (scalar::kBorder)
-    bool isRidge[3];       // whether its sides are strictly convex edges
+    double ridges[3];      // kFar at sides that are strictly convex edges, else 0 (meetsTriangle) [m]
     base::Vec3 centre;     // of a ball around it [m]
     double radius;
 };
@@ -53,6 +53,9 @@ inline constexpr double kEdgeSlack = 20e-6;
 /// flanks or ridges is nearest to both beyond where they end, by as much as it is too deep, and would slip
 /// between them; and what comes to it fast has to be seen a step before. [m]
 inline constexpr double kCornerSlack = 0.1e-3;
+
+/// Farther than any vertex of a part is from a triangle that it is near to. [m]
+inline constexpr double kFar = 1e3;
 
 /// Prepares a closed, oriented mesh. Degenerate triangles are left out.
 ContactTrack prepareTrack(const geometry::TriangleMesh& mesh);

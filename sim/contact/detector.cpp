@@ -13,8 +13,6 @@ namespace {
 
 /// How far a part may travel before the list of near-by features is made anew. [m]
 constexpr double kSkin = 4e-3;
-/// Farther than any vertex is from what it is near to. [m]
-constexpr double kFar = 1e3;
 
 scalar::Triple toTriple(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
@@ -164,8 +162,6 @@ double Detector::testTriangle(const Query& query, const Candidate& candidate) co
     const scalar::Plane sides[3] = {toPart(triangle.edgeNormal[0], triangle.edgeOffset[0]),
                                     toPart(triangle.edgeNormal[1], triangle.edgeOffset[1]),
                                     toPart(triangle.edgeNormal[2], triangle.edgeOffset[2])};
-    const auto ridge = [&](int c) { return triangle.isRidge[c] ? kFar : 0.0; };
-    const double ridges[3] = {ridge(0), ridge(1), ridge(2)};
     double nearest = 1e300;
     for (int v = 0; v < static_cast<int>(piece.vertices.size()); ++v) {
         const BodyVertex& vertex = piece.vertices[v];
@@ -175,7 +171,7 @@ double Detector::testTriangle(const Query& query, const Candidate& candidate) co
         const scalar::Triple way = toTriple(query.shift + query.turn.cross(vertex.position));
         // The part must lie above the plane: otherwise the vertex passes by (along the border of the face
         // that the part lies on) or touches the other flank of a thin wall.
-        bool above = scalar::meetsTriangle(test, way, plane, sides, ridges);
+        bool above = scalar::meetsTriangle(test, way, plane, sides, triangle.ridges);
         for (int e = 0; e < vertex.edgeCount && above; ++e)
             above =
                 dot(plane.normal, toTriple(piece.vertexEdges[vertex.firstEdge + e])) >= -scalar::kConeSlack;

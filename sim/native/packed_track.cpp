@@ -28,11 +28,10 @@ PackedTriangle pack(const contact::TrackTriangle& triangle) {
         packed.offset[k] = static_cast<float>(offset);
     };
     setPlane(0, triangle.normal, 0.0);
-    constexpr float kFar = 1e3F;  // than any vertex of the part is
     for (int c = 0; c < 3; ++c) {
         setPlane(1 + c, triangle.edgeNormal[c],
                  triangle.edgeNormal[c].dot(triangle.corner) - triangle.edgeOffset[c]);
-        packed.ridges[c] = triangle.isRidge[c] ? kFar : 0.0F;
+        packed.ridges[c] = static_cast<float>(triangle.ridges[c]);
     }
     return packed;
 }

@@ -31,7 +31,7 @@ struct PackedTriangle {
     alignas(16) float ny[4];
     alignas(16) float nz[4];
     alignas(16) float offset[4];  // normal . (p - corner) + offset: how far p is beyond
-    float ridges[3];              // of sides that are ridges very much, else 0 (meetsTriangle) [m]
+    float ridges[3];              // contact::TrackTriangle
 };
 
 struct PackedEdge {

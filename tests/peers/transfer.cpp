@@ -311,9 +311,7 @@ std::string describeWays(const Transfer& transfer) {
         text += describeSceneWays(transfer, scene);
     return text +
            "Ways: stable pose and heading, in degrees. Alike: each trial as in the first engine. Differs: of "
-           "the first engine's shares; chance alone "
-           "stays "
-           "below the last column 95 times in 100.\n";
+           "the first engine's shares; chance alone stays below the last column 95 times in 100.\n";
 }
 
 base::Status writeTransferTrials(const Transfer& transfer, const std::filesystem::path& file) {

@@ -76,10 +76,11 @@ base::Status addEngine(Transfer& transfer, const Contender& contender, const bas
 std::string transferHeader(const Transfer& transfer);
 std::string describeTransfer(const Transfer& transfer, const TransferRow& row);
 
-/// As text, of a stretch: in which ways parts come to its end (study::findEndModes of the first engine's),
-/// how many of each engine do, and how far an engine is from the first one: half the sum of the differences
-/// of their shares, those that do not come to the end being one way more. Beside it what chance alone keeps
-/// below 95 times in 100, found by dealing both engines' trials out anew (permutation test).
+/// As text, of a stretch: in which ways parts come to its end (study::findEndModes of all engines together),
+/// how many of each engine do, how many trials end as in the first engine, and how far an engine is from it:
+/// half the sum of the differences of their shares, those that do not come to the end being one way more.
+/// Beside it what chance alone keeps below 95 times in 100, found by dealing both engines' trials out anew
+/// (permutation test).
 std::string describeWays(const Transfer& transfer);
 
 /// Writes each trial in each engine as CSV: its conditions, verdict, farthest x and time.

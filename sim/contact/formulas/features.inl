@@ -14,8 +14,6 @@ constexpr double kParallel = 0.026 * 0.026;
 /// does. Parts slide over ridges as low as these are, but for what is rounded, and the flank of each would
 /// push them on. [m]
 constexpr double kBorder = 5e-6;
-/// An edge of a part whose end another one goes on from, bent by less than this, acts up to there. (cosine)
-constexpr double kBend = 0.2;
 /// Less than this is no way. [m]
 constexpr double kLeastApproach = 1e-9;
 

@@ -76,7 +76,7 @@ class ContactTrackTest : public QObject {
                                            mesh.vertices[mesh.triangles[t][(side + 1) % 3]]);
                 const bool crest = middle.z() == 0.01;
                 const double expected = crest ? -contact::scalar::kBorder : contact::kEdgeSlack;
-                QCOMPARE(track.triangles[t].isRidge[side], crest);
+                QCOMPARE(track.triangles[t].ridges[side], crest ? contact::kFar : 0.0);
                 QVERIFY(std::abs(slackOf(track.triangles[t], side, mesh, t) - expected) < 1e-15);
             }
         }
