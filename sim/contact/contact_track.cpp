@@ -1,6 +1,7 @@
 #include "sim/contact/contact_track.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -105,8 +106,9 @@ class VertexFan {
 
 /// A ridge as seen from one of its ends.
 struct RidgeEnd {
-    Vec3 into;  // along it, unit
-    Vec3 outward;
+    Vec3 into;       // along it, unit
+    Vec3 outward;    // mean of its flanks' normals, unit
+    Vec3 normal[2];  // of its flanks, unit
 };
 
 /// What meets at a vertex of a mesh.
@@ -119,13 +121,26 @@ struct VertexSurroundings {
 
 /// How far a ridge is to act beyond its end there (kCornerSlack). [m]
 double calcCornerSlack(const VertexSurroundings& end, const RidgeEnd& ridge) {
-    constexpr double kAlike = 0.02;  // what bends by less is still straight
+    constexpr double kAlike = 0.02;   // what bends by less is still straight
+    constexpr double kAstray = 0.06;  // a border's flank bends by less from piece to piece of a bowl
     const Vec3 away = -ridge.into;
     const bool goesOn = std::ranges::any_of(end.ridges, [&](const RidgeEnd& other) {
         return (other.into - away).norm() < kAlike && (other.outward - ridge.outward).norm() < kAlike;
     });
-    if (goesOn || !end.fan.isInside((away - kAlike * ridge.outward).normalized())) return 0.0;
-    return std::min(kCornerSlack, end.shortest);
+    if (goesOn) return 0.0;
+    const double slack = std::min(kCornerSlack, end.shortest);
+    if (end.fan.isInside((away - kAlike * ridge.outward).normalized())) return slack;
+    // The border of a valley in a bowl: it goes on along nearly the same upright flank, and higher. The flank
+    // bends outward there, so that the straight way on is a little outside of it.
+    const bool rises = std::ranges::any_of(ridge.normal, [&](const Vec3& normal) {
+        const Vec3 inward = (away - kAstray * normal).normalized();
+        return std::abs(normal.z()) < kAlike && end.fan.isInside(inward) &&
+               std::ranges::any_of(end.ridges, [&](const RidgeEnd& other) {
+                   return std::abs(other.into.dot(normal)) < kAstray &&
+                          other.into.dot(ridge.outward) > kAstray;
+               });
+    });
+    return rises ? slack : 0.0;
 }
 
 }  // namespace
@@ -158,7 +173,8 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
 
     // Keep the strictly convex edges, and take the slack of their triangles away again.
     std::map<int, VertexSurroundings> surroundings;
-    std::vector<std::pair<int, int>> ends;  // of track.edges
+    std::vector<std::pair<int, int>> ends;        // of track.edges: mesh vertices
+    std::vector<std::array<RidgeEnd, 2>> ridges;  // likewise, as seen from there
     const EdgeMap edges = findEdges(mesh, usable);
     const auto directionOf = [&](const std::pair<int, int>& key) -> Vec3 {
         return (mesh.vertices[key.second] - mesh.vertices[key.first]).normalized();
@@ -213,14 +229,15 @@ ContactTrack prepareTrack(const geometry::TriangleMesh& mesh) {
         edge.radius = 0.0;
         track.edges.push_back(edge);
         ends.push_back(key);
-        surroundings[key.first].ridges.push_back({edge.direction, edge.outward});
-        surroundings[key.second].ridges.push_back({-edge.direction, edge.outward});
+        ridges.push_back({RidgeEnd{edge.direction, edge.outward, {t0.normal, t1.normal}},
+                          RidgeEnd{-edge.direction, edge.outward, {t0.normal, t1.normal}}});
+        surroundings[key.first].ridges.push_back(ridges.back()[0]);
+        surroundings[key.second].ridges.push_back(ridges.back()[1]);
     }
     for (std::size_t e = 0; e < ends.size(); ++e) {
         TrackEdge& edge = track.edges[e];
-        const Vec3& along = edge.direction;
-        edge.from -= calcCornerSlack(surroundings[ends[e].first], {along, edge.outward}) * along;
-        edge.to += calcCornerSlack(surroundings[ends[e].second], {-along, edge.outward}) * along;
+        edge.from -= calcCornerSlack(surroundings[ends[e].first], ridges[e][0]) * edge.direction;
+        edge.to += calcCornerSlack(surroundings[ends[e].second], ridges[e][1]) * edge.direction;
         edge.centre = 0.5 * (edge.from + edge.to);
         edge.radius = 0.5 * (edge.to - edge.from).norm();
     }

@@ -120,6 +120,32 @@ class ContactTrackTest : public QObject {
         QVERIFY(std::abs(length - 0.005 - contact::kCornerSlack) < 1e-12);
     }
 
+    void theBorderOfAValleyActsBeyondItsEnd_data() {
+        QTest::addColumn<double>("bend");  // of the upright side at the valley, outward [deg]
+        QTest::addColumn<bool>("acts");
+        QTest::newRow("straight") << 0.0 << true;
+        QTest::newRow("as from piece to piece of a bowl") << 2.5 << true;
+        QTest::newRow("a corner") << 10.0 << false;
+    }
+
+    // A bowl's border comes down into a valley and goes up again, bending: its way on is in the solid, but
+    // for what the side bends outward.
+    void theBorderOfAValleyActsBeyondItsEnd() {
+        QFETCH(double, bend);
+        QFETCH(bool, acts);
+        const auto solid = verify::makeSurface({-5e-3, 0.0, 5e-3}, {-0.01, 0.01}, [](double x, double /*y*/) {
+            return 10e-3 + 2.0 * std::abs(x);
+        });
+        geometry::TriangleMesh mesh = solid->solid;
+        for (Vec3& vertex : mesh.vertices)
+            if (vertex.y() < 0.0) vertex.y() += std::abs(vertex.x()) * std::tan(0.5 * bend * base::kDegree);
+        double length = 0.0;
+        for (const contact::TrackEdge& edge : contact::prepareTrack(mesh).edges)
+            if ((edge.centre - Vec3(-2.5e-3, -0.01, 15e-3)).norm() < 1e-3) length = 2.0 * edge.radius;
+        const double own = std::hypot(5e-3, 5e-3 * std::tan(0.5 * bend * base::kDegree), 10e-3);
+        QVERIFY(std::abs(length - own - (acts ? contact::kCornerSlack : 0.0)) < 1e-12);
+    }
+
     void aValleyHasSlackInstead() {
         const auto mesh = makeSheet({0.01, 0.0, 0.01});
         const contact::ContactTrack track = contact::prepareTrack(mesh);
