@@ -79,6 +79,22 @@ bool endsInGroove(const track::Track& track) {
     });
 }
 
+/// Whether parts lie beside a wall at the track's end, as behind a chain of ledges (core/traps/ledge.h); the
+/// wall's height then, else 0. [m]
+double wallAtEnd(const track::Track& track) {
+    constexpr double kRounding = 1e-6;  // [m]
+    const auto& points = track.sections[static_cast<std::size_t>(track.lastTrapSection)].points;
+    const auto foot = points.end() - 3;
+    const double wall = (foot + 1)->y() - foot->y();
+    const bool isUpright =
+        (foot + 1)->x() - foot->x() < wall && std::abs((foot + 2)->y() - (foot + 1)->y()) < kRounding;
+    const bool leans = std::all_of(points.begin(), foot, [&](const base::Vec2& point) {
+        const double height = std::tan(kInclinationOfLedges) * (foot->x() - point.x());
+        return std::abs(point.y() - foot->y() - height) < kRounding;
+    });
+    return isUpright && leans ? std::round(1e9 * wall) / 1e9 : 0.0;  // without a difference's rounding
+}
+
 }  // namespace
 
 std::span<const std::string_view> presetNames() {
@@ -209,11 +225,13 @@ Settings ledgeMode(Settings settings, const part::Part& part) {
 }
 
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track) {
-    // Along a wall what lies one way passes; along the spiral's, or along one that begins where a groove
-    // ends.
+    // Along a wall what lies one way passes; along the spiral's, that of ledges that are there, or one that
+    // begins where a groove ends.
     const bool isSpiral = track::spiralOf(track).width > 0.0;
-    const bool isGroove = !isSpiral && endsInGroove(track);
-    settings.track.traps = isSpiral ? "4 x ledge" : isGroove ? "6 x ledge" : "notched";
+    const double wall = isSpiral ? 0.0 : wallAtEnd(track);
+    const bool isLedge = wall > 0.0;
+    const bool isGroove = !isSpiral && !isLedge && endsInGroove(track);
+    settings.track.traps = isSpiral || isLedge ? "4 x ledge" : isGroove ? "6 x ledge" : "notched";
     auto behind = placeBehind(track, settings.track);
     if (!behind) return behind.error();
     settings.track = *std::move(behind);
@@ -224,13 +242,13 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     evolution.tradeOff.clear();
     evolution.cornerShare = 0.0;
     evolution.cornersFrom = 0;
-    if (isSpiral || isGroove) {
+    if (isSpiral || isLedge || isGroove) {
         planLedges(evolution);
         waitAsLongAsSimulated(settings);
-        evolution.plannedTraps = isSpiral ? 300 : 1500;
+        evolution.plannedTraps = isGroove ? 1500 : isLedge ? 1000 : 300;
         if (isSpiral) return settings;
         evolution.objectives = "F_C, purity, success";  // most parts come the right way
-        settings.track.spiral = {0.0, wallOf(track.width), kInclinationOfLedges};
+        settings.track.spiral = {0.0, isLedge ? wall : wallOf(track.width), kInclinationOfLedges};
         return settings;
     }
     evolution.firstGeneration = search::ga::FirstGeneration::graded;
@@ -239,6 +257,7 @@ base::Result<Settings> rejectingMode(Settings settings, const track::Track& trac
     evolution.populationSize = 100;
     evolution.trialsPerEvaluation = 300;
     evolution.racingTrials = 30;
+    evolution.racingShare = EvolutionSettings{}.racingShare;  // not that of exchanges
     evolution.tournamentSize = std::min(evolution.tournamentSize, evolution.populationSize);
     evolution.generations = 30;
     return settings;

@@ -41,9 +41,9 @@ Settings sortingMode(Settings settings, const part::Part& part);
 Settings ledgeMode(Settings settings, const part::Part& part);
 
 /// Settings that learn traps behind a track that is there, which throw out what still lies wrong, so that it
-/// comes again: ledges behind a track with a spiral or one that ends in a groove, as gaps do, else a notched
-/// track, judged by how few of the parts that arrive are wrong, and how many arrive. Part, drive, contact,
-/// engine and seed stay. An error if other traps cannot follow that track (placeBehind).
+/// comes again: ledges behind a track with a spiral, one that ends in a groove, as gaps do, or with a ledge,
+/// else a notched track, judged by how few of the parts that arrive are wrong, and how many arrive. Part,
+/// drive, contact, engine and seed stay. An error if other traps cannot follow that track (placeBehind).
 base::Result<Settings> rejectingMode(Settings settings, const track::Track& track);
 
 /// What the engines need of a pair of materials.

@@ -188,9 +188,11 @@ class CommandsTest : public QObject {
                  "track.traps=groove, groove, gap", "--set", "evolution.firstGeneration=planned"});
         QVERIFY(gaps.code != 0);
         QVERIFY2(gaps.errors.contains("only ledges are planned"), gaps.errors.constData());
-        // Behind a spiral and behind gaps they are what is proposed.
-        const std::pair<const char*, const char*> proposed[] = {{"bracket_ledges_track.json", "4 x ledge"},
-                                                                {"bracket_track.json", "6 x ledge"}};
+        // Behind a spiral, gaps and other ledges they are what is proposed.
+        const std::pair<const char*, const char*> proposed[] = {
+            {"bracket_ledges_track.json", "4 x ledge"},
+            {"bracket_track.json", "6 x ledge"},
+            {"bracket_gaps_ledges_box_track.json", "4 x ledge"}};
         for (const auto& [file, traps] : proposed) {
             const QByteArray path = QByteArray(TRAPWRIGHT_SOURCE_DIR) + "/resources/tracks/" + file;
             const QByteArray study = QByteArray("behind-") + file + ".trap";

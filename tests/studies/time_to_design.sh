@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How long learning takes until the first winner is above 99 % in 1000 fresh trials, on several seeds. Prints one line for
-# each seed: the generation, wall seconds until it was saved, processor seconds (of the run, by the share of the wall
-# time until then), the winner's success and its bounds; then the medians.
+# each seed: the generation, wall seconds until it was saved with what was planned before it, processor seconds (of the
+# run, by the share of the wall time until then), the winner's success and its bounds; then the medians.
 set -euo pipefail
 
 usage() {
@@ -71,8 +71,9 @@ for seed in ${SEEDS:-1 2 3 4 5}; do
         echo "$processor" >> "$out/processor"
         break
     done < <(awk '$1 == "cpu" { cpu = $2 }
-        /^ *[0-9]+ / && $6 ~ /\// { split($6, f, "/"); sum += $NF; if (f[1] == f[2]) { g[++n] = $1; s[n] = sum } total = sum }
-        END { for (i = 1; i <= n; i++) print g[i], s[i], total, cpu }' "$log")
+        /^Done:/ { for (i = 1; i < NF; i++) if ($i == "in") total = $(i + 1) }
+        /^ *[0-9]+ / { sum += $NF; if (split($6, f, "/") == 2 && f[1] == f[2]) { g[++n] = $1; s[n] = sum } }
+        END { for (i = 1; i <= n; i++) print g[i], s[i] + total - sum, total, cpu }' "$log")
     # A seed that found none took longer than any that did.
     if [[ $found != yes ]]; then
         printf '%4d %10s\n' "$seed" none
