@@ -55,6 +55,27 @@ double roundToBits(double value, int bits) {
     return std::round(value * largest) / largest;
 }
 
+double drawNumber(const Dimension& dimension, base::Random& random) {
+    constexpr double kLevel = 0.25;
+    const bool isLevel = dimension.isRelief && random.uniform() < kLevel;
+    return roundToBits(isLevel ? 0.5 : random.uniform(), dimension.bits);
+}
+
+void mutateNumbers(std::span<double> numbers, std::span<const Dimension> dimensions, base::Random& random) {
+    constexpr double kSmallest = 0.01;
+    constexpr double kLargest = 0.25;
+    constexpr double kRedrawn = 0.15;
+    const std::uint32_t changes = 1 + random.below(3);
+    const double step = std::exp(random.uniform(std::log(kSmallest), std::log(kLargest)));
+    for (std::uint32_t change = 0; change < changes; ++change) {
+        const std::size_t i = random.below(static_cast<std::uint32_t>(numbers.size()));
+        numbers[i] =
+            random.uniform() < kRedrawn
+                ? drawNumber(dimensions[i], random)
+                : roundToBits(std::clamp(numbers[i] + step * random.normal(), 0.0, 1.0), dimensions[i].bits);
+    }
+}
+
 std::string packDesign(const Design& design) {
     base::ByteWriter writer;
     const int bits = findBits(design);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,13 @@ struct DesignSpace {
 
 /// The nearest number that a dimension of so many bits can have; the value itself for 0 bits.
 double roundToBits(double value, int bits);
+
+/// A number at random; of relief one in four is level.
+double drawNumber(const Dimension& dimension, base::Random& random);
+
+/// Changes one to three numbers, of these dimensions: by 1 to 25 % of their range (standard deviation), one
+/// in seven drawn anew.
+void mutateNumbers(std::span<double> numbers, std::span<const Dimension> dimensions, base::Random& random);
 
 /// Bytes that give the design back to the last bit, in any space: its numbers with the fewest bits that all
 /// of them can be told with, up to 24, or as doubles. A count (32 bits), the bits of a number (8, 0: a

@@ -17,12 +17,8 @@ constexpr std::size_t kMostKnown = 64;
 constexpr double kMutated = 0.5;
 constexpr double kAdopted = 0.25;
 constexpr double kMoved = 0.15;
-constexpr double kTwice = 0.2;      // designs in which a second line is exchanged
-constexpr double kSmallest = 0.01;  // standard deviation of what is added to a number that mutates
-constexpr double kLargest = 0.25;
-constexpr double kRedrawn = 0.15;  // of mutations: a number at random
-constexpr double kLevel = 0.25;    // of numbers at random in a dimension of relief
-constexpr int kTries = 20;         // to find something else
+constexpr double kTwice = 0.2;  // designs in which a second line is exchanged
+constexpr int kTries = 20;      // to find something else
 
 /// How much nearer to level than at random: from nearly level to rough (ga::gradePopulation).
 double drawRelief(base::Random& random) {
@@ -71,12 +67,6 @@ bool ExchangeSearch::areAlike(const Line& a, const Line& b) const {
     return true;
 }
 
-double ExchangeSearch::drawNumber(std::size_t dimension, base::Random& random) const {
-    const Dimension& own = space_.dimensions[dimension];
-    const bool isLevel = own.isRelief && random.uniform() < kLevel;
-    return roundToBits(isLevel ? 0.5 : random.uniform(), own.bits);
-}
-
 Design ExchangeSearch::drawDesign(base::Random& random) const {
     const double relief = isGraded_ ? drawRelief(random) : 1.0;
     Design design;
@@ -88,24 +78,17 @@ Design ExchangeSearch::drawDesign(base::Random& random) const {
     return design;
 }
 
-/// One to three of its numbers.
 void ExchangeSearch::mutate(Design& design, const Line& line, base::Random& random) const {
-    const std::uint32_t changes = 1 + random.below(3);
-    const double step = std::exp(random.uniform(std::log(kSmallest), std::log(kLargest)));
-    for (std::uint32_t change = 0; change < changes; ++change) {
-        const std::size_t i = line.first + random.below(static_cast<std::uint32_t>(line.count));
-        const double moved = std::clamp(design[i] + step * random.normal(), 0.0, 1.0);
-        design[i] = random.uniform() < kRedrawn ? drawNumber(i, random)
-                                                : roundToBits(moved, space_.dimensions[i].bits);
-    }
+    mutateNumbers(std::span(design).subspan(line.first, line.count),
+                  std::span(space_.dimensions).subspan(line.first, line.count), random);
 }
 
 /// Half of them nearer to level, as in a first generation.
 void ExchangeSearch::redraw(Design& design, const Line& line, base::Random& random) const {
     const double relief = random.boolean() ? 1.0 : drawRelief(random);
     for (std::size_t i = line.first; i < line.first + line.count; ++i) {
-        const double drawn = drawNumber(i, random);
         const Dimension& own = space_.dimensions[i];
+        const double drawn = drawNumber(own, random);
         design[i] = own.isRelief ? roundToBits(0.5 + relief * (drawn - 0.5), own.bits) : drawn;
     }
 }

@@ -45,7 +45,6 @@ class ExchangeSearch : public Search {
     };
 
     [[nodiscard]] bool areAlike(const Line& a, const Line& b) const;
-    [[nodiscard]] double drawNumber(std::size_t dimension, base::Random& random) const;
     [[nodiscard]] Design drawDesign(base::Random& random) const;
     void mutate(Design& design, const Line& line, base::Random& random) const;
     void redraw(Design& design, const Line& line, base::Random& random) const;

@@ -46,8 +46,6 @@ constexpr int kTrialsOfFollowedForPurity = 900;
 constexpr std::size_t kMostTraps = 900;    // that are kept
 constexpr std::size_t kLatestTraps = 500;  // and of these, besides those that are used, when there are more
 constexpr double kMutants = 0.65;          // of new traps, that are like one in use
-constexpr double kLevel = 0.25;            // of angles, cuts and steps of new traps: none, or the middle
-constexpr double kRedrawn = 0.15;          // of a mutant's changes
 constexpr double kMostStuck = 0.05;        // of a trap that is of use
 constexpr std::size_t kPromising = 5;      // of a round, by each of two measures
 
@@ -293,11 +291,6 @@ class ChainPlanner {
         planned_({0, population, population, trials, doneBefore_, std::max<std::int64_t>(1, later)});
     }
 
-    static double drawNumber(const search::Dimension& dimension, base::Random& random) {
-        const bool isLevel = dimension.isRelief && random.uniform() < kLevel;
-        return search::roundToBits(isLevel ? 0.5 : random.uniform(), dimension.bits);
-    }
-
     [[nodiscard]] KnownTrap makeTrap(std::size_t kind, std::vector<double> numbers) const {
         WayMatrix counts(rows(), WayShares(search_.problem().columns(), 0.0));
         return {kind, std::move(numbers), std::move(counts), {}, 0.0};
@@ -306,23 +299,13 @@ class ChainPlanner {
     KnownTrap drawTrap(std::size_t kind, base::Random& random) const {
         KnownTrap trap = makeTrap(kind, {});
         for (const search::Dimension& dimension : dimensions_[kind])
-            trap.numbers.push_back(drawNumber(dimension, random));
+            trap.numbers.push_back(search::drawNumber(dimension, random));
         return trap;
     }
 
     KnownTrap mutate(const KnownTrap& parent, base::Random& random) const {
         KnownTrap trap = makeTrap(parent.kind, parent.numbers);
-        const std::vector<search::Dimension>& dimensions = dimensions_[parent.kind];
-        const std::uint32_t changes = 1 + random.below(3);
-        const double step = std::exp(random.uniform(std::log(0.01), std::log(0.25)));
-        for (std::uint32_t change = 0; change < changes; ++change) {
-            const std::size_t i = random.below(static_cast<std::uint32_t>(dimensions.size()));
-            double& number = trap.numbers[i];
-            number = random.uniform() < kRedrawn
-                         ? drawNumber(dimensions[i], random)
-                         : search::roundToBits(std::clamp(number + step * random.normal(), 0.0, 1.0),
-                                               dimensions[i].bits);
-        }
+        search::mutateNumbers(trap.numbers, dimensions_[parent.kind], random);
         return trap;
     }
 

@@ -54,6 +54,51 @@ class DesignSpaceTest : public QObject {
         QVERIFY(odd && std::signbit((*odd)[0]) && (*odd)[1] == 2.0 && std::isnan((*odd)[2]));
     }
 
+    // A quarter of numbers of relief are level, besides one in 2^7 that would be; no others.
+    void oneInFourIsDrawnLevel() {
+        constexpr int kDraws = 8000;
+        for (const bool isRelief : {false, true}) {
+            search::Dimension dimension;
+            dimension.bits = 7;
+            dimension.isRelief = isRelief;
+            base::Random random({.seed = 8});
+            int level = 0;
+            for (int i = 0; i < kDraws; ++i) {
+                const double drawn = search::drawNumber(dimension, random);
+                QVERIFY(drawn >= 0.0 && drawn <= 1.0 && search::roundToBits(drawn, 7) == drawn);
+                level += drawn == search::roundToBits(0.5, 7) ? 1 : 0;
+            }
+            const double expected = kDraws * (isRelief ? 0.25 + 0.75 / 128.0 : 1.0 / 128.0);
+            QVERIFY(std::abs(level - expected) < 5.0 * std::sqrt(expected));
+        }
+    }
+
+    // One to three numbers change, most by little, and all stay what they can be.
+    void aMutantIsLikeItsParent() {
+        search::Dimension dimension;
+        dimension.bits = 10;
+        const std::vector<search::Dimension> dimensions(9, dimension);
+        base::Random random({.seed = 9});
+        int changes = 0;
+        int small = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Design parent = designOf(10, dimensions.size(), random);
+            Design mutant = parent;
+            search::mutateNumbers(mutant, dimensions, random);
+            int changed = 0;
+            for (std::size_t k = 0; k < mutant.size(); ++k) {
+                QVERIFY(mutant[k] >= 0.0 && mutant[k] <= 1.0);
+                QCOMPARE(search::roundToBits(mutant[k], 10), mutant[k]);
+                if (mutant[k] == parent[k]) continue;
+                ++changed;
+                small += std::abs(mutant[k] - parent[k]) < 0.25 ? 1 : 0;
+            }
+            QVERIFY(changed <= 3);
+            changes += changed;
+        }
+        QVERIFY(changes > 2000 && small > 0.75 * changes);
+    }
+
     void otherBytesAreRefused() {
         const std::string bytes = search::packDesign({0.0, 1.0, 1.0});
         QVERIFY(!search::unpackDesign(""));
