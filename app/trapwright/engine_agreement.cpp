@@ -53,13 +53,20 @@ std::string formatTable(const Pair& pair, const std::vector<verify::Agreement>& 
                             formatShare(row.reference.oriented, trials), "",
                             fmt::format("{:.3f}", row.reference.medianTime), "", "", "", "");
     }
+    for (const verify::Agreement& row : table) {
+        if (!row.freshP) continue;
+        text += fmt::format("{} on {}: significant on these starts; on {} fresh ones p = {:.2g} (Holm)\n",
+                            row.part, row.track, trials, *row.freshP);
+    }
     return text +
            "p: McNemar's test of the rates, Kolmogorov and Smirnov's of the transit times of those that "
            "finished.\n"
            "alone: each rate lies in the other's bounds and the times have p > 0.01, which by chance some "
            "rows "
            "of engines that are alike miss.\n"
-           "Verdict: none of the row's p is significant at 5 % among all of the table (Holm).\n";
+           "Verdict: none of the row's p is significant at 5 % among all of the table (Holm), or not again "
+           "on "
+           "fresh starts.\n";
 }
 
 nlohmann::ordered_json toJson(const verify::EngineTally& tally, int trials) {
@@ -69,6 +76,7 @@ nlohmann::ordered_json toJson(const verify::EngineTally& tally, int trials) {
 }
 
 nlohmann::ordered_json toJson(const Pair& pair, const verify::Agreement& row) {
+    const auto fresh = row.freshP ? nlohmann::ordered_json(*row.freshP) : nlohmann::ordered_json();
     return {{"part", row.part},
             {"track", row.track},
             {pair.engine.name, toJson(row.engine, row.trials)},
@@ -79,6 +87,7 @@ nlohmann::ordered_json toJson(const Pair& pair, const verify::Agreement& row) {
             {"transit_ks", row.times.statistic},
             {"transit_p", row.times.p},
             {"family_p", row.familyP},
+            {"fresh_p", fresh},
             {"alike_alone", row.alikeAlone},
             {"passed", row.passed()}};
 }
