@@ -36,6 +36,7 @@ double distanceToSegment(const Vec3& point, const Vec3& from, const Vec3& direct
 struct Separation {
     double largest = -1e300;  // a lower bound of the distance of the segment to the piece [m]
     double second = -1e300;   // of the other faces [m]
+    int secondFace = -1;
 };
 
 /// By min(face distance of a, face distance of b). Cuts count only where it is beyond them. Stops at the
@@ -54,10 +55,11 @@ Separation findSeparation(const BodyPiece& piece, const Vec3& a, const Vec3& b, 
         const double d = distance(f);
         if (d > best.largest) {
             best.second = std::exchange(best.largest, d);
-            face = f;
+            best.secondFace = std::exchange(face, f);
             if (best.largest >= enough) return best;
-        } else {
-            best.second = std::max(best.second, d);
+        } else if (d > best.second) {
+            best.second = d;
+            best.secondFace = f;
         }
     }
     return best;
@@ -225,15 +227,19 @@ double Detector::testVertex(const Query& query, Candidate& candidate) const {
     const double gap = separation.largest;
     if (gap >= query.margin || gap <= -kDeepest) return std::max(gap, -gap - kDeepest);
 
-    const Vec3 normal = query.toTrack * -piece.faces[candidate.separatingFace].normal;
+    if (separation.second > -scalar::kBorder) return gap;
     // The track must lie below the face: a part that slides level over a border is not stopped by it.
-    bool inside = separation.second <= -scalar::kBorder;
-    for (int e = 0; e < vertex.edgeCount && inside; ++e)
-        inside = normal.dot(track_->vertexEdges[vertex.firstEdge + e]) <= scalar::kConeSlack;
-    if (inside)
+    const auto carries = [&](int face, double depth) {
+        const Vec3 normal = query.toTrack * -piece.faces[face].normal;
+        for (int e = 0; e < vertex.edgeCount; ++e)
+            if (normal.dot(track_->vertexEdges[vertex.firstEdge + e]) > scalar::kConeSlack) return false;
         query.contacts->push_back(
-            {vertex.position, normal, gap,
-             nameFeature(2, candidate.piece, candidate.separatingFace, candidate.feature)});
+            {vertex.position, normal, depth, nameFeature(2, candidate.piece, face, candidate.feature)});
+        return true;
+    };
+    // Near to a border of the face that it lies below a vertex is less deep from beside.
+    if (!carries(candidate.separatingFace, gap) && gap <= 0.0 && separation.second > -kDeepest)
+        carries(separation.secondFace, separation.second);
     return gap;
 }
 

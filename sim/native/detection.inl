@@ -316,17 +316,27 @@ inline void lookAtEdges(TrialLanes& group, const PlacedLanes& placed, PairTable&
         [](int /*row*/, int /*lane*/, const float* /*values*/) { return true; });
 }
 
-/// The face of its piece that a point of each lane is farthest beyond, and how far.
-struct FarthestFace {
+/// A face of its piece, and how far a point of each lane is beyond it.
+struct FaceDistance {
     Real gap;
-    Real second;  // of the other faces
     Triple normal;
     Real face;
 };
 
-inline FarthestFace findFarthestFace(const PackedBody& body, const std::uint32_t* trackFeature,
-                                     std::uint32_t bits, const Triple& point) {
-    FarthestFace farthest = {-kUntouchable, -kUntouchable, {0.0, 0.0, 0.0}, 0.0};
+inline FaceDistance select(const Mask& mask, const FaceDistance& yes, const FaceDistance& no) {
+    return {select(mask, yes.gap, no.gap), select(mask, yes.normal, no.normal),
+            select(mask, yes.face, no.face)};
+}
+
+/// The two that it is farthest beyond.
+struct FarthestFaces {
+    FaceDistance first, second;
+};
+
+inline FarthestFaces findFarthestFaces(const PackedBody& body, const std::uint32_t* trackFeature,
+                                       std::uint32_t bits, const Triple& point) {
+    const FaceDistance none = {-kUntouchable, {0.0, 0.0, 0.0}, 0.0};
+    FarthestFaces farthest = {none, none};
     while (bits != 0) {
         // Lanes with the same piece together.
         const std::uint32_t p = pieceOf(trackFeature[hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)]);
@@ -342,13 +352,12 @@ inline FarthestFace findFarthestFace(const PackedBody& body, const std::uint32_t
             const Plane plane = {
                 {faces.row(kFaceNormalX)[f], faces.row(kFaceNormalY)[f], faces.row(kFaceNormalZ)[f]},
                 faces.row(kPlaneOffset)[f]};
-            const Real gap = distanceBeyond(plane, point);
-            const Mask counts = asked && gap > Real(faces.row(kCountsFrom)[f]);
-            const Mask farther = counts && gap > farthest.gap;
-            farthest.second = select(counts, max(farthest.second, min(gap, farthest.gap)), farthest.second);
-            farthest.gap = select(farther, gap, farthest.gap);
-            farthest.normal = select(farther, plane.normal, farthest.normal);
-            farthest.face = select(farther, Real(f), farthest.face);
+            const FaceDistance own = {distanceBeyond(plane, point), plane.normal, Real(f)};
+            const Mask counts = asked && own.gap > Real(faces.row(kCountsFrom)[f]);
+            const Mask farther = counts && own.gap > farthest.first.gap;
+            farthest.second = select(counts && own.gap > farthest.second.gap, own, farthest.second);
+            farthest.second = select(farther, farthest.first, farthest.second);
+            farthest.first = select(farther, own, farthest.first);
         }
     }
     return farthest;
@@ -368,33 +377,49 @@ inline void lookAtFaces(TrialLanes& group, const PlacedLanes& placed, PairTable&
         const Mask near = distance < placed.margin;
         if (!any(near)) continue;
 
-        const FarthestFace farthest =
-            findFarthestFace(*group.model().body, pairs.trackFeature(row) + placed.slot, bitsOf(near), point);
-        const Mask touching = near && farthest.gap < placed.margin && farthest.gap > Real(-kDeepest) &&
-                              farthest.second <= Real(-kBorder);
-        // Which face it is belongs to the contact's name.
-        store(farthest.face, pairs.faces(row) + placed.slot);
-        stage(group, placed, row,
-              {touching, arm, Real(-1.0) * (placed.axes * farthest.normal), farthest.gap});
+        const FarthestFaces farthest = findFarthestFaces(
+            *group.model().body, pairs.trackFeature(row) + placed.slot, bitsOf(near), point);
+        const FaceDistance& first = farthest.first;
+        const FaceDistance& second = farthest.second;
+        const Mask within = near && second.gap <= Real(-kBorder);
+        // Which faces they are belongs to the contacts' names.
+        store(first.face, pairs.faces(row, kFaceFound) + placed.slot);
+        store(second.face, pairs.faces(row, kOtherFaceFound) + placed.slot);
+        const auto put = [&](int coded, const Mask& touching, const FaceDistance& face) {
+            stage(group, placed, coded, {touching, arm, Real(-1.0) * (placed.axes * face.normal), face.gap});
+        };
+        put(row, within && first.gap < placed.margin && first.gap > Real(-kDeepest), first);
+        // Near to a border of the face that it lies below a vertex is less deep from beside.
+        const Mask beside = within && first.gap <= Real(0.0) && second.gap > Real(-kDeepest);
+        if (any(beside)) put(~row, beside, second);
     }
     looked.due = min(looked.due, findNextDue(placed, pairs));
+    const auto rowOf = [](int coded) { return coded < 0 ? ~coded : coded; };
     looked.carries |= addStaged(
         group, placed,
-        [&](int row, int i) {
+        [&](int coded, int i) {
+            const int row = rowOf(coded);
+            const float* faces = pairs.faces(row, coded < 0 ? kOtherFaceFound : kFaceFound);
             return nameContact(pairs.trackFeature(row)[placed.slot + i],
-                               static_cast<std::uint32_t>(pairs.faces(row)[placed.slot + i]));
+                               static_cast<std::uint32_t>(faces[placed.slot + i]));
         },
-        [&](int row, int i, const float* values) {
+        [&](int coded, int i, const float* values) {
             // The track must lie below the face: a part that slides level over a border is not stopped by it.
-            const float normal[3] = {values[kNormalX * kWidestVector], values[kNormalY * kWidestVector],
-                                     values[kNormalZ * kWidestVector]};
             const PackedTrack& track = *group.track[placed.lane + i];
-            const PackedVertex& vertex = track.vertices[indexOf(pairs.trackFeature(row)[placed.slot + i])];
-            bool below = true;
-            for (int e = vertex.firstEdge; e < vertex.firstEdge + vertex.edgeCount; ++e)
-                below &= dotThree(normal, track.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) <=
-                         static_cast<float>(kConeSlack);
-            return below;
+            const std::uint32_t feature = pairs.trackFeature(rowOf(coded))[placed.slot + i];
+            const PackedVertex& vertex = track.vertices[indexOf(feature)];
+            const auto isBelow = [&](const float* of) {
+                const float normal[3] = {of[kNormalX * kWidestVector], of[kNormalY * kWidestVector],
+                                         of[kNormalZ * kWidestVector]};
+                bool below = true;
+                for (int e = vertex.firstEdge; e < vertex.firstEdge + vertex.edgeCount; ++e)
+                    below &=
+                        dotThree(normal, track.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) <=
+                        static_cast<float>(kConeSlack);
+                return below;
+            };
+            // The second face only where the first, which was put aside just before it, does not carry.
+            return isBelow(values) && (coded >= 0 || !isBelow(values - StagedContacts::kBlock));
         });
 }
 

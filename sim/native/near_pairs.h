@@ -33,7 +33,7 @@ enum EdgePairField : int {
 enum FacePairField : int {
     kPointX, kPointY, kPointZ,                                   // of the track [m]
     kFaceX, kFaceY, kFaceZ, kFaceOffset,                         // the face that it was farthest beyond, part frame
-    kFaceFound,                                                  // which face was touched last
+    kFaceFound, kOtherFaceFound,                                 // which face was touched last, or would be next
     kFacePairFields
 };
 // clang-format on
@@ -76,8 +76,8 @@ class PairTable {
     [[nodiscard]] const float* due(int row) const {
         return due_.data() + static_cast<std::ptrdiff_t>(row) * kWidestVector;
     }
-    /// Of faces: kFaceFound, to be written.
-    [[nodiscard]] float* faces(int row) { return &at(row, kFaceFound, 0); }
+    /// Of faces: kFaceFound or kOtherFaceFound, to be written.
+    [[nodiscard]] float* faces(int row, FacePairField field) { return &at(row, field, 0); }
     [[nodiscard]] const std::uint32_t* trackFeature(int row) const {
         return trackFeatures_.data() + static_cast<std::ptrdiff_t>(row) * kWidestVector;
     }

@@ -116,7 +116,9 @@ enum PieceRow : int { kPieceX, kPieceY, kPieceZ, kPieceNear, kPieceRows };
 
 /// Contacts of a vector of lanes on their way into the lanes' lists.
 struct StagedContacts {
-    std::vector<int> rows;                // of the pairs, one after the other
+    static constexpr int kBlock = (kGap + 1) * kWidestVector;  // values of a row
+
+    std::vector<int> rows;                // of the pairs, one after the other, or what else tells them
     std::vector<std::uint32_t> overlaps;  // bits of the lanes in which they overlap at the step's end
     AlignedVector<float> values;          // ContactField of each row, of kWidestVector lanes
     std::vector<std::int32_t> codes;      // place among `rows` times kWidestVector, plus lane: the contacts
@@ -124,9 +126,9 @@ struct StagedContacts {
 
     /// Room for the values of one more.
     [[nodiscard]] float* valuesOf(int place) {
-        const auto needed = static_cast<std::size_t>(place + 1) * (kGap + 1) * kWidestVector;
+        const auto needed = static_cast<std::size_t>(place + 1) * kBlock;
         if (values.size() < needed) values.resize(2 * needed);
-        return values.data() + static_cast<std::ptrdiff_t>(place) * (kGap + 1) * kWidestVector;
+        return values.data() + static_cast<std::ptrdiff_t>(place) * kBlock;
     }
     /// Where the next ones go, a whole vector of them.
     [[nodiscard]] std::int32_t* reserveCodes() {

@@ -166,9 +166,9 @@ QWidget* TrackPage::makeHead() {
     auto* behind = new QCheckBox(tr("Add a rejecting trap"), locked_);
     behind->setObjectName("track.forkBehind");
     behind->setToolTip(tr(
-        "The chosen track stays as it is, and a notched track, or ledges where it has a spiral or ends in a "
-        "groove, is learned behind it that throws out what still lies wrong, so that it comes again: fewer "
-        "wrong ones, at the price of parts a minute"));
+        "The chosen track stays as it is, and a notched track, or ledges where it has a spiral, ends in a "
+        "groove or on a ledge, is learned behind it that throws out what still lies wrong, so that it comes "
+        "again: fewer wrong ones, at the price of parts a minute"));
     // One or the other, or neither.
     connect(withTracks, &QCheckBox::toggled, behind, [behind](bool on) {
         if (on) behind->setChecked(false);

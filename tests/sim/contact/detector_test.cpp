@@ -353,8 +353,6 @@ class DetectorTest : public QObject {
         }
     }
 
-    // Where part and track are a few micrometres apart the nearest contact is as far away as plain geometry
-    // over all features says.
     // The rear corners are just ahead of a crest that comes after them: as low as it is they slide over it, a
     // little lower they meet its flank.
     void whatSlidesOverACrestIsNotCaughtByItsFlank() {
@@ -374,6 +372,33 @@ class DetectorTest : public QObject {
         QVERIFY(countPushes(50e-6) >= 2);
     }
 
+    // A peak under a face, near to the face's border: less deep beneath the side above that border than
+    // beneath the face, but it is the face that it carries. Within the border's last micrometres it carries
+    // what has sunk onto it.
+    void aPeakNearABorderCarriesTheFaceAboveIt() {
+        constexpr double kTop = 20.0 * kMillimetre;
+        const auto track =
+            verify::makeSurface({0.0, 0.09, 0.1, 0.11, 0.3}, {-0.03, -0.01, 0.0, 0.01, 0.03},
+                                [=](double x, double y) { return x == 0.1 && y == 0.0 ? kTop : 18e-3; });
+        const DetectorScene scene(track, verify::makePaperCuboid());
+        const auto countCarrying = [&](double depth, double inside) {
+            const base::Pose pose{lyingAlong(),
+                                  Vec3(0.1, 4.0 * kMillimetre - inside, kTop + 2.0 * kMillimetre - depth)};
+            const auto contacts = scene.findAfresh(pose, kMargin);
+            return std::ranges::count_if(contacts, [&](const Contact& contact) {
+                return isNear(contact.point, Vec3(0.1, 0.0, kTop)) &&
+                       isNear(contact.normal, Vec3::UnitZ(), 1e-9) && std::abs(contact.gap + depth) < 1e-9;
+            });
+        };
+        QCOMPARE(countCarrying(8e-6, 50e-6), 1);
+        QCOMPARE(countCarrying(80e-6, 50e-6), 1);
+        QCOMPARE(countCarrying(8e-6, 3e-6), 1);
+        QCOMPARE(countCarrying(3e-6, 3e-6), 0);   // the border's ridges do
+        QCOMPARE(countCarrying(8e-6, -3e-6), 0);  // it is beside the part
+    }
+
+    // Where part and track are a few micrometres apart the nearest contact is as far away as plain geometry
+    // over all features says.
     void theNearestContactIsTheDistance() {
         const DetectorScene scene(verify::makeRough(), verify::makePaperCuboid());
         base::Random random({2, 0, 0, 0, base::Purpose::test});
