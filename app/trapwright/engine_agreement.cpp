@@ -65,8 +65,8 @@ std::string formatTable(const Pair& pair, const std::vector<verify::Agreement>& 
            "rows "
            "of engines that are alike miss.\n"
            "Verdict: none of the row's p is significant at 5 % among all of the table (Holm), or not again "
-           "on "
-           "fresh starts.\n";
+           "on fresh "
+           "starts.\n";
 }
 
 nlohmann::ordered_json toJson(const verify::EngineTally& tally, int trials) {

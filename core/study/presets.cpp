@@ -83,7 +83,9 @@ bool endsInGroove(const track::Track& track) {
 /// wall's height then, else 0. [m]
 double wallAtEnd(const track::Track& track) {
     constexpr double kRounding = 1e-6;  // [m]
+    constexpr std::size_t kFewest = 4;  // two on the ledge, two on the wall
     const auto& points = track.sections[static_cast<std::size_t>(track.lastTrapSection)].points;
+    if (points.size() < kFewest) return 0.0;
     const auto foot = points.end() - 3;
     const double wall = (foot + 1)->y() - foot->y();
     const bool isUpright =

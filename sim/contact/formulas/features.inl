@@ -12,7 +12,7 @@ constexpr double kParallel = 0.026 * 0.026;
 
 /// How near to where it ends a triangle (at ridges), a part's edge or a face does not act: what is there
 /// does. Parts slide over ridges as low as these are, but for what is rounded, and the flank of each would
-/// push them on. [m]
+/// push them on. A face as deep as this acts up to its border. [m]
 constexpr double kBorder = 5e-6;
 /// Less than this is no way. [m]
 constexpr double kLeastApproach = 1e-9;
