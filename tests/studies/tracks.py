@@ -58,6 +58,8 @@ def main():
     if any(name in ("-h", "--help") for name in sys.argv[1:]):
         print(__doc__.strip())
         return
+    if not os.access(PROGRAM, os.X_OK):
+        sys.exit(f"tracks.py: {PROGRAM} is not there. Build it with packaging/build.sh release, or name one in TRAPWRIGHT.")
     names = sys.argv[1:] or sorted(PARTS)
     for name in names:
         if name not in PARTS:
