@@ -36,7 +36,7 @@ std::optional<std::string> findFault(const TrialBatch& batch, const TrialSpec& s
 }
 
 Outcome makeStuck(const TrialBatch& batch, const TrialSpec& spec) {
-    TerminationMonitor monitor(*batch.track, batch.termination, spec.parts.size());
+    TerminationMonitor monitor(batch, spec);
     for (std::size_t i = 0; i < spec.parts.size(); ++i)
         monitor.update(i, spec.parts[i].time, spec.parts[i].pose);
     Outcome outcome = monitor.outcome();

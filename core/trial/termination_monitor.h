@@ -13,9 +13,10 @@ namespace trapwright::trial {
 /// section 3.4; decisions.md#endings). Engines call update() every few milliseconds of simulated time.
 class TerminationMonitor {
  public:
-    TerminationMonitor(const track::Track& track, const Termination& termination, std::size_t parts)
-        : track_(&track), termination_(termination), parts_(parts), running_(parts) {
-        outcome_.parts.resize(parts);
+    /// Both must outlive it.
+    TerminationMonitor(const TrialBatch& batch, const TrialSpec& spec)
+        : batch_(&batch), spec_(&spec), parts_(spec.parts.size()), running_(spec.parts.size()) {
+        outcome_.parts.resize(spec.parts.size());
     }
 
     /// `part`: its place in TrialSpec::parts. `pose`: part frame to the track's mesh frame (the room with the
@@ -48,8 +49,12 @@ class TerminationMonitor {
     /// Notes that a part of a stream stood still since it was marked, if it did so for long enough.
     void noteStop(std::size_t part, const Progress& progress, double time);
 
-    const track::Track* track_;
-    Termination termination_;
+    /// Whether the part's centre of mass and some of its material are inside the track: the centre alone may
+    /// pass through where a hollow part tips over a border.
+    [[nodiscard]] bool isInside(std::size_t part, const base::Pose& pose) const;
+
+    const TrialBatch* batch_;
+    const TrialSpec* spec_;
     std::vector<Progress> parts_;
     std::size_t running_;
     Outcome outcome_;

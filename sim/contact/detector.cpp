@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace trapwright::contact {
@@ -228,18 +229,32 @@ double Detector::testVertex(const Query& query, Candidate& candidate) const {
     if (gap >= query.margin || gap <= -kDeepest) return std::max(gap, -gap - kDeepest);
 
     if (separation.second > -scalar::kBorder) return gap;
-    // The track must lie below the face: a part that slides level over a border is not stopped by it.
-    const auto carries = [&](int face, double depth) {
-        const Vec3 normal = query.toTrack * -piece.faces[face].normal;
-        for (int e = 0; e < vertex.edgeCount; ++e)
-            if (normal.dot(track_->vertexEdges[vertex.firstEdge + e]) > scalar::kConeSlack) return false;
+    const auto edges =
+        std::span(track_->vertexEdges).subspan(vertex.firstEdge, static_cast<std::size_t>(vertex.edgeCount));
+    const auto leads = [](const Vec3& edge, const Vec3& way) { return edge.dot(way) > scalar::kConeSlack; };
+    const auto normalOf = [&](int face) -> Vec3 { return query.toTrack * -piece.faces[face].normal; };
+    const auto add = [&](int face, const Vec3& normal, double depth) {
         query.contacts->push_back(
             {vertex.position, normal, depth, nameFeature(2, candidate.piece, face, candidate.feature)});
-        return true;
     };
-    // Near to a border of the face that it lies below a vertex is less deep from beside.
-    if (!carries(candidate.separatingFace, gap) && gap <= 0.0 && separation.second > -kDeepest)
-        carries(separation.secondFace, separation.second);
+    // The track must lie below the face: a part that slides level over a border is not stopped by it.
+    const Vec3 first = normalOf(candidate.separatingFace);
+    if (std::ranges::none_of(edges, [&](const Vec3& edge) { return leads(edge, first); })) {
+        add(candidate.separatingFace, first, gap);
+        return gap;
+    }
+    if (gap > 0.0 || separation.second <= -kDeepest) return gap;
+    // Near to a border of the face that it lies below a vertex is less deep from beside. What of the track
+    // rises beyond that border is beside the part, not above the face.
+    const Vec3 second = normalOf(separation.secondFace);
+    const auto carries = [&](const Vec3& normal, const Vec3& beside) {
+        return std::ranges::none_of(
+            edges, [&](const Vec3& edge) { return leads(edge, normal) && !leads(edge, -beside); });
+    };
+    if (carries(second, first))
+        add(separation.secondFace, second, separation.second);
+    else if (gap <= -scalar::kBorder && carries(first, second))
+        add(candidate.separatingFace, first, gap);
     return gap;
 }
 

@@ -14,7 +14,7 @@ constexpr double kClearance = 0.1e-3;
 }  // namespace
 
 Traffic::Traffic(const trial::TrialBatch& batch, const trial::TrialSpec& spec)
-    : batch_(&batch), spec_(&spec), progress_(*batch.track, batch.termination, spec.parts.size()) {}
+    : batch_(&batch), spec_(&spec), progress_(batch, spec) {}
 
 bool Traffic::hasRoom(const trial::PartStart& start, std::span<const base::Pose> posesInTrack) const {
     const part::Part& part = *batch_->parts[start.part];

@@ -390,8 +390,7 @@ inline void lookAtFaces(TrialLanes& group, const PlacedLanes& placed, PairTable&
         };
         put(row, within && first.gap < placed.margin && first.gap > Real(-kDeepest), first);
         // Near to a border of the face that it lies below a vertex is less deep from beside.
-        const Mask beside = within && first.gap <= Real(0.0) && second.gap > Real(-kDeepest);
-        if (any(beside)) put(~row, beside, second);
+        put(~row, within && first.gap <= Real(0.0) && second.gap > Real(-kDeepest), second);
     }
     looked.due = min(looked.due, findNextDue(placed, pairs));
     const auto rowOf = [](int coded) { return coded < 0 ? ~coded : coded; };
@@ -408,18 +407,29 @@ inline void lookAtFaces(TrialLanes& group, const PlacedLanes& placed, PairTable&
             const PackedTrack& track = *group.track[placed.lane + i];
             const std::uint32_t feature = pairs.trackFeature(rowOf(coded))[placed.slot + i];
             const PackedVertex& vertex = track.vertices[indexOf(feature)];
-            const auto isBelow = [&](const float* of) {
-                const float normal[3] = {of[kNormalX * kWidestVector], of[kNormalY * kWidestVector],
-                                         of[kNormalZ * kWidestVector]};
-                bool below = true;
-                for (int e = vertex.firstEdge; e < vertex.firstEdge + vertex.edgeCount; ++e)
-                    below &=
-                        dotThree(normal, track.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) <=
-                        static_cast<float>(kConeSlack);
-                return below;
+            const auto leads = [&](int e, const float* normals, float way) {
+                const float normal[3] = {normals[kNormalX * kWidestVector], normals[kNormalY * kWidestVector],
+                                         normals[kNormalZ * kWidestVector]};
+                return way * dotThree(normal, track.vertexEdges.data() + 3 * static_cast<std::ptrdiff_t>(e)) >
+                       static_cast<float>(kConeSlack);
             };
-            // The second face only where the first, which was put aside just before it, does not carry.
-            return isBelow(values) && (coded >= 0 || !isBelow(values - StagedContacts::kBlock));
+            const auto noEdge = [&](const auto& isSo) {
+                bool none = true;
+                for (int e = vertex.firstEdge; e < vertex.firstEdge + vertex.edgeCount; ++e)
+                    none &= !isSo(e);
+                return none;
+            };
+            const float* first = coded < 0 ? values - StagedContacts::kBlock : values;
+            const float* second = first + StagedContacts::kBlock;
+            const auto carries = [&](const float* normals, const float* beside) {
+                return noEdge([&](int e) { return leads(e, normals, 1.0F) && !leads(e, beside, -1.0F); });
+            };
+            if (noEdge([&](int e) { return leads(e, first, 1.0F); })) return coded >= 0;
+            const float gap = first[kGap * kWidestVector];
+            if (gap > 0.0F || second[kGap * kWidestVector] <= static_cast<float>(-kDeepest)) return false;
+            // What of the track rises beyond the border between the faces is beside the part, not above it.
+            if (carries(second, first)) return coded < 0;
+            return coded >= 0 && gap <= static_cast<float>(-kBorder) && carries(first, second);
         });
 }
 

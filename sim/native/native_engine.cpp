@@ -29,10 +29,7 @@ using TrialQueue = contact::TrialQueue<Scene>;
 /// The trial in one lane of a group.
 struct Run {
     Run(std::shared_ptr<const Scene> s, std::size_t b, std::size_t t)
-        : scene(std::move(s)),
-          batch(b),
-          trial(t),
-          progress(*scene->batch->track, scene->batch->termination, 1) {}
+        : scene(std::move(s)), batch(b), trial(t), progress(*scene->batch, scene->batch->trials[t]) {}
 
     std::shared_ptr<const Scene> scene;
     std::size_t batch;

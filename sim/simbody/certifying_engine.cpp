@@ -27,7 +27,7 @@ std::optional<trial::Trajectory> simulate(const Scene& scene, std::size_t index,
     CertifyingTrial running({&scene.track, &scene.body, batch.track->shape, vibration, spec.phase, mass.mass,
                              mass.inertia, batch.gravityVector(), batch.contactOf(spec)},
                             placement.toRoom(start.pose), {start.velocity, start.angularVelocity});
-    trial::TerminationMonitor progress(*batch.track, batch.termination, 1);
+    trial::TerminationMonitor progress(batch, spec);
     trial::Trajectory trajectory;
     long checks = 0;
     double time = 0.0;

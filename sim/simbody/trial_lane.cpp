@@ -24,7 +24,7 @@ TrialLane::TrialLane(std::shared_ptr<const Scene> scene, std::size_t trial, Free
              scene_->batch->trials[trial].phase),
       contact_(scene_->track, drive_,
                {scene_->batch->contactOf(scene_->batch->trials[trial]), scene_->batch->partsContact}, dt),
-      progress_(*scene_->batch->track, scene_->batch->termination, 1) {
+      progress_(*scene_->batch, scene_->batch->trials[trial]) {
     contact_.add(0, scene_->body);
     // At rest in the room, where the track is at the drive's phase.
     const trial::PartStart& start = scene_->batch->trials[trial].parts.front();

@@ -31,7 +31,7 @@ std::optional<trial::Trajectory> simulate(const Running& running, std::size_t in
                                           trial::CostLaps& laps) {
     const trial::TrialSpec& spec = running.batch.trials[index];
     const auto trial = running.scenes[spec.parts.front().part]->start(index);
-    trial::TerminationMonitor progress(*running.batch.track, running.batch.termination, 1);
+    trial::TerminationMonitor progress(running.batch, spec);
     const contact::DriveMotion drive(running.batch.driveOf(spec), running.batch.track->shape, spec.phase);
     const long stepsPerCheck = std::max(1L, std::lround(kCheckInterval / running.dt));
     trial::Trajectory trajectory;

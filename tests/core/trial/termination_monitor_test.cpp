@@ -2,6 +2,8 @@
 
 #include <QtTest>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/track/track_builder.h"
@@ -24,6 +26,37 @@ base::Pose at(double x, double y = 0.0, double z = 0.02) {
     return {base::Quaternion::Identity(), {x, y, z}};
 }
 
+/// What of a part tells whether it is inside the track: boxes of 2 mm at these places of its frame.
+std::shared_ptr<const part::Part> makePart(const std::vector<base::Vec3>& boxes) {
+    part::Part part;
+    for (const base::Vec3& middle : boxes) {
+        geometry::ConvexPolytope box;
+        for (unsigned corner = 0; corner < 8; ++corner)
+            box.vertices.emplace_back(middle + 1e-3 * base::Vec3((corner & 1U) != 0 ? 1.0 : -1.0,
+                                                                 (corner & 2U) != 0 ? 1.0 : -1.0,
+                                                                 (corner & 4U) != 0 ? 1.0 : -1.0));
+        part.pieces.push_back(box);
+    }
+    return std::make_shared<const part::Part>(std::move(part));
+}
+
+/// Of one trial of `count` parts of a kind.
+trial::TrialBatch makeBatch(const track::Track& track, const trial::Termination& termination,
+                            std::size_t count, const std::vector<base::Vec3>& boxes = {base::Vec3::Zero()}) {
+    trial::TrialBatch batch;
+    batch.track = std::make_shared<const track::Track>(track);
+    batch.parts = {makePart(boxes)};
+    batch.termination = termination;
+    batch.trials.resize(1);
+    batch.trials.front().parts.resize(count);
+    return batch;
+}
+
+track::Track makeLevelTrack() {
+    const track::CrossSection level{40e-3, {{-30e-3, 0.0}, {0.0, 0.0}, {30e-3, 0.0}}};
+    return track::buildTrack({}, std::vector{level}).value();
+}
+
 }  // namespace
 
 /// How single parts end is tested with the engines (endings_test).
@@ -34,7 +67,8 @@ class TerminationMonitorTest : public QObject {
     // Each part has its own progress and its own end; the trial is over with the last one.
     void partsEndOneByOne() {
         const track::Track track = makeTrack();
-        trial::TerminationMonitor monitor(track, {2.0, 0.5, 1e-3}, 4);
+        const trial::TrialBatch batch = makeBatch(track, {2.0, 0.5, 1e-3}, 4);
+        trial::TerminationMonitor monitor(batch, batch.trials.front());
         std::vector<std::optional<Ending>> endings(4);
         std::vector<double> times(4, 0.0);
         for (int step = 0; step <= 400 && !monitor.isOver(); ++step) {
@@ -66,8 +100,8 @@ class TerminationMonitorTest : public QObject {
 
     // Whoever looks at the outcome must see it.
     void aPoseThatIsNotANumberEndsIt() {
-        const track::Track track = makeTrack();
-        trial::TerminationMonitor monitor(track, {}, 1);
+        const trial::TrialBatch batch = makeBatch(makeTrack(), {}, 1);
+        trial::TerminationMonitor monitor(batch, batch.trials.front());
         QVERIFY(!monitor.update(0, 0.0, at(0.1)));
         QVERIFY(monitor.update(0, 0.1, at(std::nan(""))) == Ending::stuck);
         QVERIFY(monitor.isOver());
@@ -76,9 +110,8 @@ class TerminationMonitorTest : public QObject {
 
     // What falls beside the track falls off; what falls inside its outline went through the surface.
     void aFallThroughTheSurfaceIsTold() {
-        track::CrossSection level{40e-3, {{-30e-3, 0.0}, {0.0, 0.0}, {30e-3, 0.0}}};
-        const track::Track track = track::buildTrack({}, std::vector{level}).value();
-        trial::TerminationMonitor monitor(track, {}, 2);
+        const trial::TrialBatch batch = makeBatch(makeLevelTrack(), {}, 2);
+        trial::TerminationMonitor monitor(batch, batch.trials.front());
         QVERIFY(!monitor.update(0, 0.0, at(0.1)));
         QVERIFY(!monitor.update(1, 0.0, at(0.1)));
         QVERIFY(monitor.update(0, 0.1, at(0.1, 0.031, -0.002)) == Ending::fellOff);
@@ -87,9 +120,26 @@ class TerminationMonitorTest : public QObject {
         QVERIFY(monitor.outcome().parts[1].throughSurface);
     }
 
+    // A clip tips over the border with the track's edge in its hollow, where its centre of mass is; so does a
+    // part with a limb that has come under the track's base.
+    void whatHooksOverABorderFallsOff() {
+        const track::Track track = makeLevelTrack();
+        const double under = track.baseThickness + 2e-3;
+        for (const auto& [boxes, through] : std::vector<std::pair<std::vector<base::Vec3>, bool>>{
+                 {{{0.0, -3e-3, 20e-3}, {0.0, 4e-3, 1e-3}}, false},
+                 {{{0.0, 4e-3, 1e-3}, {0.0, 0.0, -under}}, false},
+                 {{{0.0, -3e-3, 20e-3}, {0.0, -3e-3, 0.0}}, true}}) {
+            const trial::TrialBatch batch = makeBatch(track, {}, 1, boxes);
+            trial::TerminationMonitor monitor(batch, batch.trials.front());
+            QVERIFY(!monitor.update(0, 0.0, at(0.1)));
+            QVERIFY(monitor.update(0, 0.1, at(0.1, 0.029, -0.0002)) == Ending::fellOff);
+            QCOMPARE(monitor.outcome().parts[0].throughSurface, through);
+        }
+    }
+
     void itIsNotOverBeforeTheLastOne() {
-        const track::Track track = makeTrack();
-        trial::TerminationMonitor monitor(track, {}, 2);
+        const trial::TrialBatch batch = makeBatch(makeTrack(), {}, 2);
+        trial::TerminationMonitor monitor(batch, batch.trials.front());
         QVERIFY(!monitor.isOver());
         QVERIFY(monitor.update(0, 0.0, at(0.45)) == Ending::finished);
         QVERIFY(!monitor.isOver());
