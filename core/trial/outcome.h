@@ -27,8 +27,9 @@ struct PartOutcome {
     /// When it was put on the track; none: there was no room for it before the trial was over, and it timed
     /// out without poses. [s]
     std::optional<double> entered = 0.0;
-    /// It fell off, but through the surface, as no part does: a fault of the engine. Not kept in studies, as
-    /// such a trial is made again (BackedEngine).
+    /// It fell off, but through the surface, as no part does: a fault of the engine. Its centre of mass and
+    /// some of its material are inside the track. Not kept in studies, as such a trial is made again
+    /// (BackedEngine).
     bool throughSurface = false;
 
     friend bool operator==(const PartOutcome&, const PartOutcome&) = default;

@@ -8,8 +8,8 @@ namespace trapwright::trial {
 
 base::Pose TerminationMonitor::toTrackCoordinates(std::size_t part, const base::Pose& pose) const {
     base::Pose result;
-    result.position = batch_->track->shape.toTrack(pose.position, parts_[part].lastX);
-    const base::Mat3 frame = track::orientationFrame(*batch_->track, result.position.x());
+    result.position = track_->shape.toTrack(pose.position, parts_[part].lastX);
+    const base::Mat3 frame = track::orientationFrame(*track_, result.position.x());
     result.rotation = base::Quaternion(frame.transpose()) * pose.rotation;
     return result;
 }
@@ -17,7 +17,7 @@ base::Pose TerminationMonitor::toTrackCoordinates(std::size_t part, const base::
 std::optional<Ending> TerminationMonitor::update(std::size_t part, double time, const base::Pose& pose) {
     Progress& progress = parts_[part];
     PartOutcome& outcome = outcome_.parts[part];
-    if (!progress.started) progress.lastX = batch_->track->start;
+    if (!progress.started) progress.lastX = track_->start;
     outcome.time = time;
     if (!isFinite(pose)) {
         // It shows in the outcome, so that the trial is made again (BackedEngine).
@@ -52,15 +52,14 @@ std::optional<Ending> TerminationMonitor::update(std::size_t part, double time, 
 }
 
 bool TerminationMonitor::isInside(std::size_t part, const base::Pose& pose) const {
-    const track::Track& track = *batch_->track;
-    if (!track::isBelowSurface(track, pose.position)) return false;
+    if (!track::isBelowSurface(*track_, pose.position)) return false;
     const std::vector<geometry::ConvexPolytope>& pieces = batch_->parts[spec_->parts[part].part]->pieces;
     return std::ranges::any_of(pieces, [&](const geometry::ConvexPolytope& piece) {
         const base::Vec3 sum =
             std::accumulate(piece.vertices.begin(), piece.vertices.end(), base::Vec3(base::Vec3::Zero()));
         const base::Vec3 middle = pose.apply(sum / static_cast<double>(piece.vertices.size()));
-        const double height = track.shape.toTrack(middle, parts_[part].lastX).z();
-        return height > -track.baseThickness && track::isBelowSurface(track, middle);
+        const double height = track_->shape.toTrack(middle, parts_[part].lastX).z();
+        return height > -track_->baseThickness && track::isBelowSurface(*track_, middle);
     });
 }
 
@@ -79,11 +78,11 @@ void TerminationMonitor::noteStop(std::size_t part, const Progress& progress, do
 
 std::optional<Ending> TerminationMonitor::findEnding(const Progress& progress, double time,
                                                      const base::Vec3& position) const {
-    if (position.x() >= batch_->track->finish) return Ending::finished;
+    if (position.x() >= track_->finish) return Ending::finished;
     // The surface lies at z >= 0, but for the chute's: a centre of mass below that has left it.
-    const bool aside = std::abs(position.y()) > batch_->track->width ||
-                       position.x() < batch_->track->begin() - batch_->track->width;
-    if (position.z() < -track::chuteFall(*batch_->track, position.x()) || aside) return Ending::fellOff;
+    const bool aside =
+        std::abs(position.y()) > track_->width || position.x() < track_->begin() - track_->width;
+    if (position.z() < -track::chuteFall(*track_, position.x()) || aside) return Ending::fellOff;
     if (batch_->termination.until > 0.0)
         return time >= batch_->termination.until ? std::optional(Ending::timedOut) : std::nullopt;
     if (time - progress.markedTime >= batch_->termination.stuckTime) return Ending::stuck;

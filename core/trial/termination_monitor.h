@@ -15,14 +15,18 @@ class TerminationMonitor {
  public:
     /// Both must outlive it.
     TerminationMonitor(const TrialBatch& batch, const TrialSpec& spec)
-        : batch_(&batch), spec_(&spec), parts_(spec.parts.size()), running_(spec.parts.size()) {
+        : batch_(&batch),
+          spec_(&spec),
+          track_(batch.track.get()),
+          parts_(spec.parts.size()),
+          running_(spec.parts.size()) {
         outcome_.parts.resize(spec.parts.size());
     }
 
     /// `part`: its place in TrialSpec::parts. `pose`: part frame to the track's mesh frame (the room with the
     /// drive's displacement taken out). Returns the ending when the part's run is over, which is then not
     /// told of any more. A pose that is not a number ends it as stuck, and stays in the outcome as the
-    /// farthest. One that falls off below the surface is noted, too (PartOutcome::throughSurface).
+    /// farthest. One that falls off inside the track is noted, too (PartOutcome::throughSurface).
     std::optional<Ending> update(std::size_t part, double time, const base::Pose& pose);
 
     /// A part that never came, because there was no room for it, is not waited for any more.
@@ -55,6 +59,7 @@ class TerminationMonitor {
 
     const TrialBatch* batch_;
     const TrialSpec* spec_;
+    const track::Track* track_;  // of the batch
     std::vector<Progress> parts_;
     std::size_t running_;
     Outcome outcome_;
