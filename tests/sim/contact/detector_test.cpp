@@ -10,6 +10,7 @@
 #include "detector_scenes.h"
 #include "nearest_features.h"
 #include "sim/contact/formulas/scalar.h"
+#include "sunken_scenes.h"
 
 using namespace trapwright;
 using base::kMillimetre;
@@ -17,19 +18,11 @@ using base::Quaternion;
 using base::Vec3;
 using contact::Contact;
 using testing::DetectorScene;
+using testing::lyingAlong;
 
 namespace {
 
 constexpr double kMargin = 10e-6;
-
-/// The cuboid with its 8 x 12 mm face down, 12 mm along x: half-height 2 mm.
-Quaternion lyingAlong() {
-    base::Mat3 r;
-    r.col(0) = Vec3::UnitZ();
-    r.col(1) = Vec3::UnitY();
-    r.col(2) = -Vec3::UnitX();
-    return Quaternion(r);
-}
 
 /// Level but for x = 0.1, where it rises to `top` over flanks of `run`.
 std::shared_ptr<const track::Track> makeRidge(double run, double top) {
@@ -397,43 +390,16 @@ class DetectorTest : public QObject {
         QCOMPARE(countCarrying(8e-6, -3e-6), 0);  // it is beside the part
     }
 
-    // A valley's end, from which the track rises on the other side of the border: the face that has sunk onto
-    // it carries it all the same.
-    void whatRisesBesideAPartIsNotAboveItsFace() {
-        constexpr double kTop = 20.0 * kMillimetre;
-        const auto track = verify::makeSurface(
-            {0.0, 0.09, 0.1, 0.11, 0.3}, {-0.03, -0.01, 0.0, 0.01, 0.03}, [=](double x, double y) {
-                return x == 0.1 && y == 0.0 ? kTop : 1e-3 * (x == 0.1 && y == -0.01 ? 24.0 : 18.0);
-            });
-        const DetectorScene scene(track, verify::makePaperCuboid());
-        const base::Pose pose{lyingAlong(),
-                              Vec3(0.1, 4.0 * kMillimetre - 30e-6, kTop + 2.0 * kMillimetre - 80e-6)};
-        QVERIFY(std::ranges::any_of(scene.findAfresh(pose, kMargin), [&](const Contact& contact) {
-            return isNear(contact.point, Vec3(0.1, 0.0, kTop)) &&
-                   isNear(contact.normal, Vec3::UnitZ(), 1e-9) && std::abs(contact.gap + 80e-6) < 1e-9;
-        }));
-    }
-
-    // A part that stands on its border in that valley, over the valley's end: the crest there leaves the
-    // part through one of the two faces, the ridge that rises behind it lies along the other. That one
-    // carries.
-    void aBorderInAValleyIsHeldAtTheValleysEnd() {
-        constexpr double kTop = 20.0 * kMillimetre;
-        const auto track = verify::makeSurface({0.0, 0.09, 0.1, 0.11, 0.3}, {-0.03, -0.01, 0.0, 0.01, 0.03},
-                                               [=](double x, double y) {
-                                                   if (x == 0.1 && y == 0.0) return kTop;
-                                                   if (x == 0.1 && y == -0.01) return kTop + 2.28e-3;
-                                                   return x == 0.09 && y == 0.0 ? kTop + 1.2e-3 : kTop - 4e-3;
-                                               });
-        const DetectorScene scene(track, verify::makePaperCuboid());
-        const base::Quaternion roll(Eigen::AngleAxisd(70.0 * base::kDegree, Vec3::UnitX()));
-        const Vec3 corner(0.0, -4.0 * kMillimetre + 150e-6, -2.0 * kMillimetre + 100e-6);
-        const base::Pose pose{roll * lyingAlong(), Vec3(0.1, 0.0, kTop) - roll * corner};
-        QVERIFY(std::ranges::any_of(scene.findAfresh(pose, kMargin), [&](const Contact& contact) {
-            return isNear(contact.point, Vec3(0.1, 0.0, kTop)) &&
-                   isNear(contact.normal, roll * Vec3::UnitZ(), 1e-9) &&
-                   std::abs(contact.gap + 100e-6) < 1e-9;
-        }));
+    // What of the track rises beside a part is not above its face, nor what leaves the part through another.
+    void aValleysEndCarriesWhatHasSunkOntoIt() {
+        for (const testing::SunkenScene& sunken :
+             {testing::makeSunkenBesideRise(), testing::makeSunkenInValley()}) {
+            const DetectorScene scene(sunken.track, verify::makePaperCuboid());
+            QVERIFY(std::ranges::any_of(scene.findAfresh(sunken.pose, kMargin), [&](const Contact& contact) {
+                return isNear(contact.point, sunken.vertex) && isNear(contact.normal, sunken.normal, 1e-9) &&
+                       std::abs(contact.gap + sunken.depth) < 1e-9;
+            }));
+        }
     }
 
     // Where part and track are a few micrometres apart the nearest contact is as far away as plain geometry

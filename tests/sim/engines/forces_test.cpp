@@ -1,5 +1,7 @@
 #include <QtTest>
+#include <algorithm>
 
+#include "tests/sim/contact/sunken_scenes.h"
 #include "tests/sim/engines/each_engine.h"
 #include "tests/sim/engines/engine_scenes.h"
 
@@ -57,6 +59,21 @@ class ForcesTest : public QObject {
             QCOMPARE(contact.bodyB, 0);
         }
         QVERIFY(moment.norm() < 0.01 * weight * 6e-3);
+    }
+
+    // It has a contact there at once, and is not let through.
+    void aValleysEndCarriesWhatHasSunkOntoIt() {
+        for (const testing::SunkenScene& sunken :
+             {testing::makeSunkenBesideRise(), testing::makeSunkenInValley()}) {
+            const trial::TrialBatch batch =
+                verify::makeStillScene(sunken.track, verify::makePaperCuboid(), sunken.pose, 0.01);
+            const auto trajectory = verify::replayScene(*testing::makeEngine(), batch, kStep, {});
+            const std::vector<trial::ContactForce>& forces = trajectory.samples.at(1).forces;
+            QVERIFY(std::ranges::any_of(forces, [&](const trial::ContactForce& contact) {
+                return (contact.point - sunken.vertex).norm() < 2e-6 &&
+                       contact.force.dot(sunken.normal) > 0.0;
+            }));
+        }
     }
 
     void forcesGiveThePartItsMomentum_data() { restingPartIsCarried_data(); }
