@@ -165,6 +165,13 @@ std::string describeCheck(const study::EvolutionSettings& settings, const study:
     return text + "\n";
 }
 
+std::string describeUnturned(double wanted) {
+    return fmt::format(
+        "{:.1f} % of the parts come to the traps as they are wanted; the others are to be turned, or thrown "
+        "out.\n",
+        kPercent * wanted);
+}
+
 WorkWatch watchLearning(const Situation& situation, Clock::time_point begin, study::LearningControl control,
                         const Console& console) {
     WorkWatch watch;
@@ -226,7 +233,13 @@ Attempt<LearningRun> runLearning(store::StudyFile& file, const study::StudyInput
     auto learned = [&] {
         WorkDisplay display(console, watchLearning(situation, begin, control, console));
         workflow::LearnEvents events;
-        events.planned = [&](const study::GenerationPlan& plan) { situation.setPlan(plan); };
+        bool toldWanted = false;
+        events.planned = [&](const study::GenerationPlan& plan) {
+            situation.setPlan(plan);
+            if (toldWanted || !plan.wantedUnturned) return;
+            toldWanted = true;
+            display.print(describeUnturned(*plan.wantedUnturned));
+        };
         events.saved = [&](const study::GenerationRecord& record) {
             situation.setSuccess(successOf(inputs.settings.evolution, record));
             display.print(describeGeneration(inputs.settings.evolution, record));

@@ -22,6 +22,8 @@ Failure describeStudyFailure(const base::Error& error, ExitCode otherwise) {
             return {ExitCode::cannotWrite, error.message};
         case base::ErrorKind::busy:
             return {ExitCode::locked, error.message};
+        case base::ErrorKind::unattainable:
+            return {ExitCode::usage, error.message};
         case base::ErrorKind::other:
             break;
     }

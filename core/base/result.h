@@ -12,7 +12,8 @@ enum class ErrorKind {
     other,
     damaged,      // a file does not hold what its program wrote
     cannotWrite,  // full, read-only, gone
-    busy          // another has it
+    busy,         // another has it
+    unattainable  // what is asked for cannot be had with these settings
 };
 
 /// An expected failure. The message says what was wrong, where, and what to do about it.

@@ -142,6 +142,7 @@ class ChainPlanner {
     base::Result<std::vector<search::Design>> run(std::size_t most) {
         if (const auto found = findWays(kTrialsOfWays); !found) return found.error();
         if (search_.problem().ways == 0) return std::vector<search::Design>{};
+        if (const auto checked = trials_.checkWanted(); !checked) return checked.error();
         const int inRound = static_cast<int>(kTrapsInRound);
         const int rounds = (settings().evolution.plannedTraps + inRound - 1) / inRound;
         const int plans = countPlans(settings().evolution);
@@ -288,7 +289,8 @@ class ChainPlanner {
         // Of a race about half.
         const int share = evolution.racingTrials > 0 ? 2 : 1;
         const std::int64_t later = std::int64_t{population} * evolution.trialsPerEvaluation / share;
-        planned_({0, population, population, trials, doneBefore_, std::max<std::int64_t>(1, later)});
+        planned_({0, population, population, trials, doneBefore_, std::max<std::int64_t>(1, later),
+                  calcWantedUnturned(search_.problem())});
     }
 
     [[nodiscard]] KnownTrap makeTrap(std::size_t kind, std::vector<double> numbers) const {
@@ -375,7 +377,7 @@ class ChainPlanner {
         std::vector<std::size_t> fit;
         std::vector<double> alone(tried.size());
         for (std::size_t i = sure; i < tried.size(); ++i) {
-            const WayShares once = search_.pass(problem.arriving, tried[i].chances);
+            const WayShares once = pass(problem.arriving, tried[i].chances);
             alone[i] = std::max(search_.worthOf(once), search_.worthOf(search_.repeat(tried[i])));
             if (once[problem.stuck()] - problem.arriving[problem.stuck()] <= kMostStuck) fit.push_back(i);
         }

@@ -48,7 +48,7 @@ WayMatrix calcChances(const ChainProblem& problem, const WayMatrix& counts) {
     return chances;
 }
 
-WayShares ChainSearch::pass(const WayShares& parts, const WayMatrix& chances) const {
+WayShares pass(const WayShares& parts, const WayMatrix& chances) {
     WayShares after(parts.size(), 0.0);
     for (std::size_t from = 0; from < parts.size(); ++from) {
         if (parts[from] == 0.0) continue;
@@ -56,6 +56,17 @@ WayShares ChainSearch::pass(const WayShares& parts, const WayMatrix& chances) co
             after[to] += parts[from] * chances[from][to];
     }
     return after;
+}
+
+WayShares calcUnturned(const ChainProblem& problem) {
+    return problem.then.empty() ? problem.arriving : pass(problem.arriving, problem.then);
+}
+
+std::optional<double> calcWantedUnturned(const ChainProblem& problem) {
+    if (problem.wanted.empty()) return std::nullopt;
+    const WayShares parts = calcUnturned(problem);
+    return std::accumulate(problem.wanted.begin(), problem.wanted.end(), 0.0,
+                           [&](double sum, std::size_t way) { return sum + parts[way]; });
 }
 
 double ChainSearch::worthOf(const WayShares& parts) const {

@@ -62,6 +62,13 @@ struct ChainProblem {
 /// always get stuck or be turned.
 WayMatrix calcChances(const ChainProblem& problem, const WayMatrix& counts);
 
+/// Where so many parts are behind what has these chances.
+WayShares pass(const WayShares& parts, const WayMatrix& chances);
+/// The ways in which parts would end if no trap of the chain did anything.
+WayShares calcUnturned(const ChainProblem& problem);
+/// The share of them that is wanted; none: nothing is, or no way.
+std::optional<double> calcWantedUnturned(const ChainProblem& problem);
+
 /// The traps that are known, and the best chains of them.
 class ChainSearch {
  public:
@@ -88,7 +95,6 @@ class ChainSearch {
     /// out and lets another pass does it better every time, even where the best chain of today uses others.
     [[nodiscard]] const std::vector<std::size_t>& sieves() const { return sieves_; }
 
-    [[nodiscard]] WayShares pass(const WayShares& parts, const WayMatrix& chances) const;
     /// Minus the bits of objectives::sorting() where falls are forgiven, else of objectives::disorder();
     /// where ways are wanted, of the share that lies so. Where purity is sought as nines,
     /// objectives::purity() as 2000 parts would tell it, and the share of right ones of all or, where yield

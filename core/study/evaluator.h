@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct GenerationPlan {
     /// That chains are planned with, before there is a generation (planDesigns); none of its individuals is
     /// done then. How many trials each generation is expected to take that follows; 0: this is a generation.
     std::int64_t planningFor = 0;
+    /// Of the parts that come to the traps those that lie as it is wanted before anything turns them; none:
+    /// nothing is wanted, or it is not known, as where nothing is planned.
+    std::optional<double> wantedUnturned{};
 };
 
 /// A copyable handle on a learning run: any copy may stop it, from any thread and from a signal handler.

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/spelling.h"
@@ -191,6 +192,33 @@ std::string describeTarget(const Settings& settings, const part::Part& part) {
         "in stable pose {}, {}{}", nameGroups(groups, findWantedGroups(target, groups)),
         *heading ? fmt::format("turned to {:g}°", **heading / base::kDegree) : std::string("any heading"),
         lean > 0.0 ? describeLean(lean) : "");
+}
+
+TargetSettings findNearestTarget(const Settings& settings, const part::Part& part,
+                                 const base::Quaternion& orientation) {
+    constexpr int kCircle = 360;
+    constexpr double kSame = 0.5 * base::kDegree;
+    const double lean = findLean(settings.track);
+    TargetSettings nearest;
+    double least = std::numeric_limits<double>::max();
+    for (const part::PoseGroup& group : part::findPoseGroups(part)) {
+        const base::Quaternion& pose =
+            part.stablePoses[static_cast<std::size_t>(group.poses.front())].rotation;
+        double most = 0.0;
+        int best = -1;
+        for (int degrees = 0; degrees < kCircle; ++degrees) {
+            const trial::Goal goal{{{turned(pose, degrees * base::kDegree), false, lean}}};
+            const double angle = trial::calcAngleToGoal(orientation, goal, part.symmetry);
+            most = std::max(most, angle);
+            if (angle >= least) continue;
+            least = angle;
+            best = degrees;
+        }
+        if (best < 0) continue;
+        nearest.poses = part::namePoses(group.poses);
+        nearest.heading = most - least < kSame ? std::string(kAny) : std::to_string(best);
+    }
+    return nearest;
 }
 
 std::string describeGoal(const trial::Goal& goal, const part::Part& part) {

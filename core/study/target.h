@@ -43,6 +43,12 @@ objectives::Task makeTask(const Settings& settings, const part::Part& part);
 /// "in whatever way most do" if nothing is wanted. How far they may lean is told, too.
 std::string describeTarget(const Settings& settings, const part::Part& part);
 
+/// How parts that lie so are to be wanted: the stable pose, alike ones together, and the heading, in whole
+/// degrees, that are nearest, leaning as parts may on the settings' track; any heading where it looks the
+/// same in each. The part has stable poses.
+TargetSettings findNearestTarget(const Settings& settings, const part::Part& part,
+                                 const base::Quaternion& orientation);
+
 /// What counted as success, for people: "the orientation (w, x, y, z) = ...", "stable pose 3-4 in any
 /// heading", several with "or" between them.
 std::string describeGoal(const trial::Goal& goal, const part::Part& part);

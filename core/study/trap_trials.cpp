@@ -1,7 +1,10 @@
 #include "core/study/trap_trials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -95,7 +98,6 @@ base::Status TrapTrials::findWays(int trials, ChainProblem& problem) {
     }
     problem.ways = ways_.size();
     problem.places = frame_.places;
-    problem.wanted = listWanted(ways_);
     problem.arriving.assign(problem.columns(), 0.0);
     problem_ = problem;  // findColumn() asks it
     starts_.resize(ways_.size() + 1);
@@ -114,8 +116,12 @@ base::Status TrapTrials::findWays(int trials, ChainProblem& problem) {
     if (static_cast<int>(starts_.back().size()) * kTrialsOfWays < kLeastOfWay * trials) starts_.pop_back();
     problem.rows = starts_.size();
     problem_ = problem;
-    if (frame_.then.traps.empty() || ways_.empty()) return base::success();
-    if (const auto found = findWaysThen(problem, trials / kWaysThen); !found) return found.error();
+    if (ways_.empty()) return base::success();
+    ends_ = ways_;
+    if (!frame_.then.traps.empty()) {
+        if (const auto found = findWaysThen(problem, trials / kWaysThen); !found) return found.error();
+    }
+    problem.wanted = listWanted();
     problem_ = problem;
     return base::success();
 }
@@ -134,14 +140,13 @@ base::Status TrapTrials::findWaysThen(ChainProblem& problem, int each) {
     placeParts(batch, from, 0.0);
     const auto outcomes = runTrials(*inputs_->engine, {&batch, 1}, run_);
     if (!outcomes) return outcomes.error();
-    std::vector<base::Quaternion> ways;
+    ends_.clear();
     for (const EndMode& mode :
          findEndModes(*inputs_->part, outcomes->front(), settings().validation.tolerance, ways_.size()))
-        ways.push_back(mode.orientation);
-    problem.wanted = listWanted(ways);
+        ends_.push_back(mode.orientation);
     WayMatrix counts(rows(), WayShares(problem.columns(), 0.0));
     for (std::size_t i = 0; i < from.size(); ++i)
-        counts[from[i]][findColumn(outcomes->front()[i], ways)] += 1.0;
+        counts[from[i]][findColumn(outcomes->front()[i], ends_)] += 1.0;
     problem.then = calcChances(problem, counts);
     return base::success();
 }
@@ -235,16 +240,59 @@ base::Status TrapTrials::followParts(std::span<const TrapRow> chains, int trials
     return base::success();
 }
 
-/// Which are wanted. None if none of them is: then parts are brought to any one way, and what is wanted is
-/// left to the learning that follows.
-std::vector<std::size_t> TrapTrials::listWanted(std::span<const base::Quaternion> ways) const {
+/// Which are wanted; none where nothing is.
+std::vector<std::size_t> TrapTrials::listWanted() const {
     std::vector<std::size_t> wanted;
     const auto goal = findWanted(settings(), *inputs_->part);
-    for (std::size_t way = 0; goal && way < ways.size(); ++way) {
-        const double angle = trial::calcAngleToGoal(ways[way], *goal, inputs_->part->symmetry);
+    for (std::size_t way = 0; goal && way < ends_.size(); ++way) {
+        const double angle = trial::calcAngleToGoal(ends_[way], *goal, inputs_->part->symmetry);
         if (angle <= settings().validation.tolerance) wanted.push_back(way);
     }
     return wanted;
+}
+
+base::Status TrapTrials::checkWanted() const {
+    if (!settings().target.isSet() || !problem_.wanted.empty() || ends_.empty()) return base::success();
+    return base::Error{
+        fmt::format("Parts shall end {}, and none comes to the traps so, within {:g}°. Traps take them from "
+                    "one of the ways in which they come to another, or throw them out; these are:{}\n"
+                    "Want one of them (target.poses, target.heading_deg), or a larger angle "
+                    "(validation.tolerance_deg); or learn without a plan (evolution.firstGeneration graded).",
+                    describeTarget(settings(), *inputs_->part),
+                    settings().validation.tolerance / base::kDegree, describeEnds()),
+        base::ErrorKind::unattainable};
+}
+
+/// What can be wanted instead, a line each, the most frequent first: with what else counts as that.
+std::string TrapTrials::describeEnds() const {
+    constexpr double kPercent = 100.0;
+    const WayShares shares = calcUnturned(problem_);
+    std::vector<std::size_t> left(ends_.size());
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    std::vector<std::pair<double, std::string>> lines;
+    while (!left.empty()) {
+        const std::size_t most =
+            *std::ranges::max_element(left, {}, [&](std::size_t way) { return shares[way]; });
+        Settings instead = settings();
+        instead.target = findNearestTarget(settings(), *inputs_->part, ends_[most]);
+        const trial::Goal goal = findWanted(instead, *inputs_->part).value_or(trial::makeGoal(ends_[most]));
+        double share = 0.0;
+        std::erase_if(left, [&](std::size_t way) {
+            const double angle = trial::calcAngleToGoal(ends_[way], goal, inputs_->part->symmetry);
+            if (way != most && angle > settings().validation.tolerance) return false;
+            share += shares[way];
+            return true;
+        });
+        const std::string& heading = instead.target.heading;
+        lines.emplace_back(
+            share, fmt::format("pose {}, {}", instead.target.poses,
+                               heading == "any" ? "any heading" : fmt::format("turned to {}°", heading)));
+    }
+    std::ranges::stable_sort(lines, std::greater{}, &std::pair<double, std::string>::first);
+    std::string all;
+    for (const auto& [share, text] : lines)
+        all += fmt::format("\n  {:4.1f} % in {}", kPercent * share, text);
+    return all;
 }
 
 base::Result<std::shared_ptr<const track::Track>> TrapTrials::build(const FixedTraps& traps,

@@ -66,6 +66,10 @@ class TrapTrials {
     /// nothing comes through the grooves its ways are none.
     base::Status findWays(int trials, ChainProblem& problem);
 
+    /// ErrorKind::unattainable if something is wanted and none of those ways is: traps take parts from one of
+    /// them to another.
+    [[nodiscard]] base::Status checkWanted() const;
+
     /// So many trials more of each trap, from each way; half of them with parts that followParts() met.
     base::Status measure(std::span<const Work> works);
 
@@ -85,7 +89,8 @@ class TrapTrials {
  private:
     [[nodiscard]] const Settings& settings() const { return inputs_->settings; }
     base::Status findWaysThen(ChainProblem& problem, int each);
-    [[nodiscard]] std::vector<std::size_t> listWanted(std::span<const base::Quaternion> ways) const;
+    [[nodiscard]] std::vector<std::size_t> listWanted() const;
+    [[nodiscard]] std::string describeEnds() const;
     [[nodiscard]] TrackSettings withoutGiven() const;
     [[nodiscard]] base::Result<std::shared_ptr<const track::Track>> build(const FixedTraps& traps,
                                                                           TrackSettings shortened) const;
@@ -107,6 +112,7 @@ class TrapTrials {
     ChainProblem problem_;                         // as findWays() left it
     double fallBefore_ = 0.0;                      // of the traps before the chain [m]
     std::vector<base::Quaternion> ways_;           // in which parts lie
+    std::vector<base::Quaternion> ends_;           // likewise, behind what follows the chain
     std::vector<std::vector<base::Pose>> starts_;  // of each way, and of others; z from the groove's bottom
     std::vector<std::vector<base::Pose>> met_;     // the same, behind the traps of the best chains
 };

@@ -49,6 +49,8 @@ Result<LearningReport> learn(store::StudyFile& file, const study::StudyInputs& g
                                                      "generation. " +
                                                      end.error().message + " Restore it from a copy."};
         }
+        if (end.error().kind == base::ErrorKind::unattainable)
+            return Failure{FailureKind::settings, end.error().message};
         return Failure{kind, end.error().message};
     }
 

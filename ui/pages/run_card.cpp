@@ -272,6 +272,10 @@ void RunCard::showRun(RunState state) {
         detail = tr("Traps are tried one by one: %L1 of about %L2 trials")
                      .arg(progress.trialsDone)
                      .arg(progress.trials);
+        if (progress.wantedUnturned)
+            detail +=
+                ". " +
+                tr("%1 % of the parts come to them as wanted.").arg(qRound(100.0 * *progress.wantedUnturned));
     } else if (progress.generations > 0) {
         whole = (progress.generation + done) / progress.generations;
         detail = tr("Generation %1 of %2, individual %3 of %4")

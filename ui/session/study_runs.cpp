@@ -187,6 +187,7 @@ RunProgress StudyRuns::progress() const {
         progress.trialsDone = done - plan.doneBefore;
         progress.trials = plan.trials;
         progress.isPlanning = plan.planningFor > 0;
+        progress.wantedUnturned = plan.wantedUnturned;
         progress.trialsPerSecond = learned.trialsPerSecond;
         progress.secondsLeft = learned.secondsLeft;
     } else if (run->total > 0) {

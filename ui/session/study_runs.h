@@ -63,9 +63,10 @@ struct RunProgress {
     int individuals = 0;
     std::int64_t trialsDone = 0;  // of the present generation; of all when it does something else
     std::int64_t trials = 0;
-    double trialsPerSecond = 0.0;  // since the run began, pauses left out
-    bool isPlanning = false;       // what learning begins with
-    double secondsLeft = 0.0;      // 0 while unknown
+    double trialsPerSecond = 0.0;            // since the run began, pauses left out
+    bool isPlanning = false;                 // what learning begins with
+    std::optional<double> wantedUnturned{};  // study::GenerationPlan's
+    double secondsLeft = 0.0;                // 0 while unknown
     std::optional<FollowedJob> job{};
 };
 

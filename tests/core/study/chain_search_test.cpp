@@ -183,7 +183,7 @@ class ChainSearchTest : public QObject {
                     for (std::size_t c = 0; c < 12; c += 2) {
                         WayShares parts = search.problem().arriving;
                         for (const std::size_t i : {a, b, c})
-                            parts = search.pass(parts, search.traps()[i].chances);
+                            parts = study::pass(parts, search.traps()[i].chances);
                         most = std::max(most, search.worthOf(parts));
                     }
                 }
@@ -240,8 +240,8 @@ class ChainSearchTest : public QObject {
             double most = -1e9;
             for (std::size_t b = 1; b < 12; b += 2) {
                 for (std::size_t c = 0; c < 12; c += 2) {
-                    WayShares parts = search.pass(begun.parts, search.traps()[b].chances);
-                    parts = search.pass(parts, search.traps()[c].chances);
+                    WayShares parts = study::pass(begun.parts, search.traps()[b].chances);
+                    parts = study::pass(parts, search.traps()[c].chances);
                     most = std::max(most, search.worthOf(parts));
                 }
             }
@@ -252,7 +252,7 @@ class ChainSearchTest : public QObject {
                 QCOMPARE(chain.traps.front(), std::size_t{4});
                 QCOMPARE(chain.traps.back(), chains.front().traps.back());
                 seconds.insert(chain.traps[1]);
-                const WayShares behind = search.pass(begun.parts, search.traps()[chain.traps[1]].chances);
+                const WayShares behind = study::pass(begun.parts, search.traps()[chain.traps[1]].chances);
                 QVERIFY(search.passOn(behind, chain, 2) == chain.parts);
                 QCOMPARE(chain.worth, search.worthOf(chain.parts));
                 QVERIFY(chain.worth <= chains.front().worth);

@@ -5,6 +5,7 @@
 #include <QtTest>
 #include <cmath>
 
+#include "core/part/stable_poses.h"
 #include "core/study/runner.h"
 #include "core/study/track_design.h"
 #include "core/traps/ledge.h"
@@ -354,6 +355,31 @@ class PlanningTest : public QObject {
         const auto designs = study::planDesigns(inputs, 3, {}, {});
         VERIFY_OK(designs);
         QVERIFY(designs->empty());
+    }
+
+    // Nothing that is planned turns parts to lie as none of them comes.
+    void tellsThatNoPartComesAsItIsWanted() {
+        study::StudyInputs inputs = sieveInputs("sorting");
+        const part::NearestPose lying = part::findStablePose(*inputs.part, base::Quaternion::Identity());
+        const std::size_t other = lying.index == 0 ? 1 : 0;
+        inputs.settings.target.poses = std::to_string(other + 1);
+        inputs.settings.evolution.objectives = objectives::kWantedObjectives;
+        const auto none = study::planDesigns(inputs, 3, {}, {});
+        QVERIFY(!none.ok());
+        QCOMPARE(none.error().kind, base::ErrorKind::unattainable);
+        const QString message = QString::fromStdString(none.error().message);
+        const QString known = QString("% in pose %1, turned to ").arg(lying.index + 1);
+        QVERIFY2(message.contains("Parts shall end in stable pose " + QString::number(other + 1)),
+                 qPrintable(message));
+        QCOMPARE(message.count(known), 4);
+
+        // What it offers can be had.
+        const qsizetype at = message.indexOf(known) + known.size();
+        inputs.settings.target.poses = std::to_string(lying.index + 1);
+        inputs.settings.target.heading = message.mid(at, message.indexOf("°", at) - at).toStdString();
+        const auto designs = study::planDesigns(inputs, 3, {}, {});
+        VERIFY_OK(designs);
+        QVERIFY(!designs->empty());
     }
 
     void stopsWhenCancelled() {

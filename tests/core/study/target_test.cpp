@@ -66,6 +66,38 @@ class TargetTest : public QObject {
     Q_OBJECT
 
  private slots:
+    // Wanting what is found for an orientation wants that orientation.
+    void namesTheTargetNearestToAnOrientation() {
+        const part::Part part = cuboid();
+        study::Settings settings = wish({});
+        settings.track.traps = "groove, groove, gap";  // whose walls parts may lean on
+        for (std::size_t pose = 0; pose < part.stablePoses.size(); ++pose) {
+            for (const double heading : {0.0, 40.0, 135.0, 300.0}) {
+                for (const double lean : {0.0, -20.0}) {
+                    const base::Quaternion end(
+                        Eigen::AngleAxisd(lean * base::kDegree, base::Vec3::UnitX()) *
+                        Eigen::AngleAxisd(heading * base::kDegree, base::Vec3::UnitZ()) *
+                        part.stablePoses[pose].rotation);
+                    settings.target = study::findNearestTarget(settings, part, end);
+                    QVERIFY(settings.target.heading != "any");
+                    const auto named = study::readPoses(settings.target.poses);
+                    VERIFY_OK(named);
+                    QVERIFY(std::ranges::find(*named, static_cast<int>(pose)) != named->end());
+                    const auto goal = study::findWanted(settings, part);
+                    QVERIFY(goal.has_value());
+                    QVERIFY(trial::calcAngleToGoal(end, *goal, part.symmetry) < 0.6 * base::kDegree);
+                }
+            }
+        }
+        part::PartOptions round;
+        round.density = 1000.0;
+        const std::vector<base::Vec2> profile = {{0.0, 0.0}, {8e-3, 0.0}, {8e-3, 2e-3}, {0.0, 2e-3}};
+        const part::Part disc = part::buildPart(part::makeTurned(profile, 48), round)->part;
+        QVERIFY(disc.symmetry.continuous);
+        settings.target = study::findNearestTarget(settings, disc, disc.stablePoses.front().rotation);
+        QCOMPARE(settings.target.heading, std::string("any"));
+    }
+
     void poseNumbersAreRead_data() {
         QTest::addColumn<QString>("text");
         QTest::addColumn<QList<int>>("indices");
