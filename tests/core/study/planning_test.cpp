@@ -377,9 +377,13 @@ class PlanningTest : public QObject {
         const qsizetype at = message.indexOf(known) + known.size();
         inputs.settings.target.poses = std::to_string(lying.index + 1);
         inputs.settings.target.heading = message.mid(at, message.indexOf("°", at) - at).toStdString();
-        const auto designs = study::planDesigns(inputs, 3, {}, {});
+        std::optional<double> told;
+        const auto tell = [&](const study::GenerationPlan& plan) { told = plan.wantedUnturned; };
+        const auto designs = study::planDesigns(inputs, 3, tell, {});
         VERIFY_OK(designs);
         QVERIFY(!designs->empty());
+        QVERIFY(told.has_value());
+        QVERIFY2(std::abs(*told - 0.25) < 0.05, qPrintable(QString::number(*told)));
     }
 
     void stopsWhenCancelled() {
