@@ -148,7 +148,8 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || surface || settingsFile || paper || sorting || ledges || time || beginWith || behind;
+           contact || surface || settingsFile || paper || sorting || ledges || hanging || time || beginWith ||
+           behind;
 }
 
 bool SettingOptions::given() const {
@@ -192,12 +193,22 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "ledges behind them that throw out the others")
             .excludes(paper)
             .excludes(sorting);
+    const Option hanging =
+        command
+            .addFlag(
+                "--slots", options.hanging,
+                "A track for parts with a head, a collar or one thick end, in proportion to the part: in "
+                "its slots they hang by that end, and leave all the same way round")
+            .excludes(paper)
+            .excludes(sorting)
+            .excludes(ledges);
     const Option time =
         command
             .addOption(
                 "--time", options.time,
                 "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
-                "part (unless --sorting or --ledges says it), and how much of it for this time on this "
+                "part (unless --sorting, --ledges or --slots says it), and how much of it for this time on "
+                "this "
                 "machine")
             .type("DURATION")
             .excludes(paper);
@@ -209,7 +220,8 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "what follows: so that what is learned need not be learned again where friction, drive or "
                 "what is wanted is another")
             .type("STUDY");
-    for (const Option& other : {preset, part, contact, surface, settings, paper, sorting, ledges, time})
+    for (const Option& other :
+         {preset, part, contact, surface, settings, paper, sorting, ledges, hanging, time})
         beginWith.excludes(other);
     Option behind =
         command
@@ -374,15 +386,18 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
         if (!applied) return applied.error();
     }
     if (seconds) {
-        auto idea = creation.sorting  ? std::optional(workflow::TrackIdea::gaps)
-                    : creation.ledges ? std::optional(workflow::TrackIdea::ledges)
-                                      : std::nullopt;
+        auto idea = creation.sorting   ? std::optional(workflow::TrackIdea::gaps)
+                    : creation.ledges  ? std::optional(workflow::TrackIdea::ledges)
+                    : creation.hanging ? std::optional(workflow::TrackIdea::hanging)
+                                       : std::nullopt;
         auto proposed = propose(*applied, loaded->part, *seconds, creation.threads, idea, console);
         if (!proposed) return proposed.error();
         applied = applySettings(*proposed, options);
         if (!applied) return applied.error();
-    } else if (creation.sorting || creation.ledges) {
-        const auto mode = creation.sorting ? study::sortingMode : study::ledgeMode;
+    } else if (creation.sorting || creation.ledges || creation.hanging) {
+        const auto mode = creation.sorting  ? study::sortingMode
+                          : creation.ledges ? study::ledgeMode
+                                            : study::slotMode;
         *settings = mode(*settings, *loaded->part);
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();

@@ -24,6 +24,7 @@ struct CreationOptions {
     bool paper = false;
     bool sorting = false;
     bool ledges = false;
+    bool hanging = false;
     std::optional<std::string> time;  // that the user has: "10min"
     unsigned threads = 0;             // which it is for; 0: all processors
     // A study whose part, settings and tracks it begins with; instead of all of the above.
@@ -58,9 +59,9 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
 /// True if anything changed.
 Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options);
 
-/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting`, `ledges` or what
-/// is proposed for `time`, the single settings.
-/// Refuses settings that cannot be used, and a part that does not fit the track.
+/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting`, `ledges`, `hanging` or
+/// what is proposed for `time`, the single settings. Refuses settings that cannot be used, and a part that
+/// does not fit the track.
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& settings, const Console& console);
 

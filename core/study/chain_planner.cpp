@@ -112,6 +112,7 @@ std::int64_t estimateEnd(const EvolutionSettings& settings) {
     return kTraps * trials;
 }
 
+constexpr int kTrialsOfSample = 600;  // that tell the ways
 constexpr std::string_view kStopped = "The planning was stopped.";
 constexpr double kBitsOfRightAlone = 1.0;  // of halving: log2(right / staying) + log2(staying)
 
@@ -272,6 +273,35 @@ class ChainPlanner {
             if (2.0 * seconds < budget && count < kMostTraps) continue;
             return seconds / static_cast<double>(std::max<std::int64_t>(1, control_.run.done() - before));
         }
+    }
+
+    /// What so many traps at random do by themselves; the best of them are measured again.
+    base::Result<AloneSample> tryAlone(int count) {
+        const ChainProblem& problem = search_.problem();
+        AloneSample sample;
+        if (problem.ways == 0) return sample;
+        const auto mostOf = [&](const WayShares& parts) {
+            return *std::max_element(parts.begin(),
+                                     parts.begin() + static_cast<std::ptrdiff_t>(problem.ways));
+        };
+        const double coming = 1.0 - problem.arriving[problem.stuck()] - problem.arriving[problem.fallen()];
+        sample.unturned = mostOf(problem.arriving) / coming;
+        base::Random random({settings().evolution.seed, 0, 0, 0, base::Purpose::planning});
+        std::vector<KnownTrap> tried;
+        for (int i = 0; i < count; ++i)
+            tried.push_back(drawTrap(static_cast<std::size_t>(i) % frame().kinds.size(), random));
+        for (const int each : {kFirstTrials, kMoreTrials}) {
+            std::vector<Work> works;
+            for (KnownTrap& trap : tried)
+                works.push_back({&trap, shareTrials(each)});
+            if (const auto measured = trials_.measure(works); !measured) return measured.error();
+            std::ranges::stable_sort(tried, std::greater(), [&](const KnownTrap& trap) {
+                return mostOf(pass(problem.arriving, trap.chances));
+            });
+            tried.resize(std::min(tried.size(), kPromising));
+        }
+        sample.best = mostOf(pass(problem.arriving, tried.front().chances)) / coming;
+        return sample;
     }
 
     [[nodiscard]] std::size_t rows() const { return trials_.rows(); }
@@ -608,14 +638,28 @@ base::Result<std::vector<search::Design>> planChain(const StudyInputs& inputs, c
 
 base::Result<ChainSample> sampleChain(const StudyInputs& inputs, const traps::TrapChain& chain,
                                       const ChainAim& aim, double budget, const base::RunControl& control) {
-    constexpr int kTrials = 600;
     LearningControl counting;
     counting.run = control;
     ChainPlanner planner(inputs, chain, aim, {}, counting);
-    if (const auto found = planner.findWays(kTrials); !found) return found.error();
+    if (const auto found = planner.findWays(kTrialsOfSample); !found) return found.error();
     const auto each = planner.timeTraps(budget);
     if (!each) return each.error();
     return ChainSample{static_cast<int>(planner.rows()), *each};
+}
+
+base::Result<AloneSample> sampleTraps(const StudyInputs& inputs, const traps::TrapChain& chain, int traps,
+                                      const base::RunControl& control) {
+    LearningControl counting;
+    counting.run = control;
+    ChainPlanner planner(inputs, chain, {}, {}, counting);
+    if (const auto found = planner.findWays(kTrialsOfSample); !found) return found.error();
+    return planner.tryAlone(traps);
+}
+
+std::int64_t estimateSampleTrials(int traps, int ways) {
+    const std::int64_t each = std::min(ways, static_cast<int>(kMostShared));
+    return kTrialsOfSample +
+           each * (std::int64_t{traps} * kFirstTrials + std::int64_t{kPromising} * kMoreTrials);
 }
 
 std::int64_t estimateTrapTrials(const EvolutionSettings& settings, int ways) {

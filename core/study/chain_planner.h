@@ -8,6 +8,7 @@
 #include "core/base/result.h"
 #include "core/search/design_space.h"
 #include "core/study/evaluator.h"
+#include "core/study/planning.h"
 #include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
@@ -46,6 +47,12 @@ struct ChainSample {
 /// Errors: engine, cancelled.
 base::Result<ChainSample> sampleChain(const StudyInputs& inputs, const traps::TrapChain& chain,
                                       const ChainAim& aim, double budget, const base::RunControl& control);
+
+/// As planning.h's sampleAlone, of this chain's traps.
+base::Result<AloneSample> sampleTraps(const StudyInputs& inputs, const traps::TrapChain& chain, int traps,
+                                      const base::RunControl& control);
+/// Trials that this takes where parts lie in so many ways. An estimate.
+std::int64_t estimateSampleTrials(int traps, int ways);
 
 /// Trials of traps by themselves that a plan takes where parts lie in so many ways. An estimate.
 std::int64_t estimateTrapTrials(const EvolutionSettings& settings, int ways);

@@ -19,8 +19,8 @@ namespace trapwright::study {
 /// chains.
 
 /// Why a chain of these traps cannot be planned; empty if it can. It begins with two grooves, in which parts
-/// come to lie down and to move on, and goes on with drops, cut-outs and gaps; or all of it are ledges, of
-/// which the first is left whole, also behind a trap that is given; or ledges follow such grooves.
+/// come to lie down and to move on, and goes on with drops, cut-outs, gaps and slots; or all of it are
+/// ledges, of which the first is left whole, also behind a trap that is given; or ledges follow such grooves.
 std::string findPlanningProblem(const TrackSettings& settings);
 
 /// The best chains that were found, at most `most`, best first, no two alike: by the disorder of the parts'
@@ -50,6 +50,16 @@ struct PlanningSample {
 /// settings must be those of a planned study. Errors: engine, cancelled.
 base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double budget,
                                             const base::RunControl& control);
+/// What traps at random do by themselves with the parts that come to the first trap.
+struct AloneSample {
+    double best = 0.0;      // share of the parts that the best trap leaves in one way
+    double unturned = 0.0;  // largest share that comes in one way
+};
+/// Tries so many of the settings' traps, all in grooves, and the best of them again; nothing but 0 where no
+/// parts come through the grooves. The settings must be those of a planned study. Errors: engine, cancelled.
+base::Result<AloneSample> sampleAlone(const StudyInputs& inputs, int traps, const base::RunControl& control);
+/// Trials that this takes where parts lie in so many ways. An estimate.
+std::int64_t estimateAloneTrials(int traps, int ways);
 /// Trials of traps by themselves that a plan takes where parts lie in so many ways; 0 if these settings plan
 /// none. An estimate. `ledgesFollow`: as in PlanningSample.
 std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways, bool ledgesFollow = false);

@@ -34,6 +34,11 @@ Settings turningMode(Settings settings, const part::Part& part);
 /// plan, and time for parts to go all the way. Lengths are whole half millimetres.
 Settings sortingMode(Settings settings, const part::Part& part);
 
+/// Changes settings to those of a track in whose slots parts hang by their thicker end, so that it leads or
+/// follows as they leave them, in proportion to the part: sortingMode with three slots instead of gaps
+/// and a wall on either side (decisions.md#slot). Lengths are whole half millimetres.
+Settings slotMode(Settings settings, const part::Part& part);
+
 /// Changes settings to those of a track that lets one way pass, in proportion to the part: gaps that bring as
 /// many parts as they can to one way (sortingMode), and ledges behind them that throw out the others;
 /// planned, then exchanged trap by trap, judged by how few of the parts that leave it are wrong, and how many

@@ -131,13 +131,14 @@ std::vector<std::string> findTrackProblems(const TrackSettings& track) {
                            shown(track.maxSegmentLength, FileUnit::millimetre) + ".");
     }
     if (const auto chain = traps::readTraps(track.traps)) {
-        const auto least = static_cast<int>(track::kLeastSpiralPoints);
-        const bool hasLedge = std::ranges::any_of(*chain, &traps::TrapKind::isLedge);
-        // With a spiral too it is told once, by the spiral.
-        if (hasLedge && track.spiral.width <= 0.0 && track.pointsPerSection < least)
-            problems.push_back(
-                fmt::format("track.pointsPerSection is {}; a ledge with its wall needs at least {}.",
-                            track.pointsPerSection, least));
+        // Of ledges beside a spiral it is told once, by the spiral.
+        const auto needed = [&](const traps::TrapKind* kind) {
+            return kind->isLedge && track.spiral.width > 0.0 ? 0 : kind->leastPoints;
+        };
+        const traps::TrapKind* most = std::ranges::max(*chain, {}, needed);
+        if (track.pointsPerSection < needed(most))
+            problems.push_back(fmt::format("track.pointsPerSection is {}; the trap {} needs at least {}.",
+                                           track.pointsPerSection, most->key, most->leastPoints));
     }
     if (const auto given = readSections(track.given); given && !given->empty()) {
         const auto points = static_cast<int>(given->front().points.size());

@@ -18,6 +18,9 @@ constexpr double kShortestEdge = 0.5e-3;  // along the track, because sections m
 constexpr double kLongestEdge = 6e-3;     // [m]
 constexpr double kSteepestLedgeWall = 60.0 * base::kDegree;
 constexpr double kMostFloor = 20.0 * base::kDegree;  // of a ledge, across the track
+constexpr double kSlotSide = 0.1e-3;                 // across the track [m]
+constexpr int kPointsOfSlot = 6;    // of a section: on either side the track's edge, the slot's, its foot
+constexpr double kRounding = 1e-9;  // [m]
 // Of each number: 0.2 mm, 0.7 degrees. Finer ones would have a mutated bit change nothing that a part feels.
 constexpr int kBits = 7;
 
@@ -31,6 +34,8 @@ struct Form {
     double inclined = 0.0;        // as a whole, positive: down towards the outer edge [rad]
     double middle = 0.0;          // y of its bottom [m]
     double cut = 0.0;  // how much of the track's width is cut away: from its outer edge, negative: inner [m]
+    double slotWidth = 0.0;  // of a slot along the groove's middle [m]
+    double slotDepth = 0.0;  // below its bottom [m]
 };
 
 double restingLength(const TrapParameters& parameters) {
@@ -53,7 +58,9 @@ class Course {
         for (int j = 0; j < parameters_->pointsPerSection; ++j) {
             const double y = placeOf(j, form);
             const double across = y - form.middle;
-            const double z = bottom_ + wall * std::abs(across) + slope * across;
+            const bool isFloor = form.slotWidth > 0.0 && std::abs(across) <= 0.5 * form.slotWidth + kRounding;
+            const double z =
+                isFloor ? bottom_ - form.slotDepth : bottom_ + wall * std::abs(across) + slope * across;
             section.points.emplace_back(y, std::clamp(z, 0.0, parameters_->segmentHeight));
         }
         sections_.push_back(std::move(section));
@@ -80,11 +87,25 @@ class Course {
         const int last = parameters_->pointsPerSection - 1;
         const int lowest = parameters_->pointsPerSection / 2;
         if (last < 2) return point == 0 ? inner : outer;
+        if (form.slotWidth > 0.0) return placeBesideSlot(point, form);
         // Where the bottom itself is cut away, all points are on the wall that is left.
         if (form.middle <= inner || form.middle >= outer)
             return within(inner, outer, static_cast<double>(point) / last);
         if (point <= lowest) return within(inner, form.middle, static_cast<double>(point) / lowest);
         return within(form.middle, outer, static_cast<double>(point - lowest) / (last - lowest));
+    }
+
+    /// From either of the track's edges to the slot's, down its side, and its floor.
+    [[nodiscard]] double placeBesideSlot(int point, const Form& form) const {
+        const int last = parameters_->pointsPerSection - 1;
+        const int rails = std::max(0, parameters_->pointsPerSection / 2 - 2);  // the last point beside it
+        const double sign = 2 * point < last ? -1.0 : 1.0;
+        const int fromEdge = std::min(point, last - point);
+        const double foot = 0.5 * form.slotWidth;
+        if (2 * point == last) return 0.0;
+        if (fromEdge > rails) return sign * foot;
+        return sign * within(0.5 * parameters_->segmentWidth, foot + kSlotSide,
+                             static_cast<double>(fromEdge) / std::max(1, rails));
     }
 
     const TrapParameters* parameters_;
@@ -277,6 +298,64 @@ double longestCutOut(const TrapParameters& parameters) {
     return 2.0 * parameters.maxSegmentLength + 2.0 * kShortestEdge + restingLength(parameters);
 }
 
+/// How wide a slot can be, and how deep.
+double widestSlot(const TrapParameters& parameters) {
+    return parameters.segmentWidth / 3.0;
+}
+
+double deepestSlot(const TrapParameters& parameters) {
+    return parameters.maxSegmentLength;
+}
+
+std::vector<search::Dimension> dimensionsOfSlot(const TrapParameters& parameters) {
+    constexpr double kMillimetres = 1.0 / base::kMillimetre;
+    const double edge = kMillimetres * kShortestEdge;
+    const double longest = kMillimetres * parameters.maxSegmentLength;
+    return {lengthOf("before, length", parameters),
+            angleOf("fall", -kSteepestRise, kSteepestFall),
+            angleOf("walls", 0.0, kSteepestWall),
+            {"width", "mm", 0.0, kMillimetres * widestSlot(parameters), kBits},
+            {"depth", "mm", 0.0, kMillimetres * deepestSlot(parameters), kBits},
+            {"beginning", "mm", edge, longest, kBits},
+            {"length", "mm", kMillimetres * parameters.minSegmentLength, 2.0 * longest, kBits},
+            {"end", "mm", edge, longest, kBits},
+            {"step", "mm", 0.0, kMillimetres * deepestSlot(parameters), kBits}};
+}
+
+std::vector<track::CrossSection> buildSlot(const TrapParameters& parameters, const track::CrossSection& entry,
+                                           std::span<const double> numbers) {
+    const double longest = parameters.maxSegmentLength;
+    const double fall = within(-kSteepestRise, kSteepestFall, numbers[1]);
+    Form form{within(0.0, kSteepestWall, numbers[2])};
+    form.slotWidth = within(0.0, widestSlot(parameters), numbers[3]);
+    Form slot = form;
+    slot.slotDepth = within(0.0, deepestSlot(parameters), numbers[4]);
+    // Shut the slot's floor is as its rails are, so that nothing is left of it.
+    form.slotDepth = -0.5 * form.slotWidth * std::tan(form.walls);
+    Course course(parameters, entry);
+    course.add(within(parameters.minSegmentLength, longest, numbers[0]), fall, form);
+    course.add(within(kShortestEdge, longest, numbers[5]), fall, slot);
+    course.add(within(parameters.minSegmentLength, 2.0 * longest, numbers[6]), fall, slot);
+    const double end = within(kShortestEdge, longest, numbers[7]);
+    course.fallBy(within(0.0, deepestSlot(parameters), numbers[8]), end, form);
+    course.rest();
+    return course.take();
+}
+
+std::vector<double> layOutSlot(const TrapParameters& parameters) {
+    std::vector<double> places{restingLength(parameters)};
+    for (const double next : {within(kShortestEdge, parameters.maxSegmentLength, 0.5),
+                              within(parameters.minSegmentLength, 2.0 * parameters.maxSegmentLength, 0.5),
+                              within(kShortestEdge, parameters.maxSegmentLength, 0.5),
+                              0.5 * restingLength(parameters), 0.5 * restingLength(parameters)})
+        places.push_back(places.back() + next);
+    return places;
+}
+
+double longestSlot(const TrapParameters& parameters) {
+    return 5.0 * parameters.maxSegmentLength + restingLength(parameters);
+}
+
 }  // namespace
 
 TrapKind groove() {
@@ -332,6 +411,20 @@ TrapKind gap() {
             &longestCutOut,
             nullptr,
             true};
+}
+
+TrapKind slot() {
+    return {"slot",
+            "Slot",
+            "A slot along the groove's middle, in which parts hang by their thicker end.",
+            &dimensionsOfSlot,
+            &buildSlot,
+            &layOutSlot,
+            &longestSlot,
+            nullptr,
+            true,
+            false,
+            kPointsOfSlot};
 }
 
 }  // namespace trapwright::traps

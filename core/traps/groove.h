@@ -40,4 +40,12 @@ TrapKind cutOut();
 /// falls (learning.md). Its eight numbers are a cut-out's and the step's height.
 TrapKind gap();
 
+/// A slot along the groove's middle, between two rails: what is thinner than it is wide sinks in, and hangs
+/// by what is thicker, a head or a collar, whichever end came first. Where the rails fall again, or the
+/// slot's floor rises, it leans over and lies down, all alike (decisions.md#slot): the craft's device for
+/// headed parts (Boothroyd 2005, chapter 3). Nine numbers: length before it, fall, how steep the walls beside
+/// it are, how wide and how deep it is, how long its beginning is, it itself, and its end, and how much lower
+/// the track is behind it. A groove in which parts lie down again ends it. Of at least six points a section.
+TrapKind slot();
+
 }  // namespace trapwright::traps

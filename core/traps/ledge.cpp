@@ -201,7 +201,8 @@ TrapKind ledge() {
             &longest,
             nullptr,
             false,
-            true};
+            true,
+            static_cast<int>(track::kLeastSpiralPoints)};
 }
 
 }  // namespace trapwright::traps

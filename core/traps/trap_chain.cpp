@@ -52,8 +52,8 @@ Repeated readRepeated(std::string_view word) {
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 9> kinds = {freeForm(), step(),     groove(),  drop(), cutOut(),
-                                                  gap(),      narrowed(), notched(), ledge()};
+    static const std::array<TrapKind, 10> kinds = {freeForm(), step(), groove(),   drop(),    cutOut(),
+                                                   gap(),      slot(), narrowed(), notched(), ledge()};
     return kinds;
 }
 

@@ -54,9 +54,11 @@ struct TrapKind {
                                   double probability, base::Random& random) = nullptr;
     /// Behind it parts lie in the groove of groove.h, so that what it does with them can be told by itself.
     bool endsInGroove = false;
-    /// It shapes a spiral's ledge beside its wall: it has that form before anything is chosen, needs
-    /// track::kLeastSpiralPoints a section, and parts come to it and leave it along the wall.
+    /// It shapes a spiral's ledge beside its wall: it has that form before anything is chosen, and parts come
+    /// to it and leave it along the wall.
     bool isLedge = false;
+    /// Points a section of which its form can be made.
+    int leastPoints = 2;
 };
 
 /// The kinds that there are. A new one is its own file and its entry in trap_chain.cpp.

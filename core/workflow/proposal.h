@@ -15,6 +15,7 @@ enum class TrackIdea {
     turning,  // turns them over, on a free-form trap (study::turningMode)
     gaps,     // throws them out by gaps (study::sortingMode)
     ledges,   // the same, and by ledges behind the gaps (study::ledgeMode)
+    hanging,  // lets them hang in slots, so that their thicker end comes one way (study::slotMode)
 };
 
 /// What is to be learned for a part in the time that the user has.
@@ -28,8 +29,9 @@ struct Proposal {
 inline constexpr double kShortestTime = 60.0;
 
 /// Chooses by the part how a track is learned, unless that is `asked` for, and by the time how much of it
-/// (decisions.md#automatic-settings): a part that looks another way with its other end in front is sorted,
-/// any other is turned, with lengths in proportion to the part. Population, trials and generations are as
+/// (decisions.md#automatic-settings): a part that looks another way with its other end in front hangs in
+/// slots if some slots that are tried show that this brings most of it one way, or else is sorted; any other
+/// is turned. Lengths are in proportion to the part. Population, trials and generations are as
 /// many as take `seconds`, by trials that are timed on this machine for a few seconds. Drive, contact,
 /// engine, seed and all that is not learning stay as they are in `inputs`. Errors: less than kShortestTime,
 /// a part for which not even the smallest search fits, settings or part that cannot be used, engine,

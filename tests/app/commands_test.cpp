@@ -160,6 +160,25 @@ class CommandsTest : public QObject {
         QVERIFY(both.errors.contains("--sorting"));
     }
 
+    // Planned like gaps, and a slot is not made of fewer points than it has.
+    void slotMode() {
+        QCOMPARE(ask({"new", "slots.trap", "--part", "bolt", "--slots"}).code, 0);
+        const QJsonObject settings = ask({"settings", "slots.trap", "--json"}).json();
+        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, 3 x slot");
+        QCOMPARE(settings["evolution"].toObject()["objectives"].toString(), "sorting");
+        QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "planned");
+        for (const char* other : {"--sorting", "--ledges", "--paper"}) {
+            const Ran both = ask({"new", "both.trap", "--part", "bolt", "--slots", other});
+            QCOMPARE(both.code, 2);
+            QVERIFY(both.errors.contains("--slots"));
+        }
+        const Ran few =
+            ask({"new", "few.trap", "--part", "bolt", "--slots", "--set", "track.pointsPerSection=5"});
+        QCOMPARE(few.code, 2);
+        QVERIFY2(few.errors.contains("track.pointsPerSection is 5; the trap slot needs at least 6."),
+                 few.errors.constData());
+    }
+
     // Gaps and ledges in proportion to the part, planned; ledges also behind a track that is there.
     void ledgeMode() {
         QCOMPARE(ask({"new", "ledges.trap", "--part", "bracket", "--ledges"}).code, 0);
@@ -219,7 +238,8 @@ class CommandsTest : public QObject {
         QCOMPARE(settings["evolution"].toObject()["generations"].toInt(), 3);
 
         // How it is learned can be the user's, and only how much of it goes by the time.
-        for (const auto& [idea, last] : {std::pair("--sorting", "gap"), std::pair("--ledges", "ledge")}) {
+        for (const auto& [idea, last] :
+             {std::pair("--sorting", "gap"), std::pair("--ledges", "ledge"), std::pair("--slots", "slot")}) {
             const std::string name = std::string("asked") + idea + ".trap";
             const Ran asked = ask(
                 {"new", name.c_str(), "--part", "wedge", "--engine", "native", "--time", "1h30min", idea});

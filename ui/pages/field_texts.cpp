@@ -47,7 +47,7 @@ const RawText kTexts[] = {
     {"track.spiralInclination_deg", TEXT("Ledges lean out"), TEXT("How steeply a ledge falls toward its wall, so that parts come along the wall: that of the spiral and those among the traps.")},
     {"track.chuteLength_mm", TEXT("Chute"), TEXT("How long a chute behind the lead-out is, along the track: the last cross-section, falling. The finish line is then in its middle, and parts count as they lie on it. 0: none.")},
     {"track.chuteAngle_deg", TEXT("Chute falls by"), TEXT("How steeply. Parts slide by themselves where its tangent is more than the friction; vibration helps them.")},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, ledges, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, slots, ledges, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
     {"track.given", TEXT("Given trap"), TEXT("Cross-sections that the traps follow: those of a track that was learned before and stays as it is. Change in a new study, Add a rejecting trap, sets them.")},
     {"track.returns", TEXT("What falls off"), TEXT("Where parts that fall off the track come again because they fall back into the bowl or a tray: nowhere, at one side, anywhere. What falls elsewhere is lost."), {TEXT("Is lost"), TEXT("Returns inside"), TEXT("Returns outside"), TEXT("Returns")}},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
@@ -71,8 +71,8 @@ const RawText kTexts[] = {
     {"evolution.strategyScope", TEXT("Rates adapt"), TEXT("What has crossover and mutation rates of its own, that adapt themselves: each individual, as in the paper, or each of its genes (points, single numbers, strategy values)."), {TEXT("Individual"), TEXT("Gene by gene")}},
     {"evolution.smoothingLimit", TEXT("Most smoothing"), TEXT("The share of points that may be smoothed away at most; 1 in the paper.")},
     {"evolution.mutationFloor", TEXT("Least mutation"), TEXT("The least that the chance which adapts itself can be; 0 in the paper.")},
-    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops, cut-outs and gaps are tried by themselves first, and learning begins with the best chains of them; or half of it tracks of another study, as Change in a new study on this page takes them along."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned"), TEXT("Known tracks")}},
-    {"evolution.plannedTraps", TEXT("Planned traps"), TEXT("How many drops, cut-outs and gaps are tried by themselves before a planned first generation. It takes most of the time; more find better chains.")},
+    {"evolution.firstGeneration", TEXT("First generation"), TEXT("From nearly level tracks to rough ones, so that parts come through from the start; or all at random, as in the paper; or planned: drops, cut-outs, gaps and slots are tried by themselves first, and learning begins with the best chains of them; or half of it tracks of another study, as Change in a new study on this page takes them along."), {TEXT("Level to rough"), TEXT("At random"), TEXT("Planned"), TEXT("Known tracks")}},
+    {"evolution.plannedTraps", TEXT("Planned traps"), TEXT("How many drops, cut-outs, gaps and slots are tried by themselves before a planned first generation. It takes most of the time; more find better chains.")},
     {"evolution.conditions", TEXT("Learn under"), TEXT("Whether every part meets what is set here, or each another friction, restitution, stroke and size out of the operating box. Tracks learned so hold where the real feeder is not quite what was set."), {TEXT("As set"), TEXT("Varied")}},
     {"evolution.cornerShare", TEXT("Share in corners"), TEXT("How many of the parts that meet varied conditions meet corners of the operating box, where every condition is at an end of its range: least friction with least stroke, say. 0: none. Best from late generations on, when good tracks have all other trials right; the objective corners has to count then.")},
     {"evolution.cornersFrom", TEXT("Corners from"), TEXT("The generation from which the share in corners applies; 0: from the first. Learn in corners, after some generations, sets it.")},
@@ -194,10 +194,10 @@ std::vector<Choice> trapChoices() {
     };
     for (const traps::TrapKind& kind : traps::trapKinds())
         add(std::string(kind.key));
-    for (const char* chain :
-         {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
-          "groove, 10 x drop", "groove, groove, 8 x gap", "groove, groove, 8 x cut-out", "2 x narrowed",
-          "narrowed, notched", "free-form, narrowed", "10 x ledge"})
+    for (const char* chain : {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop",
+                              "groove, 6 x drop", "groove, 10 x drop", "groove, groove, 8 x gap",
+                              "groove, groove, 3 x slot", "groove, groove, 8 x cut-out", "2 x narrowed",
+                              "narrowed, notched", "free-form, narrowed", "10 x ledge"})
         add(chain);
     return choices;
 }

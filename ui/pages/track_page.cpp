@@ -139,6 +139,10 @@ QWidget* TrackPage::makeHead() {
         menu->addAction(tr("Let only one way pass, over gaps and ledges, in proportion to the part"));
     ledges->setObjectName("preset.ledges");
     connect(ledges, &QAction::triggered, this, &TrackPage::useLedges);
+    QAction* hanging =
+        menu->addAction(tr("Let parts with a head hang by it in slots, in proportion to the part"));
+    hanging->setObjectName("preset.slots");
+    connect(hanging, &QAction::triggered, this, &TrackPage::useSlots);
     menu->addSeparator();
     QAction* paper = menu->addAction(tr("The paper's own choices throughout"));
     paper->setObjectName("preset.paper");
@@ -483,6 +487,11 @@ void TrackPage::useSorting() {
 void TrackPage::useLedges() {
     if (!design_ || !design_->part()) return;
     edit(study::ledgeMode(design_->settings(), *design_->part()), tr("Let only one way pass"));
+}
+
+void TrackPage::useSlots() {
+    if (!design_ || !design_->part()) return;
+    edit(study::slotMode(design_->settings(), *design_->part()), tr("Let parts hang in slots"));
 }
 
 void TrackPage::showTitle() {

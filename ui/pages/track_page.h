@@ -52,6 +52,7 @@ class TrackPage : public Page {
     void usePaperMode();
     void useSorting();
     void useLedges();
+    void useSlots();
     void useFullLearning();
     void useDraft();
     void propose(double seconds, const QString& what);

@@ -1,6 +1,7 @@
 // What every kind of trap must do, whichever it is, and what is a step's own.
 
 #include <QtTest>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -43,7 +44,7 @@ class TrapKindsTest : public QObject {
         for (const traps::TrapKind& kind : traps::trapKinds())
             QTest::newRow(kind.key.data()) << QString::fromUtf8(kind.key.data());
         QTest::newRow("several") << "step, free-form,step, groove, drop,drop, cut-out, narrowed, cut-out, "
-                                    "gap, narrowed, notched, 2 x notched, ledge, 2 x ledge";
+                                    "gap, slot, narrowed, notched, 2 x notched, ledge, 2 x ledge";
     }
     void everyKindGivesATrack() {
         QFETCH(QString, chain);
@@ -271,6 +272,72 @@ class TrapKindsTest : public QObject {
                                                    .arg(1e3 * ridge.length)
                                                    .arg(step)
                                                    .arg(cut)));
+                QVERIFY(geometry::findThinWalls(solid.mesh, {}).empty());
+            }
+        }
+    }
+
+    void aSlotOpensBetweenTwoRails() {
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const traps::TrapKind slot = traps::slot();
+        const auto dimensions = slot.dimensions(parameters);
+        QCOMPARE(dimensions.size(), std::size_t{9});
+        QCOMPARE(dimensions[3].high, 20.0);
+        QCOMPARE(dimensions[4].high, 36.0);
+        // 25.5 mm before it, falling by 8 degrees, walls of 21; 5 mm wide and 18 deep, open after 18.25 mm,
+        // for 43.5; shut again after 18.25 mm, 9 mm lower.
+        const std::vector<double> numbers = {0.5, 0.5, 0.5, 0.25, 0.5, 0.5, 0.5, 0.5, 0.25};
+        const double entry = 120e-3;
+        const auto sections = slot.build(parameters, traps::levelSection(parameters, entry), numbers);
+        QCOMPARE(sections.size(), std::size_t{6});
+        const double fall = std::tan(8.0 * base::kDegree);
+        const double wall = std::tan(21.0 * base::kDegree);
+        const std::array<double, 4> xs = {25.5e-3, 43.75e-3, 87.25e-3, 105.5e-3};
+        for (std::size_t i = 0; i < xs.size(); ++i) {
+            const bool isOpen = i == 1 || i == 2;
+            const double rails = entry - fall * xs[std::min<std::size_t>(i, 2)] - (i == 3 ? 9e-3 : 0.0);
+            QVERIFY(std::abs(sections[i].x - xs[i]) < 1e-12);
+            QCOMPARE(sections[i].points.front().x(), -30e-3);
+            QCOMPARE(sections[i].points.back().x(), 30e-3);
+            for (std::size_t j = 0; j < 9; ++j) {
+                const base::Vec2& point = sections[i].points[j];
+                const bool isFloor = j >= 3 && j <= 5;
+                const double high = isFloor ? (isOpen ? -18e-3 : wall * 2.5e-3) : wall * std::abs(point.x());
+                QVERIFY(std::abs(point.y() - rails - high) < 1e-12);
+            }
+            for (const std::size_t side : {3, 5})
+                QVERIFY(std::abs(std::abs(sections[i].points[side].x()) - 2.5e-3) < 1e-12);
+            for (const std::size_t side : {2, 6})
+                QVERIFY(std::abs(std::abs(sections[i].points[side].x()) - 2.6e-3) < 1e-12);
+        }
+        // No width: a groove.
+        std::vector<double> shut = numbers;
+        shut[3] = 0.0;
+        for (const track::CrossSection& section :
+             slot.build(parameters, traps::levelSection(parameters, entry), shut))
+            QCOMPARE(section.points[4].y(), traps::findLowest(section));
+    }
+
+    void aSlotCanBePrinted() {
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const track::CrossSection before = traps::levelSection(parameters, 120e-3);
+        for (const double end : {0.0, 1.0}) {
+            for (const double step : {0.0, 0.5, 1.0}) {
+                std::vector<track::CrossSection> sections = traps::slot().build(
+                    parameters, before, std::vector<double>{0.5, 0.5, 0.5, 0.5, 0.5, 0.0, 0.5, end, step});
+                sections.insert(sections.begin(), before);
+                const track::FeederShape linear;
+                const auto solid = track::buildTrackSolid(linear, sections, 20e-3);
+                for (const geometry::SharpRidge& ridge : geometry::findSharpRidges(solid.mesh, {}))
+                    QVERIFY2(false, qPrintable(QString("%1 degrees over %2 mm, end %3, step %4")
+                                                   .arg(ridge.angle / base::kDegree)
+                                                   .arg(1e3 * ridge.length)
+                                                   .arg(end)
+                                                   .arg(step)));
                 QVERIFY(geometry::findThinWalls(solid.mesh, {}).empty());
             }
         }

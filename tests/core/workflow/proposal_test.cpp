@@ -21,6 +21,28 @@ study::StudyInputs inputsFor(const char* name) {
     return inputs;
 }
 
+/// Bolts lie along the track with either end ahead, and a slot as deep as this turns all of them tip first.
+trial::PartOutcome hangingLaw(const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+    constexpr double kDeep = 8e-3;
+    constexpr double kWidest = 12e-3;
+    const track::Track& track = *batch.track;
+    // The bolt's axis is z, from its head to its tip.
+    bool isTipFirst = (spec.parts.front().pose.rotation * base::Vec3::UnitZ()).x() >= 0.0;
+    for (const track::CrossSection& section : track.sections) {
+        const std::size_t middle = section.points.size() / 2;
+        const base::Vec2 rail = section.points[middle - 2] - section.points[middle];
+        isTipFirst = isTipFirst || (rail.y() > kDeep && -rail.x() < 0.5 * kWidest);
+    }
+    trial::PartOutcome outcome;
+    outcome.initial = {spec.parts.front().pose.rotation, {track.start, 0.0, 0.0}};
+    outcome.farthest.position = {track.finish, 0.0, 0.0};
+    outcome.farthest.rotation = base::Quaternion::FromTwoVectors(
+        base::Vec3::UnitZ(), isTipFirst ? base::Vec3::UnitX() : base::Vec3(-base::Vec3::UnitX()));
+    outcome.ending = trial::Ending::finished;
+    outcome.time = 1.0;
+    return outcome;
+}
+
 }  // namespace
 
 /// What is proposed for a part and for the time that the user has.
@@ -79,14 +101,26 @@ class ProposalTest : public QObject {
     void whatIsAskedForIsProposed() {
         const study::StudyInputs inputs = inputsFor("clip");
         using workflow::TrackIdea;
-        for (const auto& [idea, traps] :
-             {std::pair{TrackIdea::turning, "free-form"},
-              std::pair{TrackIdea::gaps, "groove, groove, 8 x gap"},
-              std::pair{TrackIdea::ledges, "groove, groove, 8 x gap, 6 x ledge"}}) {
+        for (const auto& [idea, traps] : {std::pair{TrackIdea::turning, "free-form"},
+                                          std::pair{TrackIdea::gaps, "groove, groove, 8 x gap"},
+                                          std::pair{TrackIdea::ledges, "groove, groove, 8 x gap, 6 x ledge"},
+                                          std::pair{TrackIdea::hanging, "groove, groove, 3 x slot"}}) {
             const auto proposal = workflow::proposeSettings(inputs, 36000.0, {}, idea);
             QVERIFY(proposal.ok());
             QCOMPARE(proposal->settings.track.traps, traps);
         }
+    }
+
+    // Some slots are tried; with the law of fitsThePartAndTheTime() no part hangs in them.
+    void partsThatHangAreHung() {
+        study::StudyInputs inputs = inputsFor("bolt");
+        inputs.engine = std::make_shared<fake::FakeEngine>(hangingLaw);
+        const auto proposal = workflow::proposeSettings(inputs, 3600.0, {});
+        QVERIFY2(proposal.ok(), proposal.ok() ? "" : proposal.error().message.c_str());
+        QCOMPARE(proposal->settings.track.traps, std::string("groove, groove, 3 x slot"));
+        QVERIFY(proposal->settings.evolution.plannedTraps <= 3000);
+        QVERIFY2(proposal->reasons.front().find("hangs in a slot") != std::string::npos,
+                 proposal->reasons.front().c_str());
     }
 
     // Whose ends balance is told so.

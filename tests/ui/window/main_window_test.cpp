@@ -156,6 +156,10 @@ class MainWindowTest : public QObject {
         QVERIFY(ledges.track.spiral.wall > 1e-3);
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
+        user.action("preset.slots")->trigger();
+        QCOMPARE(user.session()->design().settings().track.traps, std::string("groove, groove, 3 x slot"));
+        QVERIFY(user.session()->design().problems().empty());
+        user.action("edit.undo")->trigger();
         QVERIFY(user.session()->design().settings() == before);
     }
 
