@@ -288,10 +288,13 @@ class ChainPlanner {
         sample.unturned = mostOf(problem.arriving) / coming;
         base::Random random({settings().evolution.seed, 0, 0, 0, base::Purpose::planning});
         std::vector<KnownTrap> tried;
-        for (int i = 0; i < count; ++i)
-            tried.push_back(drawTrap(static_cast<std::size_t>(i) % frame().kinds.size(), random));
+        const auto traps = static_cast<std::size_t>(count);
+        tried.reserve(traps);
+        for (std::size_t i = 0; i < traps; ++i)
+            tried.push_back(drawTrap(i % frame().kinds.size(), random));
         for (const int each : {kFirstTrials, kMoreTrials}) {
             std::vector<Work> works;
+            works.reserve(tried.size());
             for (KnownTrap& trap : tried)
                 works.push_back({&trap, shareTrials(each)});
             if (const auto measured = trials_.measure(works); !measured) return measured.error();

@@ -59,11 +59,13 @@ base::Result<std::vector<Tried>> tryTraps(const study::StudyInputs& inputs, int 
     for (int i = 0; i < count; ++i) {
         study::WayMatrix counts(trials.rows(), study::WayShares(problem.columns(), 0.0));
         std::vector<double> numbers;
+        numbers.reserve(dimensions.size());
         for (const search::Dimension& dimension : dimensions)
             numbers.push_back(search::drawNumber(dimension, random));
         traps.push_back({0, std::move(numbers), std::move(counts), {}, 0.0});
     }
     std::vector<study::Work> works;
+    works.reserve(traps.size());
     for (study::KnownTrap& trap : traps)
         works.push_back({&trap, std::vector<int>(trials.rows(), each)});
     if (const auto measured = trials.measure(works); !measured) return measured.error();
