@@ -217,12 +217,6 @@ Settings sortingMode(Settings settings, const part::Part& part) {
 Settings slotMode(Settings settings, const part::Part& part) {
     settings = sortingMode(std::move(settings), part);
     settings.track.traps = "groove, groove, 3 x slot";
-    // Nothing is to be thrown out. Without walls one screw in twenty rolls off the lead-in, and beside walls
-    // that are far apart it is stuck where the groove begins, as it rises there. So the track is narrow.
-    settings.track.segmentWidth = scaleLength(30e-3, 8.9e-3, part);
-    const double wall = scaleLength(6e-3, 8.9e-3, part);
-    settings.track.walls = {std::max(settings.track.walls.inner, wall),
-                            std::max(settings.track.walls.outer, wall)};
     settings.evolution.plannedTraps = 600;
     return settings;
 }

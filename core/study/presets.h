@@ -36,7 +36,7 @@ Settings sortingMode(Settings settings, const part::Part& part);
 
 /// Changes settings to those of a track in whose slots parts hang by their thicker end, so that it leads or
 /// follows as they leave them, in proportion to the part: sortingMode with three slots instead of gaps
-/// and a wall on either side (decisions.md#slot). Lengths are whole half millimetres.
+/// (decisions.md#slot). Lengths are whole half millimetres.
 Settings slotMode(Settings settings, const part::Part& part);
 
 /// Changes settings to those of a track that lets one way pass, in proportion to the part: gaps that bring as

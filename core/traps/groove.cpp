@@ -300,7 +300,7 @@ double longestCutOut(const TrapParameters& parameters) {
 
 /// How wide a slot can be, and how deep.
 double widestSlot(const TrapParameters& parameters) {
-    return parameters.segmentWidth / 3.0;
+    return parameters.segmentWidth / 6.0;
 }
 
 double deepestSlot(const TrapParameters& parameters) {

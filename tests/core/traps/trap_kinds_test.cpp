@@ -284,11 +284,11 @@ class TrapKindsTest : public QObject {
         const traps::TrapKind slot = traps::slot();
         const auto dimensions = slot.dimensions(parameters);
         QCOMPARE(dimensions.size(), std::size_t{9});
-        QCOMPARE(dimensions[3].high, 20.0);
+        QCOMPARE(dimensions[3].high, 10.0);
         QCOMPARE(dimensions[4].high, 36.0);
         // 25.5 mm before it, falling by 8 degrees, walls of 21; 5 mm wide and 18 deep, open after 18.25 mm,
         // for 43.5; shut again after 18.25 mm, 9 mm lower.
-        const std::vector<double> numbers = {0.5, 0.5, 0.5, 0.25, 0.5, 0.5, 0.5, 0.5, 0.25};
+        const std::vector<double> numbers = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.25};
         const double entry = 120e-3;
         const auto sections = slot.build(parameters, traps::levelSection(parameters, entry), numbers);
         QCOMPARE(sections.size(), std::size_t{6});
