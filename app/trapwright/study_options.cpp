@@ -208,8 +208,7 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "--time", options.time,
                 "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
                 "part (unless --sorting, --ledges or --slots says it), and how much of it for this time on "
-                "this "
-                "machine")
+                "this machine")
             .type("DURATION")
             .excludes(paper);
     Option beginWith =

@@ -650,7 +650,7 @@ base::Result<ChainSample> sampleChain(const StudyInputs& inputs, const traps::Tr
     return ChainSample{static_cast<int>(planner.rows()), *each};
 }
 
-base::Result<AloneSample> sampleTraps(const StudyInputs& inputs, const traps::TrapChain& chain, int traps,
+base::Result<AloneSample> sampleAlone(const StudyInputs& inputs, const traps::TrapChain& chain, int traps,
                                       const base::RunControl& control) {
     LearningControl counting;
     counting.run = control;
@@ -659,7 +659,7 @@ base::Result<AloneSample> sampleTraps(const StudyInputs& inputs, const traps::Tr
     return planner.tryAlone(traps);
 }
 
-std::int64_t estimateSampleTrials(int traps, int ways) {
+std::int64_t estimateAloneTrials(int traps, int ways) {
     const std::int64_t each = std::min(ways, static_cast<int>(kMostShared));
     return kTrialsOfSample +
            each * (std::int64_t{traps} * kFirstTrials + std::int64_t{kPromising} * kMoreTrials);

@@ -8,7 +8,6 @@
 #include "core/base/result.h"
 #include "core/search/design_space.h"
 #include "core/study/evaluator.h"
-#include "core/study/planning.h"
 #include "core/traps/trap_chain.h"
 
 namespace trapwright::study {
@@ -48,11 +47,17 @@ struct ChainSample {
 base::Result<ChainSample> sampleChain(const StudyInputs& inputs, const traps::TrapChain& chain,
                                       const ChainAim& aim, double budget, const base::RunControl& control);
 
-/// As planning.h's sampleAlone, of this chain's traps.
-base::Result<AloneSample> sampleTraps(const StudyInputs& inputs, const traps::TrapChain& chain, int traps,
+/// What traps at random do by themselves with the parts that come to the first one.
+struct AloneSample {
+    double best = 0.0;      // share of the parts that the best trap leaves in one way
+    double unturned = 0.0;  // largest share that comes in one way
+};
+/// Tries so many of the chain's traps, and the best of them again; nothing but 0 where no parts come through
+/// the grooves. The settings' chain is it. Errors: engine, cancelled.
+base::Result<AloneSample> sampleAlone(const StudyInputs& inputs, const traps::TrapChain& chain, int traps,
                                       const base::RunControl& control);
 /// Trials that this takes where parts lie in so many ways. An estimate.
-std::int64_t estimateSampleTrials(int traps, int ways);
+std::int64_t estimateAloneTrials(int traps, int ways);
 
 /// Trials of traps by themselves that a plan takes where parts lie in so many ways. An estimate.
 std::int64_t estimateTrapTrials(const EvolutionSettings& settings, int ways);

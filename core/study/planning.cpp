@@ -133,8 +133,7 @@ std::string findPlanningProblem(const TrackSettings& settings) {
     if (isRight) return {};
     return fmt::format(
         "Traps can be planned that begin with two grooves and go on with drops, cut-outs, gaps and slots, as "
-        "in "
-        "\"groove, groove, 3 x gap\", with ledges behind them or not, or that are all ledges, as in \"4 x "
+        "in \"groove, groove, 3 x gap\", with ledges behind them or not, or that are all ledges, as in \"4 x "
         "ledge\"; these are \"{}\".",
         settings.traps);
 }
@@ -153,14 +152,6 @@ base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double bu
     const auto sample = sampleChain(first, before, aim, budget, control);
     if (!sample) return sample.error();
     return PlanningSample{sample->ways, sample->seconds, !ledges.empty()};
-}
-
-base::Result<AloneSample> sampleAlone(const StudyInputs& inputs, int traps, const base::RunControl& control) {
-    return sampleTraps(inputs, traps::readTraps(inputs.settings.track.traps).value(), traps, control);
-}
-
-std::int64_t estimateAloneTrials(int traps, int ways) {
-    return estimateSampleTrials(traps, ways);
 }
 
 std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways, bool ledgesFollow) {

@@ -50,16 +50,6 @@ struct PlanningSample {
 /// settings must be those of a planned study. Errors: engine, cancelled.
 base::Result<PlanningSample> samplePlanning(const StudyInputs& inputs, double budget,
                                             const base::RunControl& control);
-/// What traps at random do by themselves with the parts that come to the first trap.
-struct AloneSample {
-    double best = 0.0;      // share of the parts that the best trap leaves in one way
-    double unturned = 0.0;  // largest share that comes in one way
-};
-/// Tries so many of the settings' traps, all in grooves, and the best of them again; nothing but 0 where no
-/// parts come through the grooves. The settings must be those of a planned study. Errors: engine, cancelled.
-base::Result<AloneSample> sampleAlone(const StudyInputs& inputs, int traps, const base::RunControl& control);
-/// Trials that this takes where parts lie in so many ways. An estimate.
-std::int64_t estimateAloneTrials(int traps, int ways);
 /// Trials of traps by themselves that a plan takes where parts lie in so many ways; 0 if these settings plan
 /// none. An estimate. `ledgesFollow`: as in PlanningSample.
 std::int64_t estimatePlanningTrials(const EvolutionSettings& settings, int ways, bool ledgesFollow = false);

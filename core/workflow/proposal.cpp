@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/part/stable_poses.h"
+#include "core/study/chain_planner.h"
 #include "core/study/planning.h"
 #include "core/study/presets.h"
 #include "core/workflow/estimate.h"
@@ -119,7 +120,8 @@ base::Result<std::optional<FittedIdea>> fitSlots(const study::StudyInputs& input
     if (trying > kShareToTry * seconds) return std::optional<FittedIdea>();
     study::StudyInputs proposed = inputs;
     proposed.settings = (*slots)->settings;
-    const auto alone = study::sampleAlone(proposed, kSlotsToTry, control);
+    const auto alone = study::sampleAlone(proposed, traps::readTraps(proposed.settings.track.traps).value(),
+                                          kSlotsToTry, control);
     if (!alone) return alone.error();
     if (alone->best < std::max(kHangs, kHangsMore * alone->unturned)) return std::optional<FittedIdea>();
     (*slots)->alone = *alone;
@@ -176,8 +178,8 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
             fitted.alone
                 ? fmt::format(
                       "{}, and hangs in a slot by its thicker end: of {} slots tried by "
-                      "themselves one brings {:.0f} % of the parts to lie one way, which {:.0f} "
-                      "% come in at most",
+                      "themselves one brings {:.0f} % of the parts to lie one way, where {:.0f} % come in "
+                      "the most frequent one",
                       looks, kSlotsToTry, kPercent * fitted.alone->best, kPercent * fitted.alone->unturned)
                 : std::string("As you asked, parts hang by their thicker end");
         proposal.reasons.push_back(

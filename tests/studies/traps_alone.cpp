@@ -87,7 +87,7 @@ base::Result<std::vector<Tried>> tryTraps(const study::StudyInputs& inputs, int 
 }  // namespace
 
 int main(int count, char** arguments) {
-    if (count != 5) {
+    if (count != 5 || readNumber<int>(arguments[2]) < 1 || readNumber<int>(arguments[3]) < 1) {
         fmt::print(stderr, "traps_alone STUDY COUNT EACH SEED\n");
         return 2;
     }
