@@ -76,7 +76,7 @@ void addPrintOptions(Command command, PrintRequest& request) {
     };
     add("--base-thickness", request.baseThickness, "Below the lowest valley (default: the study's)");
     add("--wall-height", request.wallHeight,
-        "Of both side walls, above the highest hill (0: those that the track has)");
+        "Of both side walls, above what is highest beside them (0: those that the track has)");
     add("--wall-thickness", request.wallThickness, "Of the side walls, at least (2)");
     add("--rim", request.rim,
         "Beyond a border to which the surface rises so steeply that its edge would be too sharp to print, "

@@ -15,6 +15,7 @@
 #include "app/trapwright/track_subject.h"
 #include "core/base/file.h"
 #include "core/base/parallel.h"
+#include "core/part/stable_poses.h"
 #include "core/study/evaluator.h"
 #include "core/study/field_text.h"
 #include "core/study/presets.h"
@@ -29,6 +30,26 @@
 namespace trapwright::app {
 
 namespace {
+
+struct IdeaFlag {
+    const char* name;
+    workflow::TrackIdea idea;
+    const char* help;
+};
+constexpr std::array<IdeaFlag, 4> kIdeaFlags = {
+    {{"--sorting", workflow::TrackIdea::gaps,
+      "A track that throws out what lies wrong, in proportion to the part: for parts that nothing turns into "
+      "one way"},
+     {"--ledges", workflow::TrackIdea::ledges,
+      "A track that lets one way pass, in proportion to the part: gaps that bring parts to it, and ledges "
+      "behind them that throw out the others"},
+     {"--slots", workflow::TrackIdea::hanging,
+      "A track for parts with a head, a collar or one thick end, in proportion to the part: in its slots "
+      "they "
+      "hang by that end, and leave all the same way round"},
+     {"--rails", workflow::TrackIdea::rails,
+      "The same with one slot that goes on to the track's end: parts leave hanging between its rails, their "
+      "thicker end up, and that is what is wanted"}}};
 
 bool isText(const std::string& key) {
     static const std::vector<study::FieldInfo> fields = study::listFields();
@@ -123,6 +144,12 @@ Attempt<study::Settings> startingSettings(const CreationOptions& creation) {
     return settings;
 }
 
+std::optional<workflow::TrackIdea> askedIdea(const CreationOptions& creation) {
+    for (std::size_t i = 0; i < kIdeaFlags.size(); ++i)
+        if (creation.ideas[i]) return kIdeaFlags[i].idea;
+    return std::nullopt;
+}
+
 /// Without another word of the user the part is what the settings say it is.
 PartRequest completeRequest(PartRequest request, const study::Settings& settings,
                             const CreationOptions& creation) {
@@ -148,8 +175,8 @@ PartRequest completeRequest(PartRequest request, const study::Settings& settings
 
 bool CreationOptions::given() const {
     return preset || !part.part.empty() || part.units || part.density || part.material || part.tolerance ||
-           contact || surface || settingsFile || paper || sorting || ledges || hanging || time || beginWith ||
-           behind;
+           contact || surface || settingsFile || paper || std::ranges::find(ideas, true) != ideas.end() ||
+           time || beginWith || behind;
 }
 
 bool SettingOptions::given() const {
@@ -178,37 +205,21 @@ void addCreationOptions(Command command, CreationOptions& options) {
                                               "Settings in JSON, as `trapwright settings` prints them");
     const Option paper =
         command.addFlag("--paper", options.paper, "The paper's own choices where the defaults go past it");
-    const Option sorting =
-        command
-            .addFlag(
-                "--sorting", options.sorting,
-                "A track that throws out what lies wrong, in proportion to the part: for parts that nothing "
-                "turns into one way")
-            .excludes(paper);
-    const Option ledges =
-        command
-            .addFlag(
-                "--ledges", options.ledges,
-                "A track that lets one way pass, in proportion to the part: gaps that bring parts to it, and "
-                "ledges behind them that throw out the others")
-            .excludes(paper)
-            .excludes(sorting);
-    const Option hanging =
-        command
-            .addFlag(
-                "--slots", options.hanging,
-                "A track for parts with a head, a collar or one thick end, in proportion to the part: in "
-                "its slots they hang by that end, and leave all the same way round")
-            .excludes(paper)
-            .excludes(sorting)
-            .excludes(ledges);
+    std::vector<Option> ideas{paper};  // what there is instead of the defaults, each without the others
+    for (std::size_t i = 0; i < kIdeaFlags.size(); ++i) {
+        Option flag = command.addFlag(kIdeaFlags[i].name, options.ideas[i], kIdeaFlags[i].help);
+        for (const Option& other : ideas)
+            flag.excludes(other);
+        ideas.push_back(flag);
+    }
     const Option time =
         command
             .addOption(
                 "--time", options.time,
                 "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
-                "part (unless --sorting, --ledges or --slots says it), and how much of it for this time on "
-                "this machine")
+                "part (unless --sorting, --ledges, --slots or --rails says it), and how much of it for this "
+                "time "
+                "on this machine")
             .type("DURATION")
             .excludes(paper);
     Option beginWith =
@@ -219,8 +230,9 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "what follows: so that what is learned need not be learned again where friction, drive or "
                 "what is wanted is another")
             .type("STUDY");
-    for (const Option& other :
-         {preset, part, contact, surface, settings, paper, sorting, ledges, hanging, time})
+    for (const Option& other : {preset, part, contact, surface, settings, time})
+        beginWith.excludes(other);
+    for (const Option& other : ideas)
         beginWith.excludes(other);
     Option behind =
         command
@@ -229,7 +241,9 @@ void addCreationOptions(Command command, CreationOptions& options) {
                        "study, with its part and its settings (its chosen track, or else its best), or of a "
                        "track's file, with --part or --preset")
             .type("STUDY|TRACK");
-    for (const Option& other : {paper, sorting, ledges, time, beginWith})
+    for (const Option& other : {time, beginWith})
+        behind.excludes(other);
+    for (const Option& other : ideas)
         behind.excludes(other);
 }
 
@@ -384,20 +398,19 @@ Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOpt
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }
+    const std::optional<workflow::TrackIdea> idea = askedIdea(creation);
     if (seconds) {
-        auto idea = creation.sorting   ? std::optional(workflow::TrackIdea::gaps)
-                    : creation.ledges  ? std::optional(workflow::TrackIdea::ledges)
-                    : creation.hanging ? std::optional(workflow::TrackIdea::hanging)
-                                       : std::nullopt;
         auto proposed = propose(*applied, loaded->part, *seconds, creation.threads, idea, console);
         if (!proposed) return proposed.error();
         applied = applySettings(*proposed, options);
         if (!applied) return applied.error();
-    } else if (creation.sorting || creation.ledges || creation.hanging) {
-        const auto mode = creation.sorting  ? study::sortingMode
-                          : creation.ledges ? study::ledgeMode
-                                            : study::slotMode;
-        *settings = mode(*settings, *loaded->part);
+    } else if (idea) {
+        *settings = workflow::applyIdea(*idea, std::move(*settings), *loaded->part);
+        if (*idea == workflow::TrackIdea::rails && !part::findHanging(*loaded->part))
+            console.note(
+                fmt::format("--rails: {} is not wider above its centre of mass than below it, and may "
+                            "tip over. Say with --set target.poses=N how it shall leave.",
+                            loaded->stored.options.name));
         applied = applySettings(*settings, options);
         if (!applied) return applied.error();
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,9 +23,8 @@ struct CreationOptions {
     std::optional<std::string> surface;       // of the track, for the part's material
     std::optional<std::string> settingsFile;  // JSON
     bool paper = false;
-    bool sorting = false;
-    bool ledges = false;
-    bool hanging = false;
+    // How the track is learned, one of them at most: --sorting, --ledges, --slots, --rails.
+    std::array<bool, 4> ideas{};
     std::optional<std::string> time;  // that the user has: "10min"
     unsigned threads = 0;             // which it is for; 0: all processors
     // A study whose part, settings and tracks it begins with; instead of all of the above.
@@ -59,8 +59,8 @@ Attempt<study::Settings> applySettings(study::Settings settings, const SettingOp
 /// True if anything changed.
 Attempt<bool> changeSettings(OpenStudy& study, const SettingOptions& options);
 
-/// Makes the study file: preset, then `paper`, the settings file, the part, `sorting`, `ledges`, `hanging` or
-/// what is proposed for `time`, the single settings. Refuses settings that cannot be used, and a part that
+/// Makes the study file: preset, then `paper`, the settings file, the part, what is asked of
+/// `ideas` or proposed for `time`, the single settings. Refuses settings that cannot be used, and a part that
 /// does not fit the track.
 Attempt<store::StudyFile> createStudy(const std::string& path, const CreationOptions& creation,
                                       const SettingOptions& settings, const Console& console);

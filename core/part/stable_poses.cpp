@@ -1,8 +1,10 @@
 #include "core/part/stable_poses.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace trapwright::part {
@@ -330,6 +332,26 @@ LengthInPose findUnevenLength(const Part& part) {
         if (length.offset * uneven.length > uneven.offset * length.length) uneven = length;
     }
     return uneven;
+}
+
+std::optional<base::Quaternion> findHanging(const Part& part) {
+    constexpr double kAsWide = 0.9;  // of the greatest distance from the axis
+    constexpr double kAbove = 0.05;  // the centre of mass, in bounding radii
+    if (part.symmetry.sphere) return std::nullopt;
+    const Eigen::SelfAdjointEigenSolver<base::Mat3> inertia(part.massProperties.inertia);
+    const Vec3 axis = inertia.eigenvectors().col(0);
+    const auto radiusOf = [&](const Vec3& vertex) { return axis.cross(vertex).norm(); };
+    const double widest = radiusOf(*std::ranges::max_element(part.hull.vertices, {}, radiusOf));
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Vec3& vertex : part.hull.vertices) {
+        if (radiusOf(vertex) < kAsWide * widest) continue;
+        low = std::min(low, axis.dot(vertex));
+        high = std::max(high, axis.dot(vertex));
+    }
+    const double above = std::max(low, -high);
+    if (above < kAbove * part.boundingRadius) return std::nullopt;
+    return base::Quaternion::FromTwoVectors(low > 0.0 ? axis : Vec3(-axis), Vec3::UnitZ());
 }
 
 }  // namespace trapwright::part

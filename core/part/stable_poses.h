@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -69,5 +70,10 @@ LengthInPose findLength(const Part& part, const StablePose& pose);
 /// the one in which the centre of mass is farthest from the middle, as a share of the length: the more, the
 /// more easily a track tells which end comes first (learning.md).
 LengthInPose findUnevenLength(const Part& part);
+
+/// How a part hangs between two rails (decisions.md#rails): its longest axis, that of the least inertia,
+/// upright and all of where it is widest about that above its centre of mass. None of a part that is not so,
+/// as one that is as wide at either end: it would tip over.
+std::optional<base::Quaternion> findHanging(const Part& part);
 
 }  // namespace trapwright::part

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/resources.h"
+#include "core/study/target.h"
 #include "core/study/track_design.h"
 #include "core/traps/groove.h"
 
@@ -217,7 +218,24 @@ Settings sortingMode(Settings settings, const part::Part& part) {
 Settings slotMode(Settings settings, const part::Part& part) {
     settings = sortingMode(std::move(settings), part);
     settings.track.traps = "groove, groove, 3 x slot";
+    // Nothing is to be thrown out. Without walls one screw in twenty rolls off the lead-in, and beside walls
+    // that are far apart it is stuck where the groove begins, as that rises there. So the track is narrow.
+    settings.track.segmentWidth = scaleLength(30e-3, 8.9e-3, part);
+    const double wall = scaleLength(6e-3, 8.9e-3, part);
+    settings.track.walls = {std::max(settings.track.walls.inner, wall),
+                            std::max(settings.track.walls.outer, wall)};
     settings.evolution.plannedTraps = 600;
+    return settings;
+}
+
+Settings railsMode(Settings settings, const part::Part& part) {
+    settings = slotMode(std::move(settings), part);
+    settings.track.traps = "groove, groove, rails";
+    settings.track.segmentHeight = scaleLength(120e-3, 8.9e-3, part);  // three traps do not fall far
+    if (const TargetSettings hanging = findHangingTarget(part); hanging.isSet()) settings.target = hanging;
+    settings.evolution.firstGeneration = search::ga::FirstGeneration::graded;
+    settings.evolution.populationSize = 60;
+    settings.evolution.generations = 6;
     return settings;
 }
 

@@ -39,6 +39,11 @@ Settings sortingMode(Settings settings, const part::Part& part);
 /// (decisions.md#slot). Lengths are whole half millimetres.
 Settings slotMode(Settings settings, const part::Part& part);
 
+/// Changes settings to those of a track that parts leave hanging between two rails, their thicker end up, and
+/// wants them so (findHangingTarget): slotMode with rails behind the grooves, without a plan, as rails at
+/// random often bring most parts to hang (decisions.md#rails). Lengths are whole half millimetres.
+Settings railsMode(Settings settings, const part::Part& part);
+
 /// Changes settings to those of a track that lets one way pass, in proportion to the part: gaps that bring as
 /// many parts as they can to one way (sortingMode), and ledges behind them that throw out the others;
 /// planned, then exchanged trap by trap, judged by how few of the parts that leave it are wrong, and how many

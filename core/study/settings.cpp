@@ -50,7 +50,8 @@ bool operator==(const TrackSettings& a, const TrackSettings& b) {
 }
 
 bool operator==(const TargetSettings& a, const TargetSettings& b) {
-    return a.poses == b.poses && a.heading == b.heading && isSame(a.orientation, b.orientation);
+    return a.poses == b.poses && a.heading == b.heading && isSame(a.orientation, b.orientation) &&
+           a.orientationTurns == b.orientationTurns;
 }
 
 bool operator==(const SimulationSettings& a, const SimulationSettings& b) {

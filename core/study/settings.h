@@ -125,6 +125,7 @@ struct TargetSettings {
     // In which they are turned about the vertical, from how the part has them: "any", or an angle in degrees.
     std::string heading = "any";
     std::optional<base::Quaternion> orientation{};  // part frame to track frame; instead of poses
+    bool orientationTurns = false;  // that orientation counts however it is turned about the vertical
 
     [[nodiscard]] bool isSet() const { return !poses.empty() || orientation.has_value(); }
 

@@ -162,6 +162,7 @@ void visitFields(Visitor& v, SettingsType& s) {
 
     v.text("target.poses", s.target.poses);
     v.rotation("target.orientation", s.target.orientation);
+    v.flag("target.orientationTurns", s.target.orientationTurns);
     v.text("target.heading_deg", s.target.heading);
 
     v.count({"validation.selectionWinners", 1, 10000}, s.validation.selectionWinners);

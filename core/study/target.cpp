@@ -19,6 +19,8 @@ namespace trapwright::study {
 namespace {
 
 constexpr std::string_view kAny = "any";
+constexpr std::string_view kInAnyHeading = " in any heading";
+constexpr double kSame = 0.5 * base::kDegree;
 constexpr int kMostPoses = 1000000;
 
 std::optional<int> readNumber(std::string_view text) {
@@ -149,7 +151,7 @@ std::vector<int> findWantedGroups(const TargetSettings& target, std::span<const 
 
 std::optional<trial::Goal> findWanted(const Settings& settings, const part::Part& part) {
     const TargetSettings& target = settings.target;
-    if (target.orientation) return trial::makeGoal(*target.orientation);
+    if (target.orientation) return trial::Goal{{{*target.orientation, target.orientationTurns}}};
     if (!target.isSet()) return std::nullopt;
     const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
     const auto heading = readHeading(target.heading);
@@ -179,6 +181,7 @@ std::string describeTarget(const Settings& settings, const part::Part& part) {
     if (!target.isSet()) return "in whatever way most do";
     if (target.orientation) {
         std::string text = "in " + nameOrientation(*target.orientation);
+        if (target.orientationTurns) text += std::string(kInAnyHeading);
         if (part.stablePoses.empty()) return text;
         const part::NearestPose nearest = part::findStablePose(part, *target.orientation);
         return fmt::format("{}, {:.0f}° from stable pose {}", text, nearest.angle / base::kDegree,
@@ -197,7 +200,6 @@ std::string describeTarget(const Settings& settings, const part::Part& part) {
 TargetSettings findNearestTarget(const Settings& settings, const part::Part& part,
                                  const base::Quaternion& orientation) {
     constexpr int kCircle = 360;
-    constexpr double kSame = 0.5 * base::kDegree;
     const double lean = findLean(settings.track);
     TargetSettings nearest;
     double least = std::numeric_limits<double>::max();
@@ -221,19 +223,45 @@ TargetSettings findNearestTarget(const Settings& settings, const part::Part& par
     return nearest;
 }
 
+TargetSettings findHangingTarget(const part::Part& part) {
+    TargetSettings target;
+    const auto hanging = part::findHanging(part);
+    if (!hanging) return target;
+    const part::NearestPose nearest = part::findStablePose(part, *hanging);
+    if (nearest.angle > kSame) {
+        target.orientation = hanging;
+        target.orientationTurns = true;
+        return target;
+    }
+    const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
+    const int group = part::findPoseGroup(groups, static_cast<int>(nearest.index));
+    target.poses = part::namePoses(groups[static_cast<std::size_t>(group)].poses);
+    return target;
+}
+
+bool wantsHanging(const Settings& settings, const part::Part& part) {
+    const auto wanted = findWanted(settings, part);
+    const auto hanging = part::findHanging(part);
+    return wanted && hanging && std::ranges::any_of(wanted->orientations, [&](const auto& one) {
+               return one.anyHeading && trial::calcTiltAngle(*hanging, one.rotation, part.symmetry) <=
+                                            settings.validation.tolerance;
+           });
+}
+
 std::string describeGoal(const trial::Goal& goal, const part::Part& part) {
     const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
     std::string text;
     for (const trial::GoalOrientation& one : goal.orientations) {
         if (!text.empty()) text += " or ";
-        if (!one.anyHeading || groups.empty()) {
+        const part::NearestPose nearest =
+            groups.empty() ? part::NearestPose{} : part::findStablePose(part, one.rotation);
+        if (!one.anyHeading || groups.empty() || nearest.angle > kSame) {
             text += nameOrientation(one.rotation);
         } else {
-            const auto pose = static_cast<int>(part::findStablePose(part, one.rotation).index);
-            const int group = part::findPoseGroup(groups, pose);
-            text += fmt::format("stable pose {} in any heading",
-                                part::namePoses(groups[static_cast<std::size_t>(group)].poses));
+            const int group = part::findPoseGroup(groups, static_cast<int>(nearest.index));
+            text += "stable pose " + part::namePoses(groups[static_cast<std::size_t>(group)].poses);
         }
+        if (one.anyHeading) text += kInAnyHeading;
         if (one.lean > 0.0) text += describeLean(one.lean);
     }
     return text;

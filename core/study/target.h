@@ -49,6 +49,13 @@ std::string describeTarget(const Settings& settings, const part::Part& part);
 TargetSettings findNearestTarget(const Settings& settings, const part::Part& part,
                                  const base::Quaternion& orientation);
 
+/// Parts that hang between rails (part::findHanging): the stable pose that they are in then, in any heading,
+/// or the orientation, if they have no such pose. Nothing is wanted of a part that would tip over.
+TargetSettings findHangingTarget(const part::Part& part);
+
+/// Whether parts that hang so are right, in any heading.
+bool wantsHanging(const Settings& settings, const part::Part& part);
+
 /// What counted as success, for people: "the orientation (w, x, y, z) = ...", "stable pose 3-4 in any
 /// heading", several with "or" between them.
 std::string describeGoal(const trial::Goal& goal, const part::Part& part);

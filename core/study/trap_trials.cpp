@@ -257,9 +257,14 @@ base::Status TrapTrials::checkWanted() const {
         fmt::format("Parts shall end {}, and none comes to the traps so, within {:g}°. Traps take them from "
                     "one of the ways in which they come to another, or throw them out; these are:{}\n"
                     "Want one of them (target.poses, target.heading_deg), or a larger angle "
-                    "(validation.tolerance_deg); or learn without a plan (evolution.firstGeneration graded).",
+                    "(validation.tolerance_deg); or learn without a plan (evolution.firstGeneration "
+                    "graded).{}",
                     describeTarget(settings(), *inputs_->part),
-                    settings().validation.tolerance / base::kDegree, describeEnds()),
+                    settings().validation.tolerance / base::kDegree, describeEnds(),
+                    wantsHanging(settings(), *inputs_->part)
+                        ? "\nAs it is wanted this part hangs by its thicker end: rails may bring it so "
+                          "(\"groove, groove, rails\")."
+                        : ""),
         base::ErrorKind::unattainable};
 }
 

@@ -38,7 +38,7 @@ struct Row {
 };
 
 bool hasRim(const PrintOutline& outline, double Rims::*side) {
-    const bool hasWall = (side == &Rims::inner ? outline.innerWallTop : outline.outerWallTop).has_value();
+    const bool hasWall = (side == &Rims::inner ? outline.innerWall : outline.outerWall).has_value();
     return !hasWall && std::ranges::any_of(outline.rims, [&](const Rims& rims) { return rims.*side > 0.0; });
 }
 
@@ -51,6 +51,15 @@ Rims rimsAt(std::span<const Rims> rims, double x) {
     const Rims& last = *std::prev(next);
     const double share = (x - last.x) / (next->x - last.x);
     return {x, std::lerp(last.inner, next->inner, share), std::lerp(last.outer, next->outer, share)};
+}
+
+/// In proportion between the two sections next to it.
+double crestAt(std::span<const base::Vec2> crest, double x) {
+    const auto next = std::ranges::lower_bound(crest, x, {}, [](const base::Vec2& at) { return at.x(); });
+    if (next == crest.begin()) return crest.front().y();
+    if (next == crest.end()) return crest.back().y();
+    const base::Vec2& last = *std::prev(next);
+    return std::lerp(last.y(), next->y(), (x - last.x()) / (next->x() - last.x()));
 }
 
 /// Whether the surface's border from one place to another and the upright side below it are too sharp, with
@@ -74,7 +83,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
     } else {
         posts.emplace_back();
     }
-    if (outline.innerWallTop) {
+    if (outline.innerWall) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 2, next + 1}, {}});
         next += 2;
@@ -89,7 +98,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
     for (int j = 1; j < surfacePoints; ++j, ++next)
         posts.push_back({{next}, {next}});
     topology.lastSurface = next - 1;
-    if (outline.outerWallTop) {
+    if (outline.outerWall) {
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
         next += 2;
@@ -113,17 +122,18 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
     const double innerBorder = section.points.front().x();
     const double outerBorder = section.points.back().x();
     const Rims rims = rimsAt(outline.rims, section.x);
-    const double innerSide = outline.innerWallTop ? outline.innerSide : innerBorder - rims.inner;
-    const double outerSide = outline.outerWallTop ? outline.outerSide : outerBorder + rims.outer;
+    const double innerSide = outline.innerWall ? outline.innerSide : innerBorder - rims.inner;
+    const double outerSide = outline.outerWall ? outline.outerSide : outerBorder + rims.outer;
+    const auto topOf = [&](double wall) { return crestAt(outline.crest, section.x) + wall + rise; };
     Row row;
     if (outline.innerFlange) {
         row.top.emplace_back(*outline.innerFlange, outline.flangeTop);
         row.top.emplace_back(innerSide, outline.flangeTop);
         row.base.push_back(*outline.innerFlange);
     }
-    if (outline.innerWallTop) {
-        row.top.emplace_back(innerSide, *outline.innerWallTop + rise);
-        row.top.emplace_back(innerBorder, *outline.innerWallTop + rise);
+    if (outline.innerWall) {
+        row.top.emplace_back(innerSide, topOf(*outline.innerWall));
+        row.top.emplace_back(innerBorder, topOf(*outline.innerWall));
         row.base.push_back(innerSide);
     } else if (hasRim(outline, &Rims::inner)) {
         row.top.emplace_back(innerSide, section.points.front().y() + rise);
@@ -133,9 +143,9 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
         row.top.emplace_back(point.x(), point.y() + rise);
     const std::vector<double> below = placeBase(section);
     row.base.insert(row.base.end(), below.begin(), below.end());
-    if (outline.outerWallTop) {
-        row.top.emplace_back(outerBorder, *outline.outerWallTop + rise);
-        row.top.emplace_back(outerSide, *outline.outerWallTop + rise);
+    if (outline.outerWall) {
+        row.top.emplace_back(outerBorder, topOf(*outline.outerWall));
+        row.top.emplace_back(outerSide, topOf(*outline.outerWall));
         row.base.push_back(outerSide);
     } else if (hasRim(outline, &Rims::outer)) {
         row.top.emplace_back(outerSide, section.points.back().y() + rise);
@@ -270,13 +280,22 @@ class Builder {
 
 }  // namespace
 
-double highestOf(std::span<const CrossSection> sections) {
-    double highest = 0.0;
+std::vector<base::Vec2> findCrest(std::span<const CrossSection> sections) {
+    std::vector<base::Vec2> crest;
+    crest.reserve(sections.size());
     for (const CrossSection& section : sections) {
-        for (const base::Vec2& point : section.points)
-            highest = std::max(highest, point.y());
+        const auto highest =
+            std::ranges::max_element(section.points, {}, [](const auto& p) { return p.y(); });
+        crest.emplace_back(section.x, highest->y());
     }
-    return highest;
+    const auto hold = [](base::Vec2& own, const base::Vec2& beside) {
+        own.y() = std::max(own.y(), beside.y() - std::abs(own.x() - beside.x()));
+    };
+    for (std::size_t i = 1; i < crest.size(); ++i)
+        hold(crest[i], crest[i - 1]);
+    for (std::size_t i = crest.size(); i-- > 1;)
+        hold(crest[i - 1], crest[i]);
+    return crest;
 }
 
 std::vector<Rims> placeRims(const Track& track, double width) {

@@ -28,8 +28,9 @@ std::vector<Rims> placeRims(const Track& track, double width);
 /// lies flat is told by its height in the room, what climbs with a bowl's track by that in the track's. [m]
 struct PrintOutline {
     double base = 0.0;                    // z of the underside, in the room
-    std::optional<double> innerWallTop;   // z on the track; none: no wall at this side
-    std::optional<double> outerWallTop;   // likewise
+    std::vector<base::Vec2> crest{};      // of the whole track (findCrest); walls need it
+    std::optional<double> innerWall{};    // how far it rises above the crest; none: no wall at this side
+    std::optional<double> outerWall{};    // likewise
     double innerSide = 0.0;               // y of the wall's outer face
     double outerSide = 0.0;               // likewise
     double flangeTop = 0.0;               // z in the room; not above the surface
@@ -38,8 +39,9 @@ struct PrintOutline {
     std::vector<Rims> rims{};  // by rising x; between these in proportion, and none where there is a wall
 };
 
-/// The highest of the surface's points, above z = 0 of the track; at least 0. [m]
-double highestOf(std::span<const CrossSection> sections);
+/// What walls rise above: (x, z) at each section, nowhere below the surface, falling before and behind what
+/// is high by 45 degrees and no more steeply. Between sections in proportion. [m]
+std::vector<base::Vec2> findCrest(std::span<const CrossSection> sections);
 
 /// The surface over these sections, what stands beside it, sides, ends and a flat base as one closed,
 /// oriented manifold. Its first triangles are those of the track's surface. Walls stand upright on the

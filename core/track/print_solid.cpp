@@ -34,11 +34,11 @@ PrintOutline makeOutline(const Track& track, const PrintOptions& options) {
     outline.outerSide = outerSideOf(track, options);
     outline.innerSide = -outline.outerSide;
     // What the track was simulated with is printed at least.
-    const double highest = highestOf(track.sections);
+    outline.crest = findCrest(track.sections);
     const double inner = std::max(track.walls.inner, options.wallHeight);
     const double outer = std::max(track.walls.outer, options.wallHeight);
-    if (inner > 0.0) outline.innerWallTop = highest + inner;
-    if (outer > 0.0) outline.outerWallTop = highest + outer;
+    if (inner > 0.0) outline.innerWall = inner;
+    if (outer > 0.0) outline.outerWall = outer;
     outline.rims = placeRims(track, options.rim);
     if (!options.flange) return outline;
     // Of equal thicknesses the sum must be 0, whatever rounding says.
@@ -82,9 +82,9 @@ base::Result<geometry::TriangleMesh, PrintProblem> buildPrintSolid(const Track& 
 
     const double low = outline.base - kBeyond;
     if (track.shape.type == FeederType::bowl) {
-        const double high = highestRiseOf(track) +
-                            std::max({outline.innerWallTop.value_or(0.0), outline.outerWallTop.value_or(0.0),
-                                      highestOf(track.sections)}) +
+        const auto top = std::ranges::max_element(outline.crest, {}, [](const auto& at) { return at.y(); });
+        const double high = highestRiseOf(track) + top->y() +
+                            std::max(outline.innerWall.value_or(0.0), outline.outerWall.value_or(0.0)) +
                             kBeyond;
         auto cut = geometry::intersectSolids(
             solid,

@@ -13,7 +13,8 @@ namespace trapwright::track {
 /// What is printed around a track's surface. Lengths in metres.
 struct PrintOptions {
     std::optional<double> baseThickness;  // below the lowest place of z = 0; none: as designed
-    // Of both side walls, above the surface's highest point; what the track's own walls are higher counts.
+    // Of both side walls, above the surface's crest (findCrest); what the track's own walls are higher
+    // counts.
     double wallHeight = 0.0;
     double wallThickness = kWallThickness;  // at least, beyond the track's width
     // Of a rim beyond a border without a wall, where the surface rises to it so steeply that its edge would

@@ -15,7 +15,7 @@ struct CrossSection {
 };
 
 /// What keeps parts on the track: upright walls on the surface's borders, a part of the solid that parts meet
-/// (decisions.md#walls). Heights above the surface's highest point [m]; 0: an edge without a wall.
+/// (decisions.md#walls). Heights above the surface's crest (findCrest) [m]; 0: an edge without a wall.
 struct Walls {
     double inner = 0.0;
     double outer = 0.0;

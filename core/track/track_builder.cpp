@@ -177,13 +177,13 @@ base::Status checkShape(const FeederShape& shape, double length, double width) {
 void addSolid(Track& track) {
     TrackSolid solid;
     if (track.walls.any()) {
-        const double highest = highestOf(track.sections);
         PrintOutline outline;
         outline.base = findBase(track.shape, track.sections, track.baseThickness);
+        outline.crest = findCrest(track.sections);
         outline.outerSide = 0.5 * widthWithWalls(track.width, track.walls);
         outline.innerSide = -outline.outerSide;
-        if (track.walls.inner > 0.0) outline.innerWallTop = highest + track.walls.inner;
-        if (track.walls.outer > 0.0) outline.outerWallTop = highest + track.walls.outer;
+        if (track.walls.inner > 0.0) outline.innerWall = track.walls.inner;
+        if (track.walls.outer > 0.0) outline.outerWall = track.walls.outer;
         solid = buildOutlined(track.shape, track.sections, outline);
     } else {
         solid = buildTrackSolid(track.shape, track.sections, track.baseThickness);

@@ -300,30 +300,28 @@ double longestCutOut(const TrapParameters& parameters) {
 
 /// How wide a slot can be, and how deep.
 double widestSlot(const TrapParameters& parameters) {
-    return parameters.segmentWidth / 6.0;
+    return std::min(parameters.maxSegmentLength, parameters.segmentWidth) / 3.0;
 }
 
 double deepestSlot(const TrapParameters& parameters) {
     return parameters.maxSegmentLength;
 }
 
-std::vector<search::Dimension> dimensionsOfSlot(const TrapParameters& parameters) {
+/// Of the groove before the slot, of its opening and of its rails: what a slot and rails have in common.
+std::vector<search::Dimension> dimensionsOfRails(const TrapParameters& parameters) {
     constexpr double kMillimetres = 1.0 / base::kMillimetre;
-    const double edge = kMillimetres * kShortestEdge;
     const double longest = kMillimetres * parameters.maxSegmentLength;
     return {lengthOf("before, length", parameters),
             angleOf("fall", -kSteepestRise, kSteepestFall),
             angleOf("walls", 0.0, kSteepestWall),
             {"width", "mm", 0.0, kMillimetres * widestSlot(parameters), kBits},
             {"depth", "mm", 0.0, kMillimetres * deepestSlot(parameters), kBits},
-            {"beginning", "mm", edge, longest, kBits},
-            {"length", "mm", kMillimetres * parameters.minSegmentLength, 2.0 * longest, kBits},
-            {"end", "mm", edge, longest, kBits},
-            {"step", "mm", 0.0, kMillimetres * deepestSlot(parameters), kBits}};
+            {"beginning", "mm", kMillimetres * kShortestEdge, longest, kBits},
+            {"length", "mm", kMillimetres * parameters.minSegmentLength, 2.0 * longest, kBits}};
 }
 
-std::vector<track::CrossSection> buildSlot(const TrapParameters& parameters, const track::CrossSection& entry,
-                                           std::span<const double> numbers) {
+/// Adds them, open to their end; what they are of where they are shut.
+Form addRails(Course& course, const TrapParameters& parameters, std::span<const double> numbers) {
     const double longest = parameters.maxSegmentLength;
     const double fall = within(-kSteepestRise, kSteepestFall, numbers[1]);
     Form form{within(0.0, kSteepestWall, numbers[2])};
@@ -332,28 +330,61 @@ std::vector<track::CrossSection> buildSlot(const TrapParameters& parameters, con
     slot.slotDepth = within(0.0, deepestSlot(parameters), numbers[4]);
     // Shut the slot's floor is as its rails are, so that nothing is left of it.
     form.slotDepth = -0.5 * form.slotWidth * std::tan(form.walls);
-    Course course(parameters, entry);
     course.add(within(parameters.minSegmentLength, longest, numbers[0]), fall, form);
     course.add(within(kShortestEdge, longest, numbers[5]), fall, slot);
     course.add(within(parameters.minSegmentLength, 2.0 * longest, numbers[6]), fall, slot);
-    const double end = within(kShortestEdge, longest, numbers[7]);
-    course.fallBy(within(0.0, deepestSlot(parameters), numbers[8]), end, form);
+    return form;
+}
+
+std::vector<double> layOutRails(const TrapParameters& parameters) {
+    std::vector<double> places{restingLength(parameters)};
+    for (const double next : {within(kShortestEdge, parameters.maxSegmentLength, 0.5),
+                              within(parameters.minSegmentLength, 2.0 * parameters.maxSegmentLength, 0.5)})
+        places.push_back(places.back() + next);
+    return places;
+}
+
+double longestRails(const TrapParameters& parameters) {
+    return 4.0 * parameters.maxSegmentLength;
+}
+
+std::vector<track::CrossSection> buildRails(const TrapParameters& parameters,
+                                            const track::CrossSection& entry,
+                                            std::span<const double> numbers) {
+    Course course(parameters, entry);
+    addRails(course, parameters, numbers);
+    return course.take();
+}
+
+std::vector<search::Dimension> dimensionsOfSlot(const TrapParameters& parameters) {
+    constexpr double kMillimetres = 1.0 / base::kMillimetre;
+    std::vector<search::Dimension> dimensions = dimensionsOfRails(parameters);
+    dimensions.push_back(
+        {"end", "mm", kMillimetres * kShortestEdge, kMillimetres * parameters.maxSegmentLength, kBits});
+    dimensions.push_back({"step", "mm", 0.0, kMillimetres * deepestSlot(parameters), kBits});
+    return dimensions;
+}
+
+std::vector<track::CrossSection> buildSlot(const TrapParameters& parameters, const track::CrossSection& entry,
+                                           std::span<const double> numbers) {
+    Course course(parameters, entry);
+    const Form shut = addRails(course, parameters, numbers);
+    course.fallBy(within(0.0, deepestSlot(parameters), numbers[8]),
+                  within(kShortestEdge, parameters.maxSegmentLength, numbers[7]), shut);
     course.rest();
     return course.take();
 }
 
 std::vector<double> layOutSlot(const TrapParameters& parameters) {
-    std::vector<double> places{restingLength(parameters)};
+    std::vector<double> places = layOutRails(parameters);
     for (const double next : {within(kShortestEdge, parameters.maxSegmentLength, 0.5),
-                              within(parameters.minSegmentLength, 2.0 * parameters.maxSegmentLength, 0.5),
-                              within(kShortestEdge, parameters.maxSegmentLength, 0.5),
                               0.5 * restingLength(parameters), 0.5 * restingLength(parameters)})
         places.push_back(places.back() + next);
     return places;
 }
 
 double longestSlot(const TrapParameters& parameters) {
-    return 5.0 * parameters.maxSegmentLength + restingLength(parameters);
+    return longestRails(parameters) + parameters.maxSegmentLength + restingLength(parameters);
 }
 
 }  // namespace
@@ -423,6 +454,20 @@ TrapKind slot() {
             &longestSlot,
             nullptr,
             true,
+            false,
+            kPointsOfSlot};
+}
+
+TrapKind rails() {
+    return {"rails",
+            "Rails",
+            "A slot that goes on to the track's end: parts leave hanging, their thicker end up.",
+            &dimensionsOfRails,
+            &buildRails,
+            &layOutRails,
+            &longestRails,
+            nullptr,
+            false,
             false,
             kPointsOfSlot};
 }

@@ -48,4 +48,9 @@ TrapKind gap();
 /// the track is behind it. A groove in which parts lie down again ends it. Of at least six points a section.
 TrapKind slot();
 
+/// A slot that does not end: the lead-out goes on with it, and parts leave hanging between two rails, their
+/// thicker end up, as screws come to a screwdriver. The last of its chain. Seven numbers, a slot's without
+/// its end and step.
+TrapKind rails();
+
 }  // namespace trapwright::traps

@@ -10,6 +10,7 @@
 #include "core/study/chain_planner.h"
 #include "core/study/planning.h"
 #include "core/study/presets.h"
+#include "core/study/target.h"
 #include "core/workflow/estimate.h"
 
 namespace trapwright::workflow {
@@ -78,13 +79,6 @@ study::EvolutionSettings mostOfSearch(TrackIdea idea, study::EvolutionSettings e
     return evolution;
 }
 
-study::Settings applyIdea(TrackIdea idea, study::Settings settings, const part::Part& part) {
-    if (idea == TrackIdea::ledges) return study::ledgeMode(std::move(settings), part);
-    if (idea == TrackIdea::gaps) return study::sortingMode(std::move(settings), part);
-    if (idea == TrackIdea::hanging) return study::slotMode(std::move(settings), part);
-    return study::turningMode(std::move(settings), part);
-}
-
 /// An idea, and how much of it there is time for.
 struct FittedIdea {
     TrackIdea idea = TrackIdea::turning;
@@ -133,6 +127,8 @@ base::Result<std::optional<FittedIdea>> chooseIdea(const study::StudyInputs& inp
                                                    const base::RunControl& control,
                                                    std::optional<TrackIdea> asked) {
     if (asked) return fitIdea(*asked, inputs, seconds, control);
+    if (study::wantsHanging(inputs.settings, *inputs.part))
+        return fitIdea(TrackIdea::rails, inputs, seconds, control);
     if (!hasTwoEnds(inputs.part->symmetry)) return fitIdea(TrackIdea::turning, inputs, seconds, control);
     auto slots = fitSlots(inputs, seconds, control);
     if (!slots || *slots) return slots;
@@ -142,6 +138,22 @@ base::Result<std::optional<FittedIdea>> chooseIdea(const study::StudyInputs& inp
 }
 
 }  // namespace
+
+study::Settings applyIdea(TrackIdea idea, study::Settings settings, const part::Part& part) {
+    switch (idea) {
+        case TrackIdea::turning:
+            break;
+        case TrackIdea::gaps:
+            return study::sortingMode(std::move(settings), part);
+        case TrackIdea::ledges:
+            return study::ledgeMode(std::move(settings), part);
+        case TrackIdea::hanging:
+            return study::slotMode(std::move(settings), part);
+        case TrackIdea::rails:
+            return study::railsMode(std::move(settings), part);
+    }
+    return study::turningMode(std::move(settings), part);
+}
 
 base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double seconds,
                                        const base::RunControl& control, std::optional<TrackIdea> asked) {
@@ -172,6 +184,13 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
                                                   part.name, part.symmetry.name);
         proposal.reasons.push_back(why +
                                    ": a free-form trap turns it over, and all that is fed is to arrive.");
+    } else if (idea == TrackIdea::rails) {
+        const std::string why =
+            asked ? std::string("As you asked, parts leave hanging")
+                  : fmt::format("{} is wanted as it hangs by its thicker end, in any heading", part.name);
+        proposal.reasons.push_back(why +
+                                   ": a slot that goes on to the track's end, between whose rails it "
+                                   "hangs.");
     } else if (idea == TrackIdea::hanging) {
         constexpr double kPercent = 100.0;
         const std::string why =

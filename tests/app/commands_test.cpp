@@ -179,6 +179,25 @@ class CommandsTest : public QObject {
                  few.errors.constData());
     }
 
+    // Learned without a plan, and head up is what is wanted.
+    void railsMode() {
+        QCOMPARE(ask({"new", "rails.trap", "--part", "bolt", "--rails"}).code, 0);
+        const QJsonObject settings = ask({"settings", "rails.trap", "--json"}).json();
+        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, rails");
+        QVERIFY(settings["track"].toObject()["innerWall_mm"].toDouble() > 0.0);
+        QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "graded");
+        QCOMPARE(settings["target"].toObject()["poses"].toString(), "8");
+        QCOMPARE(settings["target"].toObject()["heading_deg"].toString(), "any");
+        const Ran both = ask({"new", "both.trap", "--part", "bolt", "--rails", "--slots"});
+        QCOMPARE(both.code, 2);
+        QVERIFY(both.errors.contains("--rails"));
+        // A plan that cannot bring it so says what can.
+        const Ran planned = ask({"evolve", "planned.trap", "--part", "bolt", "--slots", "--engine", "native",
+                                 "--set", "target.poses=8"});
+        QCOMPARE(planned.code, 2);
+        QVERIFY2(planned.errors.contains("rails may bring it so"), planned.all());
+    }
+
     // Gaps and ledges in proportion to the part, planned; ledges also behind a track that is there.
     void ledgeMode() {
         QCOMPARE(ask({"new", "ledges.trap", "--part", "bracket", "--ledges"}).code, 0);

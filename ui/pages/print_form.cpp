@@ -55,7 +55,8 @@ PrintForm::PrintForm(QWidget* parent)
         base_, kMillimetre);
     addRow(shape,
            {"wallHeight", tr("Wall height"), tr("mm"),
-            tr("How far both side walls rise above the surface's highest point; those that the track was "
+            tr("How far both side walls rise above what is highest of the surface beside them; those that "
+               "the track was "
                "learned with are there at least. They stand outside the surface, which stays as it was."),
             0, 100},
            choice_.options.wallHeight, kMillimetre);

@@ -50,7 +50,9 @@ bool isCounted(const study::EvolutionSettings& evolution) {
 
 QString wantedText(const study::TargetSettings& target, const part::Part& part) {
     if (!target.isSet()) return TargetCard::tr("Any one way");
-    if (target.orientation) return TargetCard::tr("An orientation set by hand");
+    if (target.orientation)
+        return target.orientationTurns ? TargetCard::tr("An orientation set by hand, any heading")
+                                       : TargetCard::tr("An orientation set by hand");
     const std::vector<part::PoseGroup> groups = part::findPoseGroups(part);
     QStringList names;
     for (const int group : study::findWantedGroups(target, groups))
@@ -81,7 +83,7 @@ TargetCard::TargetCard(QWidget* parent)
         grid_->setColumnStretch(column, 1);
 
     anyHeading_->setObjectName("target.anyHeading");
-    anyHeading_->setToolTip(tr("The pose alone counts, however the part is turned about the vertical."));
+    anyHeading_->setToolTip(tr("Which side is up counts, however the part is turned about the vertical."));
     heading_->setObjectName("target.heading");
     heading_->setAccessibleName(tr("Heading"));
     heading_->setRange(-360.0, 360.0);
@@ -100,7 +102,10 @@ TargetCard::TargetCard(QWidget* parent)
     connect(heading_, &QDoubleSpinBox::valueChanged, this, &TargetCard::chooseHeading);
 
     connect(editor_, &OrientationEditor::chosen, this, [this](const base::Quaternion& orientation) {
-        choose({{}, settings_.target.heading, orientation}, tr("Wanted: by hand"));
+        study::TargetSettings target = settings_.target;
+        target.poses.clear();
+        target.orientation = orientation;
+        choose(std::move(target), tr("Wanted: by hand"));
     });
     connect(editor_, &OrientationEditor::ended, this, [this] {
         refresh();
@@ -202,7 +207,8 @@ void TargetCard::rebuild() {
     }
     byHand_ = addButton("target.byHand", tr("By hand..."));
     byHand_->setToolTip(
-        tr("Turn the part in the scene until it lies as it shall leave the track, heading included."));
+        tr("Turn the part in the scene until it lies as it shall leave the track, its heading included if "
+           "not any will do."));
     connect(byHand_, &QToolButton::clicked, this, &TargetCard::turnByHand);
 }
 
@@ -242,12 +248,13 @@ void TargetCard::refresh() {
         drawnByHand_ = target.orientation;
     }
     const auto heading = study::readHeading(target.heading);
-    const bool isAny = !heading || !*heading;
-    headingRow_->setVisible(!target.poses.empty());
+    const bool isAny = target.orientation ? target.orientationTurns : !heading || !*heading;
+    headingRow_->setVisible(target.isSet());
+    heading_->setVisible(!target.orientation);
     anyHeading_->setChecked(isAny);
     heading_->setEnabled(!isAny);
     const QSignalBlocker quiet(heading_);
-    heading_->setValue(isAny ? 0.0 : **heading / base::kDegree);
+    heading_->setValue(heading && *heading ? **heading / base::kDegree : 0.0);
 
     QString told = wantedText(target, *part_) + '.';
     if (!target.isSet()) {
@@ -304,8 +311,11 @@ void TargetCard::toggle(std::size_t group) {
 
 void TargetCard::chooseHeading() {
     study::TargetSettings target = settings_.target;
-    target.heading =
-        anyHeading_->isChecked() ? kAnyHeading : QString::number(heading_->value()).toStdString();
+    if (target.orientation)
+        target.orientationTurns = anyHeading_->isChecked();
+    else
+        target.heading =
+            anyHeading_->isChecked() ? kAnyHeading : QString::number(heading_->value()).toStdString();
     if (target == settings_.target) return;
     choose(std::move(target), tr("Wanted heading"));
 }

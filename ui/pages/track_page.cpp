@@ -143,6 +143,10 @@ QWidget* TrackPage::makeHead() {
         menu->addAction(tr("Let parts with a head hang by it in slots, in proportion to the part"));
     hanging->setObjectName("preset.slots");
     connect(hanging, &QAction::triggered, this, &TrackPage::useSlots);
+    QAction* rails =
+        menu->addAction(tr("Let them leave hanging between rails, head up, in proportion to the part"));
+    rails->setObjectName("preset.rails");
+    connect(rails, &QAction::triggered, this, &TrackPage::useRails);
     menu->addSeparator();
     QAction* paper = menu->addAction(tr("The paper's own choices throughout"));
     paper->setObjectName("preset.paper");
@@ -492,6 +496,11 @@ void TrackPage::useLedges() {
 void TrackPage::useSlots() {
     if (!design_ || !design_->part()) return;
     edit(study::slotMode(design_->settings(), *design_->part()), tr("Let parts hang in slots"));
+}
+
+void TrackPage::useRails() {
+    if (!design_ || !design_->part()) return;
+    edit(study::railsMode(design_->settings(), *design_->part()), tr("Let parts leave on rails"));
 }
 
 void TrackPage::showTitle() {

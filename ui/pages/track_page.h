@@ -53,6 +53,7 @@ class TrackPage : public Page {
     void useSorting();
     void useLedges();
     void useSlots();
+    void useRails();
     void useFullLearning();
     void useDraft();
     void propose(double seconds, const QString& what);

@@ -2,6 +2,7 @@
 
 #include <QtTest>
 
+#include "core/part/bundled.h"
 #include "core/part/part_builder.h"
 #include "core/part/shapes.h"
 #include "core/study/presets.h"
@@ -190,6 +191,52 @@ class TargetTest : public QObject {
         study::TargetSettings target;
         target.orientation = base::Quaternion(0.5, 0.5, 0.5, 0.5);
         QVERIFY(*study::findWanted(wish(target), cuboid()) == trial::makeGoal(*target.orientation));
+    }
+
+    void anOrientationMayTurn() {
+        const part::Part part = cuboid();
+        study::TargetSettings target;
+        target.orientation = base::Quaternion(Eigen::AngleAxisd(0.7, base::Vec3::UnitY()));
+        const base::Quaternion turned =
+            base::Quaternion(Eigen::AngleAxisd(1.1, base::Vec3::UnitZ())) * *target.orientation;
+        const auto angle = [&] {
+            return trial::calcAngleToGoal(turned, *study::findWanted(wish(target), part), part.symmetry);
+        };
+        QVERIFY(angle() > 1.0);
+        QVERIFY(study::describeTarget(wish(target), part).find("any heading") == std::string::npos);
+        target.orientationTurns = true;
+        QVERIFY(angle() < 1e-6);
+        QVERIFY(study::describeTarget(wish(target), part).find(" in any heading, ") != std::string::npos);
+        const std::string goal = study::describeGoal(*study::findWanted(wish(target), part), part);
+        QVERIFY2(goal.starts_with("the orientation") && goal.ends_with("in any heading"), goal.c_str());
+    }
+
+    // Head up: a stable pose of what stands on its tip.
+    void whatHangsIsWantedHeadUp() {
+        const auto made = [](const geometry::TriangleMesh& mesh) {
+            return part::buildPart(mesh, {.name = "part"})->part;
+        };
+        const part::Part bolt = made(part::makeBundledShape("bolt"));
+        const study::TargetSettings standing = study::findHangingTarget(bolt);
+        QVERIFY(standing == poses("8"));
+        QVERIFY(study::wantsHanging(wish(standing), bolt));
+        QVERIFY(study::wantsHanging(wish(poses("7, 8")), bolt));
+        QVERIFY(!study::wantsHanging(wish(poses("8", "10")), bolt));
+        QVERIFY(!study::wantsHanging(wish(poses("7")), bolt));
+        QVERIFY(!study::wantsHanging(wish({}), bolt));
+        // What has a point has no such pose: the cone's lies about its point, which is then below.
+        const part::Part cone = made(part::makeTurned(
+            std::array{base::Vec2(0.0, 0.0), base::Vec2(4e-3, 16e-3), base::Vec2(0.0, 16e-3)}, 32));
+        const study::TargetSettings pointed = study::findHangingTarget(cone);
+        QVERIFY(pointed.orientation && pointed.orientationTurns && pointed.poses.empty());
+        QVERIFY(study::wantsHanging(wish(pointed), cone));
+        const base::Vec3 up = pointed.orientation->conjugate() * base::Vec3::UnitZ();
+        const auto lowest = std::ranges::min_element(
+            cone.hull.vertices, {}, [&](const base::Vec3& vertex) { return up.dot(vertex); });
+        QVERIFY(std::abs(up.dot(*lowest) + 12e-3) < 0.2e-3);
+        // A block, and a pin whose centre of mass is 0.3 mm below its collar.
+        QVERIFY(!study::findHangingTarget(cuboid()).isSet());
+        QVERIFY(!study::findHangingTarget(made(part::makeBundledShape("pin"))).isSet());
     }
 
     void whatCanBeAttainedIsKnownOfPartsAtRest() {

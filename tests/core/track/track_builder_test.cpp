@@ -272,7 +272,34 @@ class TrackBuilderTest : public QObject {
         }
     }
 
-    // Walls stand on the borders, as high above the surface's highest point as is said, 2 mm wide at least.
+    // A wall goes down with the track, behind what is high by 45 degrees, and is as high above it as is said
+    // at least.
+    void wallsFollowTheSurface() {
+        TrackParameters parameters;
+        parameters.segmentHeight = 60e-3;  // the lead-in is 80 mm long and 30 high
+        parameters.walls = {0.0, 5e-3};
+        std::vector<CrossSection> trap;
+        for (const auto& [x, z] : {std::pair(20e-3, 30e-3), {21e-3, 12e-3}, {60e-3, 12e-3}, {100e-3, 20e-3}})
+            trap.push_back({x, {{-30e-3, z}, {0.0, z}, {30e-3, z}}});
+        const auto track = build(parameters, trap);
+        const std::map<double, double> expected = {{0.0, 30e-3},    {80e-3, 30e-3},  {100e-3, 30e-3},
+                                                   {101e-3, 29e-3}, {140e-3, 12e-3}, {180e-3, 20e-3},
+                                                   {216e-3, 20e-3}, {252e-3, 20e-3}};
+        std::size_t found = 0;
+        for (const base::Vec3& vertex : track.solid.vertices) {
+            if (vertex.y() < 31e-3 || vertex.z() < 0.0) continue;  // the wall's outer edge
+            ++found;
+            const auto at = std::ranges::find_if(
+                expected, [&](const auto& place) { return std::abs(place.first - vertex.x()) < 1e-9; });
+            QVERIFY(at != expected.end());
+            QVERIFY2(std::abs(vertex.z() - at->second - 5e-3) < 1e-12,
+                     qPrintable(QString("%1 at %2").arg(vertex.z()).arg(vertex.x())));
+        }
+        QCOMPARE(found, expected.size());
+    }
+
+    // Walls stand on the borders, as high above the surface's highest point as is said where that is, 2 mm
+    // wide at least.
     void wallsArePartOfTheSolid_data() {
         QTest::addColumn<FeederShape>("shape");
         QTest::addColumn<double>("inner");

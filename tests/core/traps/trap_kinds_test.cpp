@@ -284,11 +284,11 @@ class TrapKindsTest : public QObject {
         const traps::TrapKind slot = traps::slot();
         const auto dimensions = slot.dimensions(parameters);
         QCOMPARE(dimensions.size(), std::size_t{9});
-        QCOMPARE(dimensions[3].high, 10.0);
+        QCOMPARE(dimensions[3].high, 12.0);
         QCOMPARE(dimensions[4].high, 36.0);
         // 25.5 mm before it, falling by 8 degrees, walls of 21; 5 mm wide and 18 deep, open after 18.25 mm,
         // for 43.5; shut again after 18.25 mm, 9 mm lower.
-        const std::vector<double> numbers = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.25};
+        const std::vector<double> numbers = {0.5, 0.5, 0.5, 5.0 / 12.0, 0.5, 0.5, 0.5, 0.5, 0.25};
         const double entry = 120e-3;
         const auto sections = slot.build(parameters, traps::levelSection(parameters, entry), numbers);
         QCOMPARE(sections.size(), std::size_t{6});
@@ -318,6 +318,26 @@ class TrapKindsTest : public QObject {
         for (const track::CrossSection& section :
              slot.build(parameters, traps::levelSection(parameters, entry), shut))
             QCOMPARE(section.points[4].y(), traps::findLowest(section));
+    }
+
+    void railsAreASlotThatDoesNotEnd() {
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const track::CrossSection before = traps::levelSection(parameters, 120e-3);
+        const std::vector<double> numbers = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.25};
+        const auto slot = traps::slot().build(parameters, before, numbers);
+        QCOMPARE(traps::rails().dimensions(parameters).size(), std::size_t{7});
+        const auto rails = traps::rails().build(parameters, before, std::span(numbers).first(7));
+        QCOMPARE(rails.size(), std::size_t{3});
+        for (std::size_t i = 0; i < rails.size(); ++i)
+            QVERIFY(rails[i].x == slot[i].x && rails[i].points == slot[i].points);
+        QVERIFY(traps::readTraps("groove, groove, slot, rails").ok());
+        for (const char* text : {"rails, groove", "groove, 2 x rails"}) {
+            const auto read = traps::readTraps(text);
+            QVERIFY(!read.ok());
+            QVERIFY(read.error().message.find("they come last") != std::string::npos);
+        }
     }
 
     void aSlotCanBePrinted() {

@@ -104,7 +104,8 @@ class ProposalTest : public QObject {
         for (const auto& [idea, traps] : {std::pair{TrackIdea::turning, "free-form"},
                                           std::pair{TrackIdea::gaps, "groove, groove, 8 x gap"},
                                           std::pair{TrackIdea::ledges, "groove, groove, 8 x gap, 6 x ledge"},
-                                          std::pair{TrackIdea::hanging, "groove, groove, 3 x slot"}}) {
+                                          std::pair{TrackIdea::hanging, "groove, groove, 3 x slot"},
+                                          std::pair{TrackIdea::rails, "groove, groove, rails"}}) {
             const auto proposal = workflow::proposeSettings(inputs, 36000.0, {}, idea);
             QVERIFY(proposal.ok());
             QCOMPARE(proposal->settings.track.traps, traps);
@@ -121,6 +122,19 @@ class ProposalTest : public QObject {
         QVERIFY(proposal->settings.evolution.plannedTraps <= 3000);
         QVERIFY2(proposal->reasons.front().find("hangs in a slot") != std::string::npos,
                  proposal->reasons.front().c_str());
+    }
+
+    void whatIsWantedHangingComesOnRails() {
+        study::StudyInputs inputs = inputsFor("bolt");
+        for (const bool isWanted : {true, false}) {
+            inputs.settings.target.poses = isWanted ? "8" : "7";
+            const auto proposal = workflow::proposeSettings(inputs, 600.0, {});
+            QVERIFY2(proposal.ok(), proposal.ok() ? "" : proposal.error().message.c_str());
+            QCOMPARE(proposal->settings.track.traps == "groove, groove, rails", isWanted);
+            QCOMPARE(proposal->settings.target.poses, inputs.settings.target.poses);
+            QCOMPARE(proposal->reasons.front().find("wanted as it hangs") != std::string::npos, isWanted);
+            QVERIFY(proposal->seconds <= 600.0);
+        }
     }
 
     // Whose ends balance is told so.

@@ -14,22 +14,22 @@ using namespace trapwright;
 
 namespace {
 
-/// A groove in which parts lie down, and a slot of this width behind it [mm]: 17 mm deep, deeper than the
-/// bolt is long, with an end over which the rails fall as much.
-std::shared_ptr<const track::Track> makeSlotted(double width) {
+/// A groove in which parts lie down, and behind it a slot or rails of this width [mm]: 17 mm deep, deeper
+/// than the bolt is long; a slot with an end over which its rails fall as much.
+std::shared_ptr<const track::Track> makeSlotted(const traps::TrapKind& kind, double width) {
     traps::TrapParameters parameters;
     parameters.pointsPerSection = 9;
     parameters.minSegmentLength = 5.5e-3;
     parameters.maxSegmentLength = 32e-3;
     parameters.segmentWidth = 64e-3;
     parameters.segmentHeight = 200e-3;
-    const traps::TrapKind slot = traps::slot();
     const std::vector<double> sizes{16.0, 15.0, 26.0, width, 17.0, 25.0, 49.0, 30.0, 17.0};
     search::Design design = traps::restingGroove(parameters);
-    const std::vector<search::Dimension> dimensions = slot.dimensions(parameters);
-    for (std::size_t i = 0; i < sizes.size(); ++i)
+    const std::vector<search::Dimension> dimensions = kind.dimensions(parameters);
+    for (std::size_t i = 0; i < dimensions.size(); ++i)
         design.push_back((sizes[i] - dimensions[i].low) / (dimensions[i].high - dimensions[i].low));
-    const auto sections = traps::build(traps::readTraps("groove, slot").value(), parameters, design);
+    const auto chain = traps::readTraps("groove, " + std::string(kind.key));
+    const auto sections = traps::build(chain.value(), parameters, design);
     return std::make_shared<const track::Track>(track::buildTrack(parameters, sections).value());
 }
 
@@ -59,24 +59,31 @@ trial::TrialBatch makeBolts(std::shared_ptr<const track::Track> track, int count
     return batch;
 }
 
-/// Of those that began head first and of the others, how many end so.
-struct HeadFirst {
+/// Of those that began head first and of the others, how many end with their head towards there.
+struct Ends {
     int ofHeads = 0;
     int ofTips = 0;
     int arrived = 0;
 };
 
-HeadFirst run(const trial::TrialBatch& batch) {
+Ends run(const trial::TrialBatch& batch, const base::Vec3& there) {
     const auto outcomes = testing::makeEngine()->run({&batch, 1}, {});
-    HeadFirst count;
+    Ends count;
     for (std::size_t i = 0; i < batch.trials.size(); ++i) {
         const trial::PartOutcome& part = outcomes.value()[0][i].parts[0];
         count.arrived += part.ending == trial::Ending::finished ? 1 : 0;
         const base::Vec3 axis = part.farthest.rotation * base::Vec3::UnitZ();
-        const bool isHeadFirst = part.ending == trial::Ending::finished && axis.x() < -0.9;
-        (i % 2 == 0 ? count.ofTips : count.ofHeads) += isHeadFirst ? 1 : 0;
+        const bool isThere = part.ending == trial::Ending::finished && axis.dot(there) < -0.9;
+        (i % 2 == 0 ? count.ofTips : count.ofHeads) += isThere ? 1 : 0;
     }
     return count;
+}
+
+QString describe(const Ends& ends) {
+    return QString("%1 of heads, %2 of tips, %3 arrived")
+        .arg(ends.ofHeads)
+        .arg(ends.ofTips)
+        .arg(ends.arrived);
 }
 
 }  // namespace
@@ -91,19 +98,22 @@ class SlotTest : public QObject {
     // Whichever end comes first: they hang by their head, and lie down with it ahead.
     void boltsHangByTheirHead() {
         constexpr int kCount = 24;
-        const HeadFirst slotted = run(makeBolts(makeSlotted(6.0), kCount));
-        QVERIFY2(slotted.ofHeads >= 11 && slotted.ofTips >= 10,
-                 qPrintable(QString("%1 of heads, %2 of tips, %3 arrived")
-                                .arg(slotted.ofHeads)
-                                .arg(slotted.ofTips)
-                                .arg(slotted.arrived)));
+        const base::Vec3 ahead = base::Vec3::UnitX();
+        const Ends slotted = run(makeBolts(makeSlotted(traps::slot(), 6.0), kCount), ahead);
+        QVERIFY2(slotted.ofHeads >= 11 && slotted.ofTips >= 10, qPrintable(describe(slotted)));
         // Narrower than the shank it lets them pass as they come.
-        const HeadFirst passed = run(makeBolts(makeSlotted(1.0), kCount));
-        QVERIFY2(passed.ofHeads >= 8 && passed.ofTips <= 3,
-                 qPrintable(QString("%1 of heads, %2 of tips, %3 arrived")
-                                .arg(passed.ofHeads)
-                                .arg(passed.ofTips)
-                                .arg(passed.arrived)));
+        const Ends passed = run(makeBolts(makeSlotted(traps::slot(), 1.0), kCount), ahead);
+        QVERIFY2(passed.ofHeads >= 8 && passed.ofTips <= 3, qPrintable(describe(passed)));
+    }
+
+    // decisions.md#rails: they leave as they hang.
+    void boltsLeaveRailsHeadUp() {
+        constexpr int kCount = 24;
+        const base::Vec3 up = base::Vec3::UnitZ();
+        const Ends hanging = run(makeBolts(makeSlotted(traps::rails(), 6.0), kCount), up);
+        QVERIFY2(hanging.ofHeads >= 11 && hanging.ofTips >= 11, qPrintable(describe(hanging)));
+        const Ends lying = run(makeBolts(makeSlotted(traps::rails(), 1.0), kCount), up);
+        QVERIFY2(lying.ofHeads + lying.ofTips <= 2, qPrintable(describe(lying)));
     }
 };
 

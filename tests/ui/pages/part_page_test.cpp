@@ -355,7 +355,15 @@ class PartPageTest : public QObject {
         QVERIFY(wanted() && wanted()->angularDistance(made) < 1e-9);
         QVERIFY(part::findStablePose(*part, *wanted()).angle < 1e-6);
         QVERIFY(wanted()->angularDistance(resting) > 80.0 * base::kDegree);
-        QVERIFY(user.text("target.told").startsWith("An orientation set by hand"));
+        QVERIFY(user.text("target.told").startsWith("An orientation set by hand."));
+        auto* turns = user.find<QCheckBox>("target.anyHeading");
+        QVERIFY(turns->isVisible() && !turns->isChecked());
+        QVERIFY(!user.find<QDoubleSpinBox>("target.heading")->isVisible());
+        turns->click();
+        QVERIFY(user.session()->design().settings().target.orientationTurns);
+        QVERIFY(user.text("target.told").startsWith("An orientation set by hand, any heading."));
+        user.session()->design().undoStack()->undo();
+        QVERIFY(wanted() && !user.session()->design().settings().target.orientationTurns);
         QVERIFY(user.find<QToolButton>("target.byHand")->isChecked());
         QTRY_VERIFY(!user.find<QToolButton>("target.byHand")->icon().isNull());
         QVERIFY(user.session()->design().problems().empty());

@@ -160,6 +160,10 @@ class MainWindowTest : public QObject {
         QCOMPARE(user.session()->design().settings().track.traps, std::string("groove, groove, 3 x slot"));
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
+        user.action("preset.rails")->trigger();
+        QCOMPARE(user.session()->design().settings().track.traps, std::string("groove, groove, rails"));
+        QVERIFY(user.session()->design().problems().empty());
+        user.action("edit.undo")->trigger();
         QVERIFY(user.session()->design().settings() == before);
     }
 
