@@ -16,9 +16,9 @@ constexpr std::array kExamples = {
     ExampleStudy{"cuboid", "the paper's cuboid, turned over by a free-form trap"},
     ExampleStudy{"cuboid-bowl", "the same in the paper's bowl of 175 mm"},
     ExampleStudy{"screw", "a pan-head screw: gaps throw out what lies wrong"},
-    ExampleStudy{"bolt", "a hexagon bolt M4 x 12, likewise"},
+    ExampleStudy{"bolt", "a hexagon bolt M4 x 12, which leaves hanging between rails, head up"},
     ExampleStudy{"bracket", "a bracket: ledges behind ten gaps throw out what the gaps leave wrong"},
-    ExampleStudy{"pin", "a pin with a head: likewise, planned in one go and mended for printing"},
+    ExampleStudy{"pin", "a pin with a head, which hangs in slots and lies down the same way round"},
     ExampleStudy{"washer", "a washer, laid flat by a free-form trap"},
 };
 
