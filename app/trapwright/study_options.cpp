@@ -45,8 +45,7 @@ constexpr std::array<IdeaFlag, 4> kIdeaFlags = {
       "behind them that throw out the others"},
      {"--slots", workflow::TrackIdea::hanging,
       "A track for parts with a head, a collar or one thick end, in proportion to the part: in its slots "
-      "they "
-      "hang by that end, and leave all the same way round"},
+      "they hang by that end, and leave all the same way round"},
      {"--rails", workflow::TrackIdea::rails,
       "The same with one slot that goes on to the track's end: parts leave hanging between its rails, their "
       "thicker end up, and that is what is wanted"}}};
@@ -218,8 +217,7 @@ void addCreationOptions(Command command, CreationOptions& options) {
                 "--time", options.time,
                 "The time that you have, as in 10min or 1h30min: how the track is learned is chosen for the "
                 "part (unless --sorting, --ledges, --slots or --rails says it), and how much of it for this "
-                "time "
-                "on this machine")
+                "time on this machine")
             .type("DURATION")
             .excludes(paper);
     Option beginWith =

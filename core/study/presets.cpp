@@ -232,7 +232,9 @@ Settings railsMode(Settings settings, const part::Part& part) {
     settings = slotMode(std::move(settings), part);
     settings.track.traps = "groove, groove, rails";
     settings.track.segmentHeight = scaleLength(120e-3, 8.9e-3, part);  // three traps do not fall far
-    if (const TargetSettings hanging = findHangingTarget(part); hanging.isSet()) settings.target = hanging;
+    if (const TargetSettings hanging = findHangingTarget(part);
+        hanging.isSet() && !wantsHanging(settings, part))
+        settings.target = hanging;
     settings.evolution.firstGeneration = search::ga::FirstGeneration::graded;
     settings.evolution.populationSize = 60;
     settings.evolution.generations = 6;

@@ -240,6 +240,8 @@ TargetSettings findHangingTarget(const part::Part& part) {
 }
 
 bool wantsHanging(const Settings& settings, const part::Part& part) {
+    if (!findTargetProblems(settings).empty() || !findTargetPartProblems(settings.target, part).empty())
+        return false;
     const auto wanted = findWanted(settings, part);
     const auto hanging = part::findHanging(part);
     return wanted && hanging && std::ranges::any_of(wanted->orientations, [&](const auto& one) {

@@ -53,7 +53,7 @@ TargetSettings findNearestTarget(const Settings& settings, const part::Part& par
 /// or the orientation, if they have no such pose. Nothing is wanted of a part that would tip over.
 TargetSettings findHangingTarget(const part::Part& part);
 
-/// Whether parts that hang so are right, in any heading.
+/// Whether parts that hang so are right, in any heading; not where the settings have problems.
 bool wantsHanging(const Settings& settings, const part::Part& part);
 
 /// What counted as success, for people: "the orientation (w, x, y, z) = ...", "stable pose 3-4 in any

@@ -222,7 +222,9 @@ class TargetTest : public QObject {
         QVERIFY(study::wantsHanging(wish(standing), bolt));
         QVERIFY(study::wantsHanging(wish(poses("7, 8")), bolt));
         QVERIFY(!study::wantsHanging(wish(poses("8", "10")), bolt));
-        QVERIFY(!study::wantsHanging(wish(poses("7")), bolt));
+        for (const char* other : {"7", "9", "x"})
+            QVERIFY(!study::wantsHanging(wish(poses(other)), bolt));
+        QVERIFY(!study::wantsHanging(wish(poses("8", "up")), bolt));
         QVERIFY(!study::wantsHanging(wish({}), bolt));
         // What has a point has no such pose: the cone's lies about its point, which is then below.
         const part::Part cone = made(part::makeTurned(

@@ -127,7 +127,7 @@ class ProposalTest : public QObject {
     void whatIsWantedHangingComesOnRails() {
         study::StudyInputs inputs = inputsFor("bolt");
         for (const bool isWanted : {true, false}) {
-            inputs.settings.target.poses = isWanted ? "8" : "7";
+            inputs.settings.target.poses = isWanted ? "7-8" : "7";
             const auto proposal = workflow::proposeSettings(inputs, 600.0, {});
             QVERIFY2(proposal.ok(), proposal.ok() ? "" : proposal.error().message.c_str());
             QCOMPARE(proposal->settings.track.traps == "groove, groove, rails", isWanted);
