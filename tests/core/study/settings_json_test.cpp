@@ -90,7 +90,7 @@ Settings unusualSettings() {
              1.5e-3,
              0.05,
              5.0 * base::kDegree};
-    s.target = {"3, 5-6", "12.5", base::Quaternion(0.1 + 0.2, 0.5, -1.0 / 3.0, 0.5)};
+    s.target = {"3, 5-6", "12.5", base::Quaternion(0.1 + 0.2, 0.5, -1.0 / 3.0, 0.5), true};
     s.stream = {77.7, study::Arrivals::regular, study::Delivery::anyhow, 1.0 / 7.0, 20.0 / 3.0,
                 5,    {0.35, 0.3, 0.1}};
     s.validation = {30, 2000, 320, 500, 24.9 * base::kDegree, study::TrialConditions::nominal};
