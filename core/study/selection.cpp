@@ -45,8 +45,8 @@ int countCornerTrials(const Settings& settings) {
 
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count) {
     std::stable_sort(winners.begin(), winners.end(), [](const Individual& a, const Individual& b) {
-        return std::make_tuple(-a.record.fitness.total, a.generation, a.individual) <
-               std::make_tuple(-b.record.fitness.total, b.generation, b.individual);
+        return std::make_tuple(-a.record.fitness.total, -a.generation, a.individual) <
+               std::make_tuple(-b.record.fitness.total, -b.generation, b.individual);
     });
     std::vector<Individual> ranked;
     for (Individual& winner : winners) {
@@ -71,11 +71,12 @@ const Individual* findBestWinner(std::span<const Individual> winners, bool falls
         return std::make_tuple(isLearnedInCorners(winner.record), success ? success->share() : -1.0,
                                winner.record.fitness.total);
     };
-    // The first of the greatest ones.
-    const auto best =
-        std::max_element(winners.begin(), winners.end(),
-                         [&](const Individual& a, const Individual& b) { return worth(a) < worth(b); });
-    return best == winners.end() ? nullptr : &*best;
+    // The last of the greatest ones.
+    const Individual* best = nullptr;
+    for (const Individual& winner : winners) {
+        if (best == nullptr || worth(winner) >= worth(*best)) best = &winner;
+    }
+    return best;
 }
 
 base::Result<SelectionRecord> selectWinners(const StudyInputs& inputs, std::vector<Individual> winners,

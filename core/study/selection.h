@@ -13,8 +13,8 @@
 
 namespace trapwright::study {
 
-/// The `count` fittest of these winners, best first, no design twice (the highest score of each counts;
-/// among equals the earlier generation is first).
+/// The `count` fittest of these winners, best first, no design twice (the highest score of each counts).
+/// Among equals the later generation is first: what all of a generation do well owes less to luck.
 std::vector<Individual> rankWinners(std::vector<Individual> winners, int count);
 
 /// Whether parts that fall off are thrown back and come again, so that fitness, not the success of all parts,
@@ -22,7 +22,7 @@ std::vector<Individual> rankWinners(std::vector<Individual> winners, int count);
 bool forgivesFalls(const EvolutionSettings& settings);
 
 /// The winner that is best by what was counted while learning: the greatest success, then the highest
-/// fitness, then the earliest generation; where falls are forgiven fitness comes first. A success that is not
+/// fitness, then the latest generation; where falls are forgiven fitness comes first. A success that is not
 /// known is below any, and one over the box alone below those that count its corners, too, which are harder.
 /// Null if there are no winners.
 const Individual* findBestWinner(std::span<const Individual> winners, bool fallsAreForgiven);

@@ -56,8 +56,8 @@ class ValidationTest : public QObject {
             3);
         QCOMPARE(ranked.size(), std::size_t{3});
         QCOMPARE(ranked[0].generation, 1);  // its twin of generation 3 is left out
-        QCOMPARE(ranked[1].generation, 2);  // the earlier among equals
-        QCOMPARE(ranked[2].generation, 4);
+        QCOMPARE(ranked[1].generation, 4);  // the later among equals
+        QCOMPARE(ranked[2].generation, 2);
     }
 
     void bestWinnerIsTheOneWithTheGreatestSuccess() {
@@ -72,10 +72,10 @@ class ValidationTest : public QObject {
         const auto bestOf = [](const std::vector<study::Individual>& winners) {
             return study::findBestWinner(winners, false)->generation;
         };
-        // The share counts, not the number; then fitness; then who was first.
+        // The share counts, not the number; then fitness; then who is last.
         QCOMPARE(bestOf({winner(0, 9, 10, -3.0), winner(1, 17, 20, -1.0)}), 0);
         QCOMPARE(bestOf({winner(0, 9, 10, -3.0), winner(1, 18, 20, -1.0), winner(2, 9, 10, -2.0)}), 1);
-        QCOMPARE(bestOf({winner(0, 9, 10, -1.0), winner(1, 9, 10, -1.0)}), 0);
+        QCOMPARE(bestOf({winner(0, 9, 10, -1.0), winner(1, 9, 10, -1.0)}), 1);
         // What is not known, or was not simulated, is not 0 %, but below it.
         QCOMPARE(bestOf({winner(0, std::nullopt, 10, 5.0), winner(1, 0, 10, -5.0)}), 1);
         QCOMPARE(bestOf({winner(0, 0, 0, 5.0), winner(1, 0, 10, -5.0)}), 1);
