@@ -334,12 +334,26 @@ LengthInPose findUnevenLength(const Part& part) {
     return uneven;
 }
 
+namespace {
+
+/// The axis about which the moment of inertia is another than about those across it, which are alike; of
+/// three that differ that of the least.
+Vec3 findLongAxis(const base::Mat3& inertia) {
+    constexpr double kAlike = 0.02;
+    const Eigen::SelfAdjointEigenSolver<base::Mat3> solved(inertia);
+    const Vec3 moments = solved.eigenvalues();  // rising
+    const bool isFlat =
+        moments[1] - moments[0] < kAlike * moments[1] && moments[2] - moments[1] > kAlike * moments[2];
+    return solved.eigenvectors().col(isFlat ? 2 : 0);
+}
+
+}  // namespace
+
 std::optional<base::Quaternion> findHanging(const Part& part) {
     constexpr double kAsWide = 0.9;  // of the greatest distance from the axis
     constexpr double kAbove = 0.05;  // the centre of mass, in bounding radii
     if (part.symmetry.sphere) return std::nullopt;
-    const Eigen::SelfAdjointEigenSolver<base::Mat3> inertia(part.massProperties.inertia);
-    const Vec3 axis = inertia.eigenvectors().col(0);
+    const Vec3 axis = findLongAxis(part.massProperties.inertia);
     const auto radiusOf = [&](const Vec3& vertex) { return axis.cross(vertex).norm(); };
     const double widest = radiusOf(*std::ranges::max_element(part.hull.vertices, {}, radiusOf));
     double low = std::numeric_limits<double>::infinity();

@@ -71,9 +71,9 @@ LengthInPose findLength(const Part& part, const StablePose& pose);
 /// more easily a track tells which end comes first (learning.md).
 LengthInPose findUnevenLength(const Part& part);
 
-/// How a part hangs between two rails (decisions.md#rails): its longest axis, that of the least inertia,
-/// upright and all of where it is widest about that above its centre of mass. None of a part that is not so,
-/// as one that is as wide at either end: it would tip over.
+/// How a part hangs between two rails (decisions.md#rails): its axis upright, that of its symmetry, or else
+/// the longest one, of the least inertia, and all of where it is widest about that above its centre of mass.
+/// None of a part that is not so, as one that is as wide at either end: it would tip over.
 std::optional<base::Quaternion> findHanging(const Part& part);
 
 }  // namespace trapwright::part

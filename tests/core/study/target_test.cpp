@@ -236,6 +236,15 @@ class TargetTest : public QObject {
         const auto lowest = std::ranges::min_element(
             cone.hull.vertices, {}, [&](const base::Vec3& vertex) { return up.dot(vertex); });
         QVERIFY(std::abs(up.dot(*lowest) + 12e-3) < 0.2e-3);
+        // A rivet that is shorter than its head is wide.
+        const part::Part rivet = made(part::makeTurned(
+            std::array{base::Vec2(0.0, 0.0), base::Vec2(2.5e-3, 0.0), base::Vec2(2.5e-3, 5e-3),
+                       base::Vec2(6e-3, 5e-3), base::Vec2(6e-3, 6e-3), base::Vec2(0.0, 6e-3)},
+            32));
+        const study::TargetSettings riveted = study::findHangingTarget(rivet);
+        QVERIFY(riveted.isSet());
+        const auto hanging = part::findHanging(rivet);
+        QVERIFY(hanging && (*hanging * base::Vec3::UnitZ()).z() > 0.999);
         // A block, and a pin whose centre of mass is 0.3 mm below its collar.
         QVERIFY(!study::findHangingTarget(cuboid()).isSet());
         QVERIFY(!study::findHangingTarget(made(part::makeBundledShape("pin"))).isSet());
