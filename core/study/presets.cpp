@@ -230,7 +230,7 @@ Settings slotMode(Settings settings, const part::Part& part) {
 
 Settings railsMode(Settings settings, const part::Part& part) {
     settings = slotMode(std::move(settings), part);
-    settings.track.traps = "groove, groove, rails";
+    settings.track.traps = kRailsTraps;
     settings.track.segmentHeight = scaleLength(120e-3, 8.9e-3, part);  // three traps do not fall far
     if (const TargetSettings hanging = findHangingTarget(part);
         hanging.isSet() && !wantsHanging(settings, part))

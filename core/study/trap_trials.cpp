@@ -11,6 +11,7 @@
 
 #include "core/base/parallel.h"
 #include "core/study/orientation_shares.h"
+#include "core/study/presets.h"
 #include "core/study/selection.h"
 #include "core/study/target.h"
 #include "core/study/track_design.h"
@@ -254,17 +255,19 @@ std::vector<std::size_t> TrapTrials::listWanted() const {
 base::Status TrapTrials::checkWanted() const {
     if (!settings().target.isSet() || !problem_.wanted.empty() || ends_.empty()) return base::success();
     return base::Error{
-        fmt::format("Parts shall end {}, and none comes to the traps so, within {:g}°. Traps take them from "
-                    "one of the ways in which they come to another, or throw them out; these are:{}\n"
-                    "Want one of them (target.poses, target.heading_deg), or a larger angle "
-                    "(validation.tolerance_deg); or learn without a plan (evolution.firstGeneration "
-                    "graded).{}",
-                    describeTarget(settings(), *inputs_->part),
-                    settings().validation.tolerance / base::kDegree, describeEnds(),
-                    wantsHanging(settings(), *inputs_->part)
-                        ? "\nAs it is wanted this part hangs by its thicker end: rails may bring it so "
-                          "(\"groove, groove, rails\")."
-                        : ""),
+        fmt::format(
+            "Parts shall end {}, and none comes to the traps so, within {:g}°. Traps take them from "
+            "one of the ways in which they come to another, or throw them out; these are:{}\n"
+            "Want one of them (target.poses, target.heading_deg), or a larger angle "
+            "(validation.tolerance_deg); or learn without a plan (evolution.firstGeneration "
+            "graded).{}",
+            describeTarget(settings(), *inputs_->part), settings().validation.tolerance / base::kDegree,
+            describeEnds(),
+            wantsHanging(settings(), *inputs_->part)
+                ? fmt::format("\nAs it is wanted this part hangs by its thicker end: rails may bring it "
+                              "so (\"{}\").",
+                              kRailsTraps)
+                : ""),
         base::ErrorKind::unattainable};
 }
 

@@ -117,14 +117,65 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
     return topology;
 }
 
+/// How far a border may be from the track's edge that is not cut back: a point's strip (PointEncoding).
+double stripOf(const CrossSection& section, double width) {
+    return width / static_cast<double>(section.points.size());
+}
+
+/// Both borders are cut back.
+bool standsFree(const CrossSection& section, double width) {
+    const double edge = 0.5 * width - stripOf(section, width);
+    return section.points.front().x() > -edge && section.points.back().x() < edge;
+}
+
+/// What there is of the walls at a section: 0 to 1.
+struct WallShares {
+    double x = 0.0;
+    double height = 1.0;
+    double thickness = 1.0;
+};
+
+/// A surface that stands free has none. They come down to it over the segment before the last one that does
+/// not: with height and thickness at once they would end in a blade.
+std::vector<WallShares> shareWalls(std::span<const CrossSection> sections, const PrintOutline& outline) {
+    std::vector<WallShares> shares;
+    if (!outline.innerWall && !outline.outerWall) return shares;
+    shares.reserve(sections.size());
+    const auto isFree = [&](std::size_t i) {
+        return i < sections.size() && standsFree(sections[i], outline.width);
+    };
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        const bool endsHere = isFree(i) || isFree(i + 1) || (i > 0 && isFree(i - 1));
+        shares.push_back({sections[i].x, endsHere ? 0.0 : 1.0, isFree(i) ? 0.0 : 1.0});
+    }
+    return shares;
+}
+
+/// In proportion between the two next to it.
+WallShares sharesAt(std::span<const WallShares> shares, double x) {
+    if (shares.empty()) return {x};
+    const auto next = std::ranges::lower_bound(shares, x, {}, &WallShares::x);
+    if (next == shares.begin()) return shares.front();
+    if (next == shares.end()) return shares.back();
+    const WallShares& last = *std::prev(next);
+    const double share = (x - last.x) / (next->x - last.x);
+    return {x, std::lerp(last.height, next->height, share),
+            std::lerp(last.thickness, next->thickness, share)};
+}
+
 /// `rise`: of the track's plane z = 0 there, in the room.
-Row makeRow(const CrossSection& section, const PrintOutline& outline, double rise) {
+Row makeRow(const CrossSection& section, const PrintOutline& outline, const WallShares& walls, double rise) {
     const double innerBorder = section.points.front().x();
     const double outerBorder = section.points.back().x();
     const Rims rims = rimsAt(outline.rims, section.x);
-    const double innerSide = outline.innerWall ? outline.innerSide : innerBorder - rims.inner;
-    const double outerSide = outline.outerWall ? outline.outerSide : outerBorder + rims.outer;
-    const auto topOf = [&](double wall) { return crestAt(outline.crest, section.x) + wall + rise; };
+    const auto sideOf = [&](double border, double side) { return std::lerp(border, side, walls.thickness); };
+    const double innerSide =
+        outline.innerWall ? sideOf(innerBorder, outline.innerSide) : innerBorder - rims.inner;
+    const double outerSide =
+        outline.outerWall ? sideOf(outerBorder, outline.outerSide) : outerBorder + rims.outer;
+    const auto topOf = [&](double wall, const base::Vec2& border) {
+        return rise + std::lerp(border.y(), crestAt(outline.crest, section.x) + wall, walls.height);
+    };
     Row row;
     if (outline.innerFlange) {
         row.top.emplace_back(*outline.innerFlange, outline.flangeTop);
@@ -132,8 +183,8 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
         row.base.push_back(*outline.innerFlange);
     }
     if (outline.innerWall) {
-        row.top.emplace_back(innerSide, topOf(*outline.innerWall));
-        row.top.emplace_back(innerBorder, topOf(*outline.innerWall));
+        row.top.emplace_back(innerSide, topOf(*outline.innerWall, section.points.front()));
+        row.top.emplace_back(innerBorder, topOf(*outline.innerWall, section.points.front()));
         row.base.push_back(innerSide);
     } else if (hasRim(outline, &Rims::inner)) {
         row.top.emplace_back(innerSide, section.points.front().y() + rise);
@@ -144,8 +195,8 @@ Row makeRow(const CrossSection& section, const PrintOutline& outline, double ris
     const std::vector<double> below = placeBase(section);
     row.base.insert(row.base.end(), below.begin(), below.end());
     if (outline.outerWall) {
-        row.top.emplace_back(outerBorder, topOf(*outline.outerWall));
-        row.top.emplace_back(outerSide, topOf(*outline.outerWall));
+        row.top.emplace_back(outerBorder, topOf(*outline.outerWall, section.points.back()));
+        row.top.emplace_back(outerSide, topOf(*outline.outerWall, section.points.back()));
         row.base.push_back(outerSide);
     } else if (hasRim(outline, &Rims::outer)) {
         row.top.emplace_back(outerSide, section.points.back().y() + rise);
@@ -163,8 +214,11 @@ class Builder {
  public:
     Builder(const FeederShape& shape, std::span<const CrossSection> sections, const PrintOutline& outline)
         : topology_(makeTopology(outline, static_cast<int>(sections.front().points.size()))) {
+        const std::vector<WallShares> walls = shareWalls(sections, outline);
         for (const CrossSection& section : subdivideSections(shape, sections))
-            addRow(shape, section.x, makeRow(section, outline, shape.rise(section.x)), outline.base);
+            addRow(shape, section.x,
+                   makeRow(section, outline, sharesAt(walls, section.x), shape.rise(section.x)),
+                   outline.base);
     }
 
     TrackSolid build(bool mirrored) {
@@ -305,7 +359,7 @@ std::vector<Rims> placeRims(const Track& track, double width) {
     for (const CrossSection& section : sections)
         rims.push_back({section.x, 0.0, 0.0});
     const std::size_t last = sections.front().points.size() - 1;
-    const double strip = track.width / static_cast<double>(last + 1);
+    const double strip = stripOf(sections.front(), track.width);
     const auto place = [&](std::size_t i, std::size_t point) {
         const base::Vec2& own = sections[i].points[point];
         return track.shape.toRoom({sections[i].x, own.x(), own.y()});

@@ -31,6 +31,7 @@ struct PrintOutline {
     std::vector<base::Vec2> crest{};      // of the whole track (findCrest); walls need it
     std::optional<double> innerWall{};    // how far it rises above the crest; none: no wall at this side
     std::optional<double> outerWall{};    // likewise
+    double width = 0.0;                   // of the track (Track::width); walls need it
     double innerSide = 0.0;               // y of the wall's outer face
     double outerSide = 0.0;               // likewise
     double flangeTop = 0.0;               // z in the room; not above the surface
@@ -45,8 +46,9 @@ std::vector<base::Vec2> findCrest(std::span<const CrossSection> sections);
 
 /// The surface over these sections, what stands beside it, sides, ends and a flat base as one closed,
 /// oriented manifold. Its first triangles are those of the track's surface. Walls stand upright on the
-/// surface's borders and reach outward to the sides; flanges begin at the walls, or without walls at the
-/// rims or borders.
+/// surface's borders and reach outward to the sides, also where one is cut back; where both are, the surface
+/// stands free and has none, and they come down over the segment before. Flanges begin at the walls, or
+/// without walls at the rims or borders.
 TrackSolid buildOutlined(const FeederShape& shape, std::span<const CrossSection> sections,
                          const PrintOutline& outline);
 

@@ -180,6 +180,7 @@ void addSolid(Track& track) {
         PrintOutline outline;
         outline.base = findBase(track.shape, track.sections, track.baseThickness);
         outline.crest = findCrest(track.sections);
+        outline.width = track.width;
         outline.outerSide = 0.5 * widthWithWalls(track.width, track.walls);
         outline.innerSide = -outline.outerSide;
         if (track.walls.inner > 0.0) outline.innerWall = track.walls.inner;

@@ -19,7 +19,9 @@ constexpr double kLongestEdge = 6e-3;     // [m]
 constexpr double kSteepestLedgeWall = 60.0 * base::kDegree;
 constexpr double kMostFloor = 20.0 * base::kDegree;  // of a ledge, across the track
 constexpr double kSlotSide = 0.1e-3;                 // across the track [m]
-constexpr int kPointsOfSlot = 6;    // of a section: on either side the track's edge, the slot's, its foot
+constexpr int kPointsOfSlot = 6;  // of a section: on either side the track's edge, the slot's, its foot
+constexpr double kThinnestRail = 1.5e-3;  // so that it can be printed [m]
+constexpr double kLevelestRoof = 15.0 * base::kDegree;
 constexpr double kRounding = 1e-9;  // [m]
 // Of each number: 0.2 mm, 0.7 degrees. Finer ones would have a mutated bit change nothing that a part feels.
 constexpr int kBits = 7;
@@ -28,14 +30,22 @@ double within(double low, double high, double share) {
     return low + (high - low) * share;
 }
 
+/// A slot along a groove's middle.
+struct Opening {
+    double width = 0.0;  // [m]; 0: there is none
+    double depth = 0.0;  // below the groove's bottom [m]
+    /// How much of the track is left on either side. [m] None: all of it.
+    std::optional<double> rail{};
+    double roof = 0.0;  // how steeply that falls outward [rad]
+};
+
 /// A groove's cross-section.
 struct Form {
     double walls = kRestingWall;  // how steep both are [rad]
     double inclined = 0.0;        // as a whole, positive: down towards the outer edge [rad]
     double middle = 0.0;          // y of its bottom [m]
     double cut = 0.0;  // how much of the track's width is cut away: from its outer edge, negative: inner [m]
-    double slotWidth = 0.0;  // of a slot along the groove's middle [m]
-    double slotDepth = 0.0;  // below its bottom [m]
+    Opening slot{};
 };
 
 double restingLength(const TrapParameters& parameters) {
@@ -58,9 +68,12 @@ class Course {
         for (int j = 0; j < parameters_->pointsPerSection; ++j) {
             const double y = placeOf(j, form);
             const double across = y - form.middle;
-            const bool isFloor = form.slotWidth > 0.0 && std::abs(across) <= 0.5 * form.slotWidth + kRounding;
-            const double z =
-                isFloor ? bottom_ - form.slotDepth : bottom_ + wall * std::abs(across) + slope * across;
+            const double foot = 0.5 * form.slot.width;
+            const bool isFloor = form.slot.width > 0.0 && std::abs(across) <= foot + kRounding;
+            const double onRail = form.slot.rail ? std::max(0.0, std::abs(across) - foot) : 0.0;
+            const double z = isFloor ? bottom_ - form.slot.depth
+                                     : bottom_ + wall * (std::abs(across) - onRail) -
+                                           std::tan(form.slot.roof) * onRail + slope * across;
             section.points.emplace_back(y, std::clamp(z, 0.0, parameters_->segmentHeight));
         }
         sections_.push_back(std::move(section));
@@ -87,7 +100,7 @@ class Course {
         const int last = parameters_->pointsPerSection - 1;
         const int lowest = parameters_->pointsPerSection / 2;
         if (last < 2) return point == 0 ? inner : outer;
-        if (form.slotWidth > 0.0) return placeBesideSlot(point, form);
+        if (form.slot.width > 0.0) return placeBesideSlot(point, form.slot);
         // Where the bottom itself is cut away, all points are on the wall that is left.
         if (form.middle <= inner || form.middle >= outer)
             return within(inner, outer, static_cast<double>(point) / last);
@@ -95,17 +108,18 @@ class Course {
         return within(form.middle, outer, static_cast<double>(point - lowest) / (last - lowest));
     }
 
-    /// From either of the track's edges to the slot's, down its side, and its floor.
-    [[nodiscard]] double placeBesideSlot(int point, const Form& form) const {
+    /// From either of the track's or the rails' outer edges to the slot's, down its side, and its floor.
+    [[nodiscard]] double placeBesideSlot(int point, const Opening& slot) const {
         const int last = parameters_->pointsPerSection - 1;
         const int rails = std::max(0, parameters_->pointsPerSection / 2 - 2);  // the last point beside it
         const double sign = 2 * point < last ? -1.0 : 1.0;
         const int fromEdge = std::min(point, last - point);
-        const double foot = 0.5 * form.slotWidth;
+        const double foot = 0.5 * slot.width;
+        const double half = 0.5 * parameters_->segmentWidth;
+        const double edge = slot.rail ? std::min(half, foot + *slot.rail) : half;
         if (2 * point == last) return 0.0;
         if (fromEdge > rails) return sign * foot;
-        return sign * within(0.5 * parameters_->segmentWidth, foot + kSlotSide,
-                             static_cast<double>(fromEdge) / std::max(1, rails));
+        return sign * within(edge, foot + kSlotSide, static_cast<double>(fromEdge) / std::max(1, rails));
     }
 
     const TrapParameters* parameters_;
@@ -307,6 +321,12 @@ double deepestSlot(const TrapParameters& parameters) {
     return parameters.maxSegmentLength;
 }
 
+/// The same groove where its slot has no depth: the floor is as the rails are, so that nothing is left of it.
+Form shut(Form form) {
+    form.slot.depth = -0.5 * form.slot.width * std::tan(form.walls);
+    return form;
+}
+
 /// Of the groove before the slot, of its opening and of its rails: what a slot and rails have in common.
 std::vector<search::Dimension> dimensionsOfRails(const TrapParameters& parameters) {
     constexpr double kMillimetres = 1.0 / base::kMillimetre;
@@ -320,20 +340,22 @@ std::vector<search::Dimension> dimensionsOfRails(const TrapParameters& parameter
             {"length", "mm", kMillimetres * parameters.minSegmentLength, 2.0 * longest, kBits}};
 }
 
-/// Adds them, open to their end; what they are of where they are shut.
-Form addRails(Course& course, const TrapParameters& parameters, std::span<const double> numbers) {
+/// Rails that are open to their end.
+struct OpenRails {
+    Form form;
+    double fall = 0.0;  // [rad]
+};
+
+OpenRails addRails(Course& course, const TrapParameters& parameters, std::span<const double> numbers) {
     const double longest = parameters.maxSegmentLength;
-    const double fall = within(-kSteepestRise, kSteepestFall, numbers[1]);
-    Form form{within(0.0, kSteepestWall, numbers[2])};
-    form.slotWidth = within(0.0, widestSlot(parameters), numbers[3]);
-    Form slot = form;
-    slot.slotDepth = within(0.0, deepestSlot(parameters), numbers[4]);
-    // Shut the slot's floor is as its rails are, so that nothing is left of it.
-    form.slotDepth = -0.5 * form.slotWidth * std::tan(form.walls);
-    course.add(within(parameters.minSegmentLength, longest, numbers[0]), fall, form);
-    course.add(within(kShortestEdge, longest, numbers[5]), fall, slot);
-    course.add(within(parameters.minSegmentLength, 2.0 * longest, numbers[6]), fall, slot);
-    return form;
+    OpenRails rails{{within(0.0, kSteepestWall, numbers[2])},
+                    within(-kSteepestRise, kSteepestFall, numbers[1])};
+    rails.form.slot = {within(0.0, widestSlot(parameters), numbers[3]),
+                       within(0.0, deepestSlot(parameters), numbers[4])};
+    course.add(within(parameters.minSegmentLength, longest, numbers[0]), rails.fall, shut(rails.form));
+    course.add(within(kShortestEdge, longest, numbers[5]), rails.fall, rails.form);
+    course.add(within(parameters.minSegmentLength, 2.0 * longest, numbers[6]), rails.fall, rails.form);
+    return rails;
 }
 
 std::vector<double> layOutRails(const TrapParameters& parameters) {
@@ -356,6 +378,50 @@ std::vector<track::CrossSection> buildRails(const TrapParameters& parameters,
     return course.take();
 }
 
+double widestRail(const TrapParameters& parameters) {
+    return std::max(parameters.segmentWidth / 12.0, kThinnestRail);
+}
+
+std::vector<search::Dimension> dimensionsOfNarrowRails(const TrapParameters& parameters) {
+    constexpr double kMillimetres = 1.0 / base::kMillimetre;
+    std::vector<search::Dimension> dimensions = dimensionsOfRails(parameters);
+    dimensions.push_back(lengthOf("narrowing", parameters));
+    dimensions.push_back(
+        {"rail", "mm", kMillimetres * kThinnestRail, kMillimetres * widestRail(parameters), kBits});
+    dimensions.push_back(angleOf("roof", kLevelestRoof, kSteepestWall));
+    dimensions.push_back(lengthOf("narrow, length", parameters));
+    return dimensions;
+}
+
+std::vector<track::CrossSection> buildNarrowRails(const TrapParameters& parameters,
+                                                  const track::CrossSection& entry,
+                                                  std::span<const double> numbers) {
+    Course course(parameters, entry);
+    OpenRails rails = addRails(course, parameters, numbers);
+    // Beside this walls come down, and what follows has none (track::PrintOutline).
+    course.add(parameters.minSegmentLength, rails.fall, rails.form);
+    const double strip = parameters.segmentWidth / parameters.pointsPerSection;
+    const double widest = 0.5 * parameters.segmentWidth - strip - kSlotSide - 0.5 * rails.form.slot.width;
+    rails.form.slot.rail = std::min(widest, within(kThinnestRail, widestRail(parameters), numbers[8]));
+    rails.form.slot.roof = within(kLevelestRoof, kSteepestWall, numbers[9]);
+    for (const double length : {numbers[7], numbers[10]})
+        course.add(within(parameters.minSegmentLength, parameters.maxSegmentLength, length), rails.fall,
+                   rails.form);
+    return course.take();
+}
+
+std::vector<double> layOutNarrowRails(const TrapParameters& parameters) {
+    std::vector<double> places = layOutRails(parameters);
+    for (const double next :
+         {parameters.minSegmentLength, restingLength(parameters), restingLength(parameters)})
+        places.push_back(places.back() + next);
+    return places;
+}
+
+double longestNarrowRails(const TrapParameters& parameters) {
+    return longestRails(parameters) + parameters.minSegmentLength + 2.0 * parameters.maxSegmentLength;
+}
+
 std::vector<search::Dimension> dimensionsOfSlot(const TrapParameters& parameters) {
     constexpr double kMillimetres = 1.0 / base::kMillimetre;
     std::vector<search::Dimension> dimensions = dimensionsOfRails(parameters);
@@ -368,9 +434,9 @@ std::vector<search::Dimension> dimensionsOfSlot(const TrapParameters& parameters
 std::vector<track::CrossSection> buildSlot(const TrapParameters& parameters, const track::CrossSection& entry,
                                            std::span<const double> numbers) {
     Course course(parameters, entry);
-    const Form shut = addRails(course, parameters, numbers);
+    const OpenRails rails = addRails(course, parameters, numbers);
     course.fallBy(within(0.0, deepestSlot(parameters), numbers[8]),
-                  within(kShortestEdge, parameters.maxSegmentLength, numbers[7]), shut);
+                  within(kShortestEdge, parameters.maxSegmentLength, numbers[7]), shut(rails.form));
     course.rest();
     return course.take();
 }
@@ -459,17 +525,29 @@ TrapKind slot() {
 }
 
 TrapKind rails() {
-    return {"rails",
-            "Rails",
-            "A slot that goes on to the track's end: parts leave hanging, their thicker end up.",
-            &dimensionsOfRails,
-            &buildRails,
-            &layOutRails,
-            &longestRails,
-            nullptr,
-            false,
-            false,
-            kPointsOfSlot};
+    TrapKind kind{"rails",
+                  "Rails",
+                  "A slot that goes on to the track's end: parts leave hanging, their thicker end up.",
+                  &dimensionsOfRails,
+                  &buildRails,
+                  &layOutRails,
+                  &longestRails};
+    kind.leastPoints = kPointsOfSlot;
+    kind.isLast = true;
+    return kind;
+}
+
+TrapKind narrowRails() {
+    TrapKind kind{"narrow rails",
+                  "Narrow rails",
+                  "Rails of which at the end only narrow ones are left: what does not hang falls off.",
+                  &dimensionsOfNarrowRails,
+                  &buildNarrowRails,
+                  &layOutNarrowRails,
+                  &longestNarrowRails};
+    kind.leastPoints = kPointsOfSlot;
+    kind.isLast = true;
+    return kind;
 }
 
 }  // namespace trapwright::traps

@@ -52,9 +52,9 @@ Repeated readRepeated(std::string_view word) {
 }  // namespace
 
 std::span<const TrapKind> trapKinds() {
-    static const std::array<TrapKind, 11> kinds = {freeForm(), step(),    groove(), drop(),
-                                                   cutOut(),   gap(),     slot(),   rails(),
-                                                   narrowed(), notched(), ledge()};
+    static const std::array<TrapKind, 12> kinds = {freeForm(),    step(),     groove(),  drop(),
+                                                   cutOut(),      gap(),      slot(),    rails(),
+                                                   narrowRails(), narrowed(), notched(), ledge()};
     return kinds;
 }
 
@@ -96,13 +96,12 @@ base::Result<TrapChain> readTraps(std::string_view text) {
         }
         chain.insert(chain.end(), repeated.times, &*found);
     }
-    static const std::string_view kRails = rails().key;
-    const auto open = std::ranges::find(chain, kRails, &TrapKind::key);
+    const auto open = std::ranges::find_if(chain, &TrapKind::isLast);
     if (open != chain.end() && std::next(open) != chain.end()) {
         return base::Error{fmt::format(
-            "\"{}\" goes on behind its rails. They stay open to the track's end, so they come last; a slot "
+            "\"{}\" goes on behind its {}. They stay open to the track's end, so they come last; a slot "
             "ends and can be followed.",
-            text)};
+            text, (*open)->key)};
     }
     return chain;
 }

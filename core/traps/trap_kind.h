@@ -59,6 +59,8 @@ struct TrapKind {
     bool isLedge = false;
     /// Points a section of which its form can be made.
     int leastPoints = 2;
+    /// Nothing can follow it: it goes on to the track's end, as the lead-out does.
+    bool isLast = false;
 };
 
 /// The kinds that there are. A new one is its own file and its entry in trap_chain.cpp.

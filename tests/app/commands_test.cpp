@@ -183,7 +183,7 @@ class CommandsTest : public QObject {
     void railsMode() {
         QCOMPARE(ask({"new", "rails.trap", "--part", "bolt", "--rails"}).code, 0);
         const QJsonObject settings = ask({"settings", "rails.trap", "--json"}).json();
-        QCOMPARE(settings["track"].toObject()["traps"].toString(), "groove, groove, rails");
+        QCOMPARE(settings["track"].toObject()["traps"].toString(), "drop, groove, narrow rails");
         QVERIFY(settings["track"].toObject()["innerWall_mm"].toDouble() > 0.0);
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "graded");
         QCOMPARE(settings["target"].toObject()["poses"].toString(), "8");

@@ -40,14 +40,14 @@ const RawText kTexts[] = {
     {"track.bowlRadius_mm", TEXT("Bowl radius"), TEXT("From the bowl's axis to the middle of the track.")},
     {"track.conveying", TEXT("Parts move"), TEXT("The way around the bowl, seen from above."), {TEXT("Clockwise"), TEXT("Anticlockwise")}},
     {"track.slope_deg", TEXT("Slope"), TEXT("How steeply the track climbs; below 0 it falls. A linear feeder is tilted as a whole, and the vibration with it; a bowl's track climbs around an upright bowl.")},
-    {"track.innerWall_mm", TEXT("Inner wall"), TEXT("How far a wall at the inner side rises above what is highest of the surface beside it, to keep parts on the track; 0: an edge. It closes cut-outs and gaps at its side.")},
+    {"track.innerWall_mm", TEXT("Inner wall"), TEXT("How far a wall at the inner side rises above what is highest of the surface beside it, to keep parts on the track; 0: an edge. It closes cut-outs and gaps at its side; where both sides are cut back, as beside narrow rails, there is none.")},
     {"track.outerWall_mm", TEXT("Outer wall"), TEXT("The same at the outer side, where a bowl has its wall.")},
     {"track.spiralWidth_mm", TEXT("Spiral"), TEXT("Width of the ledge that parts come up the bowl on, beside a wall at its outer side; it takes the place of the level lead-in. 0: level over the whole width.")},
     {"track.spiralWall_mm", TEXT("Wall of ledges"), TEXT("How far it rises above the ledge, that of the spiral and those among the traps.")},
     {"track.spiralInclination_deg", TEXT("Ledges lean out"), TEXT("How steeply a ledge falls toward its wall, so that parts come along the wall: that of the spiral and those among the traps.")},
     {"track.chuteLength_mm", TEXT("Chute"), TEXT("How long a chute behind the lead-out is, along the track: the last cross-section, falling. The finish line is then in its middle, and parts count as they lie on it. 0: none.")},
     {"track.chuteAngle_deg", TEXT("Chute falls by"), TEXT("How steeply. Parts slide by themselves where its tangent is more than the friction; vibration helps them.")},
-    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, slots, rails, ledges, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
+    {"track.traps", TEXT("Traps"), TEXT("What turns the parts: a free-form surface of hills and valleys, a level step, a groove, drops from one groove into the next, cut-outs, gaps, slots, rails, narrow rails, ledges, narrowed and notched tracks that throw out what lies wrong, or several one after the other.")},
     {"track.given", TEXT("Given trap"), TEXT("Cross-sections that the traps follow: those of a track that was learned before and stays as it is. Change in a new study, Add a rejecting trap, sets them.")},
     {"track.returns", TEXT("What falls off"), TEXT("Where parts that fall off the track come again because they fall back into the bowl or a tray: nowhere, at one side, anywhere. What falls elsewhere is lost."), {TEXT("Is lost"), TEXT("Returns inside"), TEXT("Returns outside"), TEXT("Returns")}},
     {"track.crossSections", TEXT("Cross-sections"), TEXT("How many shape a free-form trap; more of them allow more turns of the part and take longer to learn.")},
@@ -198,8 +198,8 @@ std::vector<Choice> trapChoices() {
     for (const char* chain :
          {"free-form, step", "step, free-form", "groove, drop", "groove, 3 x drop", "groove, 6 x drop",
           "groove, 10 x drop", "groove, groove, 8 x gap", "groove, groove, 3 x slot", "groove, groove, rails",
-          "groove, groove, 8 x cut-out", "2 x narrowed", "narrowed, notched", "free-form, narrowed",
-          "10 x ledge"})
+          "drop, groove, narrow rails", "groove, groove, 8 x cut-out", "2 x narrowed", "narrowed, notched",
+          "free-form, narrowed", "10 x ledge"})
         add(chain);
     return choices;
 }

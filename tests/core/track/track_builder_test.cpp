@@ -298,6 +298,49 @@ class TrackBuilderTest : public QObject {
         QCOMPARE(found, expected.size());
     }
 
+    // Where a surface is cut back from one side its wall closes that; from both it stands free, and walls are
+    // down where that begins.
+    void whatIsCutFromBothSidesHasNoWalls_data() {
+        QTest::addColumn<FeederShape>("shape");
+        QTest::addRow("linear") << FeederShape{};
+        QTest::addRow("clockwise") << testing::makeBowl(Conveying::clockwise);
+    }
+    void whatIsCutFromBothSidesHasNoWalls() {
+        QFETCH(FeederShape, shape);
+        TrackParameters parameters;
+        parameters.shape = shape;
+        parameters.walls = {4e-3, 5e-3};
+        const auto cut = [&](double inner, double outer) {
+            std::vector<CrossSection> trap;
+            for (const double x : {10e-3, 20e-3, 40e-3}) {
+                const bool isCut = x > 15e-3;
+                const double from = isCut ? inner : -30e-3;
+                const double to = isCut ? outer : 30e-3;
+                trap.push_back({x, {{from, 15e-3}, {0.0, 15e-3}, {to, 15e-3}}});
+            }
+            return build(parameters, trap);
+        };
+        const auto highest = [](const track::Track& track) {
+            double z = 0.0;
+            for (const base::Vec3& vertex : track.solid.vertices)
+                if (track.shape.toTrack(vertex, 120e-3).x() > 110e-3) z = std::max(z, vertex.z());
+            return z;
+        };
+        for (const auto& [inner, outer] : {std::pair(-30e-3, 30e-3), {-5e-3, 30e-3}, {-30e-3, 5e-3}}) {
+            const auto walled = cut(inner, outer);
+            QVERIFY(isClosedManifold(walled.solid));
+            QVERIFY(std::abs(highest(walled) - 20e-3) < 1e-9);
+        }
+        const auto bare = cut(-5e-3, 5e-3);
+        QVERIFY(isClosedManifold(bare.solid));
+        QVERIFY(std::abs(highest(bare) - 15e-3) < 1e-9);
+        for (const base::Vec3& vertex : bare.solid.vertices) {
+            const base::Vec3 place = bare.shape.toTrack(vertex, 120e-3);
+            if (place.x() > 110e-3) QVERIFY(std::abs(place.y()) < 6e-3);
+        }
+        QVERIFY(calcVolume(bare.solid) < calcVolume(cut(-5e-3, 30e-3).solid));
+    }
+
     // Walls stand on the borders, as high above the surface's highest point as is said where that is, 2 mm
     // wide at least.
     void wallsArePartOfTheSolid_data() {

@@ -333,10 +333,60 @@ class TrapKindsTest : public QObject {
         for (std::size_t i = 0; i < rails.size(); ++i)
             QVERIFY(rails[i].x == slot[i].x && rails[i].points == slot[i].points);
         QVERIFY(traps::readTraps("groove, groove, slot, rails").ok());
-        for (const char* text : {"rails, groove", "groove, 2 x rails"}) {
+        for (const char* text : {"rails, groove", "groove, 2 x rails", "narrow rails, groove"}) {
             const auto read = traps::readTraps(text);
             QVERIFY(!read.ok());
             QVERIFY(read.error().message.find("they come last") != std::string::npos);
+        }
+    }
+
+    // Rails, and then of the track two level ones alone, as wide as is said.
+    void narrowRailsAreCutFromBothSides() {
+        TrapParameters parameters;
+        parameters.segmentHeight = 200e-3;
+        parameters.pointsPerSection = 9;
+        const track::CrossSection before = traps::levelSection(parameters, 120e-3);
+        const std::vector<double> numbers(11, 0.5);
+        QCOMPARE(traps::narrowRails().dimensions(parameters).size(), numbers.size());
+        const auto rails = traps::rails().build(parameters, before, std::span(numbers).first(7));
+        const auto narrow = traps::narrowRails().build(parameters, before, numbers);
+        QCOMPARE(narrow.size(), rails.size() + 3);
+        for (std::size_t i = 0; i < rails.size(); ++i)
+            QVERIFY(narrow[i].x == rails[i].x && narrow[i].points == rails[i].points);
+        const double foot = rails.back().points[5].x();
+        QVERIFY(foot > 0.0);
+        // Beside it walls come down.
+        QCOMPARE(narrow[rails.size()].points.back().x(), 0.5 * parameters.segmentWidth);
+        for (std::size_t i = rails.size() + 1; i < narrow.size(); ++i) {
+            const std::vector<base::Vec2>& points = narrow[i].points;
+            QVERIFY(std::abs(points.back().x() - foot - 0.5 * (1.5e-3 + parameters.segmentWidth / 12.0)) <
+                    1e-12);
+            QCOMPARE(points.front().x(), -points.back().x());
+            // Beside the slot as much lower as the track has fallen, and from there on a roof.
+            const double fallen = rails.back().points[4].y() - points[4].y();
+            QVERIFY(std::abs(points[6].y() - (rails.back().points[6].y() - fallen)) < 0.2e-3);
+            const double roof =
+                std::atan2(points[6].y() - points.back().y(), points.back().x() - points[6].x());
+            QVERIFY(std::abs(roof - 28.5 * base::kDegree) < 1e-9);
+            QVERIFY(std::abs(points.front().y() - points.back().y()) < 1e-12);
+        }
+    }
+
+    void narrowRailsBetweenWallsCanBePrinted() {
+        TrapParameters parameters;
+        parameters.segmentWidth = 32e-3;
+        parameters.segmentHeight = 120e-3;
+        parameters.walls = {6e-3, 6e-3};
+        parameters.pointsPerSection = 9;
+        const traps::TrapKind kind = traps::narrowRails();
+        for (const double narrowing : {0.0, 0.5, 1.0}) {
+            std::vector<double> numbers(kind.dimensions(parameters).size(), 0.5);
+            numbers[7] = narrowing;
+            const auto sections = kind.build(parameters, traps::levelSection(parameters, 60e-3), numbers);
+            const track::Track track = *track::buildTrack(parameters, sections);
+            const auto walls = geometry::findThinWalls(track.solid, {});
+            QVERIFY2(walls.empty(),
+                     qPrintable(QString("%1 walls, narrowing %2").arg(walls.size()).arg(narrowing)));
         }
     }
 

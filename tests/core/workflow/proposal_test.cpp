@@ -5,6 +5,7 @@
 #include "core/part/bundled.h"
 #include "core/part/part_builder.h"
 #include "core/study/planning.h"
+#include "core/study/presets.h"
 #include "core/study/settings.h"
 #include "tests/core/study/fake_engine.h"
 
@@ -105,7 +106,7 @@ class ProposalTest : public QObject {
                                           std::pair{TrackIdea::gaps, "groove, groove, 8 x gap"},
                                           std::pair{TrackIdea::ledges, "groove, groove, 8 x gap, 6 x ledge"},
                                           std::pair{TrackIdea::hanging, "groove, groove, 3 x slot"},
-                                          std::pair{TrackIdea::rails, "groove, groove, rails"}}) {
+                                          std::pair{TrackIdea::rails, "drop, groove, narrow rails"}}) {
             const auto proposal = workflow::proposeSettings(inputs, 36000.0, {}, idea);
             QVERIFY(proposal.ok());
             QCOMPARE(proposal->settings.track.traps, traps);
@@ -130,7 +131,7 @@ class ProposalTest : public QObject {
             inputs.settings.target.poses = isWanted ? "7-8" : "7";
             const auto proposal = workflow::proposeSettings(inputs, 600.0, {});
             QVERIFY2(proposal.ok(), proposal.ok() ? "" : proposal.error().message.c_str());
-            QCOMPARE(proposal->settings.track.traps == "groove, groove, rails", isWanted);
+            QCOMPARE(proposal->settings.track.traps == study::kRailsTraps, isWanted);
             QCOMPARE(proposal->settings.target.poses, inputs.settings.target.poses);
             QCOMPARE(proposal->reasons.front().find("wanted as it hangs") != std::string::npos, isWanted);
             QVERIFY(proposal->seconds <= 600.0);

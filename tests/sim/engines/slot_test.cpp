@@ -14,16 +14,21 @@ using namespace trapwright;
 
 namespace {
 
+const std::vector<double> kEndOfSlot = {30.0, 17.0};  // its rails fall as much as it is deep [mm]
+const std::vector<double> kEndOfNarrowRails = {15.0, 3.0, 40.0, 20.0};  // [mm], [deg]
+
 /// A groove in which parts lie down, and behind it a slot or rails of this width [mm]: 17 mm deep, deeper
-/// than the bolt is long; a slot with an end over which its rails fall as much.
-std::shared_ptr<const track::Track> makeSlotted(const traps::TrapKind& kind, double width) {
+/// than the bolt is long. `end`: the last numbers of the kind, which rails have not.
+std::shared_ptr<const track::Track> makeSlotted(const traps::TrapKind& kind, double width,
+                                                const std::vector<double>& end = {}) {
     traps::TrapParameters parameters;
     parameters.pointsPerSection = 9;
     parameters.minSegmentLength = 5.5e-3;
     parameters.maxSegmentLength = 32e-3;
     parameters.segmentWidth = 64e-3;
     parameters.segmentHeight = 200e-3;
-    const std::vector<double> sizes{16.0, 15.0, 26.0, width, 17.0, 25.0, 49.0, 30.0, 17.0};
+    std::vector<double> sizes{16.0, 15.0, 26.0, width, 17.0, 25.0, 49.0};
+    sizes.insert(sizes.end(), end.begin(), end.end());
     search::Design design = traps::restingGroove(parameters);
     const std::vector<search::Dimension> dimensions = kind.dimensions(parameters);
     for (std::size_t i = 0; i < dimensions.size(); ++i)
@@ -99,10 +104,10 @@ class SlotTest : public QObject {
     void boltsHangByTheirHead() {
         constexpr int kCount = 24;
         const base::Vec3 ahead = base::Vec3::UnitX();
-        const Ends slotted = run(makeBolts(makeSlotted(traps::slot(), 6.0), kCount), ahead);
+        const Ends slotted = run(makeBolts(makeSlotted(traps::slot(), 6.0, kEndOfSlot), kCount), ahead);
         QVERIFY2(slotted.ofHeads >= 11 && slotted.ofTips >= 10, qPrintable(describe(slotted)));
         // Narrower than the shank it lets them pass as they come.
-        const Ends passed = run(makeBolts(makeSlotted(traps::slot(), 1.0), kCount), ahead);
+        const Ends passed = run(makeBolts(makeSlotted(traps::slot(), 1.0, kEndOfSlot), kCount), ahead);
         QVERIFY2(passed.ofHeads >= 8 && passed.ofTips <= 3, qPrintable(describe(passed)));
     }
 
@@ -114,6 +119,18 @@ class SlotTest : public QObject {
         QVERIFY2(hanging.ofHeads >= 11 && hanging.ofTips >= 11, qPrintable(describe(hanging)));
         const Ends lying = run(makeBolts(makeSlotted(traps::rails(), 1.0), kCount), up);
         QVERIFY2(lying.ofHeads + lying.ofTips <= 2, qPrintable(describe(lying)));
+    }
+
+    // They pass as well where the rails are narrow; what does not hang falls off there.
+    void whatDoesNotHangFallsOffNarrowRails() {
+        constexpr int kCount = 24;
+        const base::Vec3 up = base::Vec3::UnitZ();
+        const Ends hanging =
+            run(makeBolts(makeSlotted(traps::narrowRails(), 6.0, kEndOfNarrowRails), kCount), up);
+        QVERIFY2(hanging.ofHeads >= 11 && hanging.ofTips >= 11, qPrintable(describe(hanging)));
+        const Ends lying =
+            run(makeBolts(makeSlotted(traps::narrowRails(), 0.0, kEndOfNarrowRails), kCount), up);
+        QVERIFY2(lying.arrived <= 2, qPrintable(describe(lying)));
     }
 };
 

@@ -161,7 +161,7 @@ class MainWindowTest : public QObject {
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
         user.action("preset.rails")->trigger();
-        QCOMPARE(user.session()->design().settings().track.traps, std::string("groove, groove, rails"));
+        QCOMPARE(user.session()->design().settings().track.traps, std::string("drop, groove, narrow rails"));
         QVERIFY(user.session()->design().problems().empty());
         user.action("edit.undo")->trigger();
         QVERIFY(user.session()->design().settings() == before);
