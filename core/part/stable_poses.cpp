@@ -341,7 +341,7 @@ namespace {
 Vec3 findLongAxis(const base::Mat3& inertia) {
     constexpr double kAlike = 0.02;
     const Eigen::SelfAdjointEigenSolver<base::Mat3> solved(inertia);
-    const Vec3 moments = solved.eigenvalues();  // rising
+    const Vec3& moments = solved.eigenvalues();  // rising
     const bool isFlat =
         moments[1] - moments[0] < kAlike * moments[1] && moments[2] - moments[1] > kAlike * moments[2];
     return solved.eigenvectors().col(isFlat ? 2 : 0);
