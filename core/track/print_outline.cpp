@@ -27,7 +27,7 @@ struct Topology {
     int firstSurface = 0;  // the surface's first point of the upper side
     int lastSurface = 0;
     int topCount = 0;
-    std::optional<std::size_t> innerRim;  // posts
+    std::optional<std::size_t> innerRim;  // posts of its or the wall's side
     std::optional<std::size_t> outerRim;
 };
 
@@ -84,6 +84,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.emplace_back();
     }
     if (outline.innerWall) {
+        topology.innerRim = posts.size() - 1;
         posts.back().right.push_back(next);
         posts.push_back({{next + 2, next + 1}, {}});
         next += 2;
@@ -99,6 +100,7 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.push_back({{next}, {next}});
     topology.lastSurface = next - 1;
     if (outline.outerWall) {
+        topology.outerRim = posts.size();
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
         next += 2;
@@ -288,7 +290,8 @@ class Builder {
             addQuad(top_[i][j], top_[i][j + 1], top_[i + 1][j], top_[i + 1][j + 1]);
     }
 
-    /// Where a rim has no width its post and the border's are at one place, and what the rim's says holds.
+    /// Where a rim or wall has no width its side's post and the border's are at one place, and what the
+    /// side's says holds.
     [[nodiscard]] const Post& postAt(const std::vector<int>& base, std::size_t k) const {
         const std::size_t inner = topology_.innerRim.value_or(k);
         const std::size_t outer = topology_.outerRim.value_or(k);

@@ -31,7 +31,7 @@ struct PrintOutline {
     std::vector<base::Vec2> crest{};      // of the whole track (findCrest); walls need it
     std::optional<double> innerWall{};    // how far it rises above the crest; none: no wall at this side
     std::optional<double> outerWall{};    // likewise
-    double width = 0.0;                   // of the track (Track::width); walls need it
+    double width = 0.0;                   // of the track (Track::width); 0: walls close all cuts
     double innerSide = 0.0;               // y of the wall's outer face
     double outerSide = 0.0;               // likewise
     double flangeTop = 0.0;               // z in the room; not above the surface

@@ -34,7 +34,7 @@ PrintOutline makeOutline(const Track& track, const PrintOptions& options) {
     outline.outerSide = outerSideOf(track, options);
     outline.innerSide = -outline.outerSide;
     // What the track was simulated with is printed at least.
-    outline.width = track.width;
+    if (track.walls.any()) outline.width = track.width;
     outline.crest = findCrest(track.sections);
     const double inner = std::max(track.walls.inner, options.wallHeight);
     const double outer = std::max(track.walls.outer, options.wallHeight);

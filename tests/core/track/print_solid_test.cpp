@@ -11,6 +11,8 @@
 #include "core/geometry/print_check.h"
 #include "core/geometry/three_mf.h"
 #include "core/track/track_file.h"
+#include "core/traps/groove.h"
+#include "core/traps/trap_chain.h"
 #include "track_scenes.h"
 
 using namespace trapwright;
@@ -338,6 +340,23 @@ class PrintSolidTest : public QObject {
             const geometry::MeshReport report = geometry::checkMesh(*solid, true);
             QVERIFY(report.isSolid());
             QCOMPARE(report.nonManifoldEdges, 0);
+        }
+    }
+
+    // Walls end before the rails, and the flange goes on beside them.
+    void narrowRailsAreClosed() {
+        traps::TrapParameters form;
+        form.pointsPerSection = 9;
+        form.walls = {6 * kMm, 6 * kMm};
+        const traps::TrapKind kind = traps::narrowRails();
+        const std::vector<double> numbers(kind.dimensions(form).size(), 0.5);
+        const auto trap = kind.build(form, traps::levelSection(form, 0.5 * form.segmentHeight), numbers);
+        const Track track = track::buildTrack(form, trap).value();
+        for (const double wall : {0.0, 9 * kMm}) {
+            const auto solid = track::buildPrintSolid(track, makeOptions(wall, true, 4.5 * kMm));
+            QVERIFY2(solid.ok(), solid.ok() ? "" : solid.error().message.c_str());
+            QVERIFY(geometry::checkMesh(*solid, true).isSolid());
+            QCOMPARE(countMissingSurface(track, *solid), 0U);
         }
     }
 
