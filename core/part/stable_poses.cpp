@@ -338,7 +338,7 @@ namespace {
 
 /// The axis about which the moment of inertia is another than about those across it, which are alike; of
 /// three that differ that of the least.
-Vec3 findLongAxis(const base::Mat3& inertia) {
+Vec3 findMainAxis(const base::Mat3& inertia) {
     constexpr double kAlike = 0.02;
     const Eigen::SelfAdjointEigenSolver<base::Mat3> solved(inertia);
     const Vec3& moments = solved.eigenvalues();  // rising
@@ -353,7 +353,7 @@ std::optional<base::Quaternion> findHanging(const Part& part) {
     constexpr double kAsWide = 0.9;  // of the greatest distance from the axis
     constexpr double kAbove = 0.05;  // the centre of mass, in bounding radii
     if (part.symmetry.sphere) return std::nullopt;
-    const Vec3 axis = findLongAxis(part.massProperties.inertia);
+    const Vec3 axis = findMainAxis(part.massProperties.inertia);
     const auto radiusOf = [&](const Vec3& vertex) { return axis.cross(vertex).norm(); };
     const double widest = radiusOf(*std::ranges::max_element(part.hull.vertices, {}, radiusOf));
     double low = std::numeric_limits<double>::infinity();

@@ -27,8 +27,8 @@ struct Topology {
     int firstSurface = 0;  // the surface's first point of the upper side
     int lastSurface = 0;
     int topCount = 0;
-    std::optional<std::size_t> innerRim;  // posts of its or the wall's side
-    std::optional<std::size_t> outerRim;
+    std::optional<std::size_t> innerSidePost;  // of a rim or wall
+    std::optional<std::size_t> outerSidePost;
 };
 
 /// One cross-section of the solid: (y, height in the room).
@@ -84,12 +84,12 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.emplace_back();
     }
     if (outline.innerWall) {
-        topology.innerRim = posts.size() - 1;
+        topology.innerSidePost = posts.size() - 1;
         posts.back().right.push_back(next);
         posts.push_back({{next + 2, next + 1}, {}});
         next += 2;
     } else if (hasRim(outline, &Rims::inner)) {
-        topology.innerRim = posts.size() - 1;
+        topology.innerSidePost = posts.size() - 1;
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
         ++next;
@@ -100,12 +100,12 @@ Topology makeTopology(const PrintOutline& outline, int surfacePoints) {
         posts.push_back({{next}, {next}});
     topology.lastSurface = next - 1;
     if (outline.outerWall) {
-        topology.outerRim = posts.size();
+        topology.outerSidePost = posts.size();
         posts.back().right.push_back(next);
         posts.push_back({{next + 1}, {}});
         next += 2;
     } else if (hasRim(outline, &Rims::outer)) {
-        topology.outerRim = posts.size();
+        topology.outerSidePost = posts.size();
         posts.push_back({{next}, {}});
         ++next;
     }
@@ -293,8 +293,8 @@ class Builder {
     /// Where a rim or wall has no width its side's post and the border's are at one place, and what the
     /// side's says holds.
     [[nodiscard]] const Post& postAt(const std::vector<int>& base, std::size_t k) const {
-        const std::size_t inner = topology_.innerRim.value_or(k);
-        const std::size_t outer = topology_.outerRim.value_or(k);
+        const std::size_t inner = topology_.innerSidePost.value_or(k);
+        const std::size_t outer = topology_.outerSidePost.value_or(k);
         if (k == inner + 1 && base[inner] == base[k]) return topology_.posts[inner];
         if (k + 1 == outer && base[outer] == base[k]) return topology_.posts[outer];
         return topology_.posts[k];

@@ -453,6 +453,12 @@ double longestSlot(const TrapParameters& parameters) {
     return longestRails(parameters) + parameters.maxSegmentLength + restingLength(parameters);
 }
 
+TrapKind openToTheEnd(TrapKind kind) {
+    kind.leastPoints = kPointsOfSlot;
+    kind.isLast = true;
+    return kind;
+}
+
 }  // namespace
 
 TrapKind groove() {
@@ -525,29 +531,16 @@ TrapKind slot() {
 }
 
 TrapKind rails() {
-    TrapKind kind{"rails",
-                  "Rails",
-                  "A slot that goes on to the track's end: parts leave hanging, their thicker end up.",
-                  &dimensionsOfRails,
-                  &buildRails,
-                  &layOutRails,
-                  &longestRails};
-    kind.leastPoints = kPointsOfSlot;
-    kind.isLast = true;
-    return kind;
+    return openToTheEnd({"rails", "Rails",
+                         "A slot that goes on to the track's end: parts leave hanging, their thicker end up.",
+                         &dimensionsOfRails, &buildRails, &layOutRails, &longestRails});
 }
 
 TrapKind narrowRails() {
-    TrapKind kind{"narrow rails",
-                  "Narrow rails",
-                  "Rails of which at the end only narrow ones are left: what does not hang falls off.",
-                  &dimensionsOfNarrowRails,
-                  &buildNarrowRails,
-                  &layOutNarrowRails,
-                  &longestNarrowRails};
-    kind.leastPoints = kPointsOfSlot;
-    kind.isLast = true;
-    return kind;
+    return openToTheEnd({"narrow rails", "Narrow rails",
+                         "Rails of which at the end only narrow ones are left: what does not hang falls off.",
+                         &dimensionsOfNarrowRails, &buildNarrowRails, &layOutNarrowRails,
+                         &longestNarrowRails});
 }
 
 }  // namespace trapwright::traps

@@ -54,7 +54,7 @@ TrapKind slot();
 TrapKind rails();
 
 /// Rails that reject: behind their length the track is cut away from both sides, walls too
-/// (track::PrintOutline), but for two narrow rails that may fall outward, as a roof does, and so to its end.
+/// (track::PrintOutline), but for two narrow rails that fall outward, as a roof does, and so to its end.
 /// What hangs between them goes on; what lies on them slides off. Eleven numbers: those of rails, how long it
 /// takes to become narrow, how wide each rail is then, how steep the roof, and how long they are before the
 /// lead-out, which is alike.
