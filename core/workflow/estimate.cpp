@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "core/search/racing.h"
@@ -99,11 +100,13 @@ double planningTime(const study::EvolutionSettings& evolution, const TrialCost& 
     return static_cast<double>(traps) * cost.planning + static_cast<double>(chains) * cost.learning;
 }
 
-/// As many traps as take `seconds` to plan with, and two generations, as those that are bred gain little.
-/// Exchanges gain more: they get half of the time.
-std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSettings& full, double seconds,
-                                                   const TrialCost& cost) {
-    constexpr int kFewestTraps = 500;
+int fewestTraps(const study::EvolutionSettings& full) {
+    constexpr int kFewest = 500;
+    return std::min(full.plannedTraps, kFewest);
+}
+
+/// What follows a plan, at the least: two generations, as those that are bred gain little.
+study::EvolutionSettings cutDownPlanned(const study::EvolutionSettings& full) {
     constexpr int kGenerations = 2;
     constexpr int kPopulation = 24;
     constexpr int kTrials = 100;
@@ -116,6 +119,14 @@ std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSetting
         fitted.trialsPerEvaluation = std::min(full.trialsPerEvaluation, kTrials);
     fitted.racingTrials = std::min(fitted.racingTrials, fitted.trialsPerEvaluation);
     fitted.tournamentSize = std::min(fitted.tournamentSize, fitted.populationSize);
+    return fitted;
+}
+
+/// As many traps as take `seconds` to plan with. Exchanges gain more than generations that are bred: they get
+/// half of the time.
+std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSettings& full, double seconds,
+                                                   const TrialCost& cost) {
+    study::EvolutionSettings fitted = cutDownPlanned(full);
     const auto timeOf = [&](int traps) {
         fitted.plannedTraps = traps;
         return learningTime(fitted, fitted.generations, cost);
@@ -128,7 +139,8 @@ std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSetting
         }
         return count;
     };
-    const int fewest = std::min(full.plannedTraps, kFewestTraps);
+    const bool exchanges = full.search == search::Method::exchange;
+    const int fewest = fewestTraps(full);
     int count = trapsIn(seconds);
     if (count < fewest) return std::nullopt;
     if (exchanges) count = std::max(fewest, trapsIn(0.5 * seconds));
@@ -204,6 +216,20 @@ std::optional<study::EvolutionSettings> fitEvolution(const study::EvolutionSetti
         return fitted;
     }
     return std::nullopt;
+}
+
+double leastTime(const study::EvolutionSettings& full, const TrialCost& cost) {
+    if (study::isPlanned(full)) {
+        study::EvolutionSettings fitted = cutDownPlanned(full);
+        fitted.plannedTraps = fewestTraps(full);
+        return learningTime(fitted, fitted.generations, cost);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const Size& size : kSizes)
+        least = std::min(least, static_cast<double>(std::min(size.population, full.populationSize)) *
+                                    std::min(size.trials, full.trialsPerEvaluation) *
+                                    std::min(size.generations, full.generations) * cost.learning);
+    return least;
 }
 
 study::EvolutionSettings fullEvolution(study::EvolutionSettings evolution) {

@@ -45,6 +45,8 @@ inline constexpr double kDraftLearningTime = 450.0;
 /// else stays. None if not even 10 generations of 20 individuals with 20 trials fit, or a plan of 500 traps.
 std::optional<study::EvolutionSettings> fitEvolution(const study::EvolutionSettings& full, double seconds,
                                                      const TrialCost& cost);
+/// The seconds below which that finds none; 0 if what a trial costs is not known.
+double leastTime(const study::EvolutionSettings& full, const TrialCost& cost);
 
 /// Table 1 of the paper again: population, trials and generations of a new study; all else stays.
 study::EvolutionSettings fullEvolution(study::EvolutionSettings evolution);

@@ -55,6 +55,12 @@ std::string durationText(double seconds) {
     return fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
+/// To whole minutes.
+double roundUp(double seconds) {
+    constexpr double kMinute = 60.0;
+    return kMinute * std::ceil(seconds / kMinute);
+}
+
 std::string trackText(const study::TrackSettings& track) {
     return fmt::format("{:g} mm wide, {:g} mm high, segments of {:g} to {:g} mm", 1e3 * track.segmentWidth,
                        1e3 * track.segmentHeight, 1e3 * track.minSegmentLength, 1e3 * track.maxSegmentLength);
@@ -83,57 +89,63 @@ study::EvolutionSettings mostOfSearch(TrackIdea idea, study::EvolutionSettings e
 struct FittedIdea {
     TrackIdea idea = TrackIdea::turning;
     study::Settings settings;
+    bool fits = false;     // else the time is too short for it
     double seconds = 0.0;  // of learning, estimated
+    double least = 0.0;    // of the user's time that it takes [s]
     TrialCost cost;
     std::optional<study::AloneSample> alone;  // of its traps, where it was chosen by them
 };
 
-/// None where the time is too short for it. An error as of proposeSettings.
-base::Result<std::optional<FittedIdea>> fitIdea(TrackIdea idea, const study::StudyInputs& inputs,
-                                                double seconds, const base::RunControl& control) {
+/// An error as of proposeSettings.
+base::Result<FittedIdea> fitIdea(TrackIdea idea, const study::StudyInputs& inputs, double seconds,
+                                 const base::RunControl& control) {
     study::StudyInputs proposed = inputs;
     proposed.settings = applyIdea(idea, inputs.settings, *inputs.part);
     study::EvolutionSettings& evolution = proposed.settings.evolution;
     const auto cost = timeTrials(proposed, kTimingBudget, control);
     if (!cost) return cost.error();
-    const auto fitted = fitEvolution(mostOfSearch(idea, evolution), kLearningShare * seconds, *cost);
-    if (!fitted) return std::optional<FittedIdea>();
-    evolution = *fitted;
-    return std::optional(FittedIdea{idea, std::move(proposed.settings),
-                                    learningTime(*fitted, fitted->generations, *cost), *cost, std::nullopt});
+    const study::EvolutionSettings most = mostOfSearch(idea, evolution);
+    FittedIdea fitted{idea, {}, false, 0.0, leastTime(most, *cost) / kLearningShare, *cost, std::nullopt};
+    if (const auto search = fitEvolution(most, kLearningShare * seconds, *cost)) {
+        evolution = *search;
+        fitted.fits = true;
+        fitted.seconds = learningTime(*search, search->generations, *cost);
+    }
+    fitted.settings = std::move(proposed.settings);
+    return fitted;
 }
 
 /// Slots, if some of them tried by themselves show that the part hangs in them, and there is time for that.
 base::Result<std::optional<FittedIdea>> fitSlots(const study::StudyInputs& inputs, double seconds,
                                                  const base::RunControl& control) {
     auto slots = fitIdea(TrackIdea::hanging, inputs, seconds, control);
-    if (!slots || !*slots) return slots;
-    const TrialCost& cost = (*slots)->cost;
+    if (!slots) return slots.error();
     const double trying =
-        static_cast<double>(study::estimateAloneTrials(kSlotsToTry, cost.ways)) * cost.planning;
-    if (trying > kShareToTry * seconds) return std::optional<FittedIdea>();
+        static_cast<double>(study::estimateAloneTrials(kSlotsToTry, slots->cost.ways)) * slots->cost.planning;
+    if (!slots->fits || trying > kShareToTry * seconds) return std::optional<FittedIdea>();
     study::StudyInputs proposed = inputs;
-    proposed.settings = (*slots)->settings;
+    proposed.settings = slots->settings;
     const auto alone = study::sampleAlone(proposed, traps::readTraps(proposed.settings.track.traps).value(),
                                           kSlotsToTry, control);
     if (!alone) return alone.error();
     if (alone->best < std::max(kHangs, kHangsMore * alone->unturned)) return std::optional<FittedIdea>();
-    (*slots)->alone = *alone;
-    return slots;
+    slots->alone = *alone;
+    return std::optional(std::move(*slots));
 }
 
 /// What suits the part, as far as there is time for it.
-base::Result<std::optional<FittedIdea>> chooseIdea(const study::StudyInputs& inputs, double seconds,
-                                                   const base::RunControl& control,
-                                                   std::optional<TrackIdea> asked) {
+base::Result<FittedIdea> chooseIdea(const study::StudyInputs& inputs, double seconds,
+                                    const base::RunControl& control, std::optional<TrackIdea> asked) {
     if (asked) return fitIdea(*asked, inputs, seconds, control);
     if (study::wantsHanging(inputs.settings, *inputs.part))
         return fitIdea(TrackIdea::rails, inputs, seconds, control);
     if (!hasTwoEnds(inputs.part->symmetry)) return fitIdea(TrackIdea::turning, inputs, seconds, control);
     auto slots = fitSlots(inputs, seconds, control);
-    if (!slots || *slots) return slots;
+    if (!slots) return slots.error();
+    if (*slots) return std::move(**slots);
     auto ledges = fitIdea(TrackIdea::ledges, inputs, seconds, control);
-    if (!ledges || (*ledges && (*ledges)->settings.evolution.plannedTraps >= kTrapsForLedges)) return ledges;
+    if (!ledges || (ledges->fits && ledges->settings.evolution.plannedTraps >= kTrapsForLedges))
+        return ledges;
     return fitIdea(TrackIdea::gaps, inputs, seconds, control);
 }
 
@@ -163,12 +175,12 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
     const part::Part& part = *inputs.part;
     auto chosen = chooseIdea(inputs, seconds, control, asked);
     if (!chosen) return chosen.error();
-    if (!*chosen)
-        return base::Error{
-            fmt::format("In {} no track for {} can be learned {}on this machine. Take more "
-                        "time, or a part of fewer pieces.",
-                        durationText(seconds), part.name, asked ? "that way " : "")};
-    FittedIdea& fitted = **chosen;
+    FittedIdea& fitted = *chosen;
+    if (!fitted.fits)
+        return base::Error{fmt::format(
+            "In {} no track for {} can be learned {}on this machine: as it is now it takes {}. Give it that "
+            "time, end what else keeps it busy, or take a part of fewer pieces.",
+            durationText(seconds), part.name, asked ? "that way " : "", durationText(roundUp(fitted.least)))};
     const TrackIdea idea = fitted.idea;
     const study::EvolutionSettings& evolution = fitted.settings.evolution;
     const bool isSorted = hasTwoEnds(part.symmetry);

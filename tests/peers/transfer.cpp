@@ -15,6 +15,7 @@
 #include "core/study/evaluator.h"
 #include "core/study/orientation_shares.h"
 #include "core/study/robustness.h"
+#include "core/study/target.h"
 #include "core/trial/orientations.h"
 
 namespace trapwright::peers {
@@ -261,8 +262,9 @@ base::Status addEngine(Transfer& transfer, const Contender& contender, const bas
         if (control.cancelled() || (first && !row.problem.empty())) return base::Error{row.problem};
         row.scene = scene;
         if (first)
-            transfer.goal = trial::findGoal(std::nullopt, row.outcomes, transfer.part->symmetry,
-                                            transfer.settings.validation.tolerance);
+            transfer.goal =
+                trial::findGoal(study::findWanted(transfer.settings, *transfer.part), row.outcomes,
+                                transfer.part->symmetry, transfer.settings.validation.tolerance);
         judgeRow(transfer, row);
         transfer.rows.push_back(std::move(row));
     }
@@ -276,10 +278,9 @@ std::string transferHeader(const Transfer& transfer) {
                            transfer.stretch->to / base::kMillimetre) +
                fmt::format(kStretchColumns, "Engine", "Step ms", "Conditions", "Passes [%]", "95 % bounds",
                            "Trials", "Passes too", "Stays too");
-    const base::Quaternion& goal = transfer.goal.shown();
-    return fmt::format("Success: within {:.0f} degrees of {:.3f} {:.3f} {:.3f} {:.3f} (w x y z)\n",
-                       transfer.settings.validation.tolerance / base::kDegree, goal.w(), goal.x(), goal.y(),
-                       goal.z()) +
+    return fmt::format("Success: within {:.0f} degrees of {}\n",
+                       transfer.settings.validation.tolerance / base::kDegree,
+                       study::describeGoal(transfer.goal, *transfer.part)) +
            fmt::format(kColumns, "Engine", "Step ms", "Conditions", "Success [%]", "95 % bounds",
                        "Correct [%]", "Trials", "Wrong", "Stuck", "Fell off", "Points", "Other [%]");
 }

@@ -1,6 +1,7 @@
 #include "core/workflow/estimate.h"
 
 #include <QtTest>
+#include <cmath>
 #include <limits>
 
 #include "core/study/field_text.h"
@@ -114,6 +115,26 @@ class EstimateTest : public QObject {
         }
         QCOMPARE(before, planned.plannedTraps);
         QVERIFY(!workflow::fitEvolution(planned, 20.0, cost).has_value());
+    }
+
+    // Who is told that the time is too short is told how much is needed.
+    void theLeastTimeIsEnough() {
+        study::EvolutionSettings bred;
+        study::EvolutionSettings planned = bred;
+        planned.firstGeneration = search::ga::FirstGeneration::planned;
+        study::EvolutionSettings exchanged = planned;
+        exchanged.search = search::Method::exchange;
+        study::EvolutionSettings small = bred;
+        small.generations = 5;
+        const workflow::TrialCost cost{1e-3, 5e-4, 9};
+        constexpr double kHair = 1e-6;
+        for (const study::EvolutionSettings& full : {bred, planned, exchanged, small}) {
+            const double least = workflow::leastTime(full, cost);
+            QVERIFY(least > 0.0 && std::isfinite(least));
+            QVERIFY(workflow::fitEvolution(full, (1.0 + kHair) * least, cost).has_value());
+            QVERIFY(!workflow::fitEvolution(full, (1.0 - kHair) * least, cost).has_value());
+        }
+        QCOMPARE(workflow::leastTime(bred, {}), 0.0);
     }
 
     // One wrong part in a thousand is told by no hundred trials, and takes longer to plan for.
