@@ -1,5 +1,6 @@
 #include "core/study/field_text.h"
 
+#include <array>
 #include <cassert>
 #include <charconv>
 #include <cmath>
@@ -121,17 +122,18 @@ class FieldReader {
     void rotation(std::string_view key, std::optional<base::Quaternion>& value) {
         if (key != key_) return;
         if (text_.empty()) return value.reset();
-        std::vector<double> parts;
+        std::array<double, 4> parts{};
+        std::size_t count = 0;
         std::size_t begin = 0;
         while (begin <= text_.size()) {
             const std::size_t end = std::min(text_.find(' ', begin), text_.size());
             const auto part = siValue(text_.substr(begin, end - begin), FileUnit::none);
-            if (!part) return refuse("four numbers w x y z");
-            parts.push_back(*part);
+            if (!part || count == parts.size()) return refuse("four numbers w x y z");
+            parts[count++] = *part;
             begin = end + 1;
         }
-        if (parts.size() != 4) return refuse("four numbers w x y z");
-        value = base::Quaternion(parts[0], parts[1], parts[2], parts[3]);
+        if (count != parts.size()) return refuse("four numbers w x y z");
+        value = rotationOf(parts);
     }
 
  private:

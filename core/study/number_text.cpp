@@ -128,4 +128,13 @@ std::optional<double> siValue(std::string_view text, FileUnit unit) {
     return parse(std::string(text.substr(0, mark)) + "e" + std::to_string(exponent - shift));
 }
 
+base::Quaternion rotationOf(const std::array<double, 4>& numbers) {
+    constexpr double kWritten = 1e-6;
+    constexpr double kRounded = 1e-2;
+    base::Quaternion rotation(numbers[0], numbers[1], numbers[2], numbers[3]);
+    const double error = std::abs(rotation.norm() - 1.0);
+    if (error > kWritten && error <= kRounded) rotation.normalize();
+    return rotation;
+}
+
 }  // namespace trapwright::study

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "core/base/math.h"
 
 namespace trapwright::study {
 
@@ -17,5 +20,9 @@ std::string fileText(double value, FileUnit unit);
 
 /// The SI value of a decimal text in the file's unit; none if the text is not one finite number.
 std::optional<double> siValue(std::string_view text, FileUnit unit);
+
+/// The rotation [w, x, y, z] of a file or as typed. People round: a length within 1 % of 1 is made 1. What
+/// was written bit for bit stays so, and any other length is kept, for findProblems() to refuse.
+base::Quaternion rotationOf(const std::array<double, 4>& numbers);
 
 }  // namespace trapwright::study

@@ -195,7 +195,7 @@ class SettingsReader {
         if (found == 0) return;
         if (found < parts.size())
             return fail("\"" + std::string(key) + "\" must be null or four numbers [w, x, y, z]");
-        value = base::Quaternion(parts[0], parts[1], parts[2], parts[3]);
+        value = rotationOf(parts);
     }
 
     /// What was wrong, if anything.

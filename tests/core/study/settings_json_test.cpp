@@ -1,9 +1,13 @@
+#include <fmt/format.h>
+
 #include <QtTest>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/random.h"
+#include "core/study/field_text.h"
 #include "core/study/number_text.h"
 #include "core/study/presets.h"
 #include "core/study/settings.h"
@@ -249,6 +253,21 @@ class SettingsJsonTest : public QObject {
         QTest::newRow("deep nesting") << QString(100000, '[').prepend("{\"a\":") << "nested too deeply";
         QTest::newRow("control character") << QString("{\"part\": {\"file\": \"\x01\"}}") << "not JSON";
     }
+    // Nobody types seven digits.
+    void aRotationMayBeRounded() {
+        for (const auto& [numbers, length] :
+             {std::pair("0.7071, 0, 0.7071, 0", 1.0), std::pair("-0.71, 0.71, 0, 0", 1.0),
+              std::pair("1, 0, 0, 0", 1.0), std::pair("0.5, 0, 0, 0", 0.5)}) {
+            const auto read =
+                study::settingsFromJson(fmt::format(R"({{"target": {{"orientation": [{}]}}}})", numbers), {});
+            QVERIFY(read.ok() && read->target.orientation);
+            QVERIFY(std::abs(read->target.orientation->norm() - length) < 1e-15);
+        }
+        Settings typed;
+        QVERIFY(study::setField(typed, "target.orientation", "0.7071 0 0 0.7071").ok());
+        QVERIFY(std::abs(typed.target.orientation->norm() - 1.0) < 1e-15);
+    }
+
     void unreadableTextIsRefused() {
         QFETCH(QString, json);
         QFETCH(QString, named);
