@@ -232,6 +232,8 @@ Settings railsMode(Settings settings, const part::Part& part) {
     settings = slotMode(std::move(settings), part);
     settings.track.traps = kRailsTraps;
     settings.track.segmentHeight = scaleLength(120e-3, 8.9e-3, part);  // three traps do not fall far
+    // The longer rails are narrow, the fewer leave them wrong of parts that follow each other.
+    settings.track.leadOutSegments = 3;
     if (const TargetSettings hanging = findHangingTarget(part);
         hanging.isSet() && !wantsHanging(settings, part))
         settings.target = hanging;

@@ -45,8 +45,8 @@ inline constexpr std::string_view kRailsTraps = "drop, groove, narrow rails";
 
 /// Changes settings to those of a track that parts leave hanging between two rails, their thicker end up, and
 /// wants them so (findHangingTarget), if they are not wanted so already: slotMode with kRailsTraps, without a
-/// plan, as rails at random often bring most parts to hang (decisions.md#rails). Lengths are whole half
-/// millimetres.
+/// plan, as rails at random often bring most parts to hang, and with a longer lead-out (decisions.md#rails).
+/// Lengths are whole half millimetres.
 Settings railsMode(Settings settings, const part::Part& part);
 
 /// Changes settings to those of a track that lets one way pass, in proportion to the part: gaps that bring as

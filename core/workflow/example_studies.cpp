@@ -15,7 +15,7 @@ namespace {
 constexpr std::array kExamples = {
     ExampleStudy{"cuboid", "the paper's cuboid, turned over by a free-form trap"},
     ExampleStudy{"cuboid-bowl", "the same in the paper's bowl of 175 mm"},
-    ExampleStudy{"screw", "a pan-head screw: gaps throw out what lies wrong"},
+    ExampleStudy{"screw", "a pan-head screw M4 x 10, which leaves hanging between rails, head up"},
     ExampleStudy{"bolt", "a hexagon bolt M4 x 12, which leaves hanging between rails, head up"},
     ExampleStudy{"bracket", "a bracket: ledges behind ten gaps throw out what the gaps leave wrong"},
     ExampleStudy{"pin", "a pin with a head, which hangs in slots and lies down the same way round"},

@@ -184,6 +184,7 @@ class CommandsTest : public QObject {
         QCOMPARE(ask({"new", "rails.trap", "--part", "bolt", "--rails"}).code, 0);
         const QJsonObject settings = ask({"settings", "rails.trap", "--json"}).json();
         QCOMPARE(settings["track"].toObject()["traps"].toString(), "drop, groove, narrow rails");
+        QCOMPARE(settings["track"].toObject()["leadOutSegments"].toInt(), 3);
         QVERIFY(settings["track"].toObject()["innerWall_mm"].toDouble() > 0.0);
         QCOMPARE(settings["evolution"].toObject()["firstGeneration"].toString(), "graded");
         QCOMPARE(settings["target"].toObject()["poses"].toString(), "8");

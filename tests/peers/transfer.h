@@ -68,8 +68,8 @@ base::Status beginAtStretch(Transfer& transfer, const Stretch& stretch, const Co
                             const base::RunControl& control);
 
 /// Simulates all scenes in one engine, on one thread, and adds their rows. What the settings want is the
-/// goal, or else the mode of the first engine's trials as set. Advances `control` by one per trial. Errors: settings or part that cannot
-/// be used, a first engine that cannot do its trials, cancelled.
+/// goal, or else the mode of the first engine's trials as set. Advances `control` by one per trial. Errors:
+/// settings or part that cannot be used, a first engine that cannot do its trials, cancelled.
 base::Status addEngine(Transfer& transfer, const Contender& contender, const base::RunControl& control);
 
 /// As text: the head of the table, and a line of it.

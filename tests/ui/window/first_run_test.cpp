@@ -156,7 +156,7 @@ class FirstRunTest : public QObject {
         const session::StudyRuns& runs = user.session()->runs();
         const study::Individual track = *runs.chosen();
         const auto correct = runs.findSuccess(track);
-        QVERIFY(correct && correct->ofArriving && correct->arriving < 0.95);
+        QVERIFY(correct && correct->ofArriving && correct->arriving < 0.98);
         const QString rate = models::percent(std::optional(correct->rate));
         QTRY_COMPARE(user.find<QLabel>("review.success")->text(), QString("%1 %").arg(rate));
         QVERIFY(user.find<QLabel>("review.successBounds")->text().startsWith("correct"));
