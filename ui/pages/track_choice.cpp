@@ -131,12 +131,16 @@ void TrackChoice::listWinners() {
             tr("%1: %2").arg(nameOf(winner.generation, winner.individual), models::successWord(rate)),
             winner.generation);
         list_->setItemData(list_->count() - 1, winner.individual, kIndividualRole);
-        if (winner_ && isSameIndividual(winner, *winner_)) list_->setCurrentIndex(list_->count() - 1);
     };
-    list_->setCurrentIndex(-1);
     const std::vector<study::Individual>& winners = runs_->winners();
     std::for_each(winners.rbegin(), winners.rend(), add);
-    if (winner_ && list_->currentIndex() < 0) add(*winner_);
+    if (!winner_) return list_->setCurrentIndex(-1);
+    const auto shown = std::find_if(winners.rbegin(), winners.rend(), [this](const study::Individual& one) {
+        return isSameIndividual(one, *winner_);
+    });
+    // One of a selection need not be its generation's winner.
+    if (shown == winners.rend()) add(*winner_);
+    list_->setCurrentIndex(static_cast<int>(shown - winners.rbegin()));
 }
 
 void TrackChoice::showFacts() {

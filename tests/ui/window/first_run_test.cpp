@@ -148,9 +148,15 @@ class FirstRunTest : public QObject {
     }
 
     // What falls off comes again: all pages and the start page tell the right ones of those that arrive.
+    void aSortedExampleIsToldByThePartsThatArrive_data() {
+        QTest::addColumn<QString>("name");
+        QTest::newRow("a generation's winner") << QString("screw");
+        QTest::newRow("another one of the selection") << QString("bracket");
+    }
     void aSortedExampleIsToldByThePartsThatArrive() {
+        QFETCH(QString, name);
         User user;
-        user.action("learned.screw")->trigger();
+        user.action("learned." + name)->trigger();
         QTRY_VERIFY_WITH_TIMEOUT(user.session() != nullptr, kPatience);
         QTRY_VERIFY(user.find<pages::Page>("page.review")->isVisible());
         const session::StudyRuns& runs = user.session()->runs();
@@ -172,8 +178,9 @@ class FirstRunTest : public QObject {
         QVERIFY2(check->text().contains("correct") && !check->text().contains("below"),
                  qPrintable(check->text()));
 
-        const QString path = folder_.filePath("sorted.trap");
-        const auto example = workflow::findExampleFile(workflow::findExampleStudy("screw").value());
+        const QString path = folder_.filePath(name + ".trap");
+        const auto example =
+            workflow::findExampleFile(workflow::findExampleStudy(name.toStdString()).value());
         QVERIFY(QFile::copy(QString::fromStdString(example.string()), path));
         window::RecentFiles().add(path.toStdString());
         User next;
