@@ -105,7 +105,8 @@ int fewestTraps(const study::EvolutionSettings& full) {
     return std::min(full.plannedTraps, kFewest);
 }
 
-/// What follows a plan, at the least: two generations, as those that are bred gain little.
+/// What follows a plan, at the least: two generations, as those that are bred gain little. Exchanges keep
+/// their population.
 study::EvolutionSettings cutDownPlanned(const study::EvolutionSettings& full) {
     constexpr int kGenerations = 2;
     constexpr int kPopulation = 24;
@@ -126,6 +127,7 @@ study::EvolutionSettings cutDownPlanned(const study::EvolutionSettings& full) {
 /// half of the time.
 std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSettings& full, double seconds,
                                                    const TrialCost& cost) {
+    const bool exchanges = full.search == search::Method::exchange;
     study::EvolutionSettings fitted = cutDownPlanned(full);
     const auto timeOf = [&](int traps) {
         fitted.plannedTraps = traps;
@@ -139,7 +141,6 @@ std::optional<study::EvolutionSettings> fitPlanned(const study::EvolutionSetting
         }
         return count;
     };
-    const bool exchanges = full.search == search::Method::exchange;
     const int fewest = fewestTraps(full);
     int count = trapsIn(seconds);
     if (count < fewest) return std::nullopt;

@@ -48,17 +48,23 @@ bool hasTwoEnds(const part::SymmetryGroup& symmetry) {
                        });
 }
 
+constexpr double kMinute = 60.0;
+
 std::string durationText(double seconds) {
-    const auto minutes = static_cast<int>(std::lround(seconds / 60.0));
+    const auto minutes = static_cast<int>(std::lround(seconds / kMinute));
     if (minutes < 1) return fmt::format("{:.0f} s", seconds);
     if (minutes < 60) return fmt::format("{} min", minutes);
     return fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
-/// To whole minutes.
-double roundUp(double seconds) {
-    constexpr double kMinute = 60.0;
-    return kMinute * std::ceil(seconds / kMinute);
+/// As it was given: not 90 s as 2 min.
+std::string givenText(double seconds) {
+    return std::fmod(seconds, kMinute) == 0.0 ? durationText(seconds) : fmt::format("{:g} s", seconds);
+}
+
+/// No less than that.
+std::string leastText(double seconds) {
+    return durationText(kMinute * std::ceil(seconds / kMinute));
 }
 
 std::string trackText(const study::TrackSettings& track) {
@@ -105,7 +111,10 @@ base::Result<FittedIdea> fitIdea(TrackIdea idea, const study::StudyInputs& input
     const auto cost = timeTrials(proposed, kTimingBudget, control);
     if (!cost) return cost.error();
     const study::EvolutionSettings most = mostOfSearch(idea, evolution);
-    FittedIdea fitted{idea, {}, false, 0.0, leastTime(most, *cost) / kLearningShare, *cost, std::nullopt};
+    FittedIdea fitted;
+    fitted.idea = idea;
+    fitted.cost = *cost;
+    fitted.least = leastTime(most, *cost) / kLearningShare;
     if (const auto search = fitEvolution(most, kLearningShare * seconds, *cost)) {
         evolution = *search;
         fitted.fits = true;
@@ -180,7 +189,7 @@ base::Result<Proposal> proposeSettings(const study::StudyInputs& inputs, double 
         return base::Error{fmt::format(
             "In {} no track for {} can be learned {}on this machine: as it is now it takes {}. Give it that "
             "time, end what else keeps it busy, or take a part of fewer pieces.",
-            durationText(seconds), part.name, asked ? "that way " : "", durationText(roundUp(fitted.least)))};
+            givenText(seconds), part.name, asked ? "that way " : "", leastText(fitted.least))};
     const TrackIdea idea = fitted.idea;
     const study::EvolutionSettings& evolution = fitted.settings.evolution;
     const bool isSorted = hasTwoEnds(part.symmetry);
