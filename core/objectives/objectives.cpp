@@ -14,6 +14,7 @@
 #include "core/objectives/printability.h"
 #include "core/objectives/success_share.h"
 #include "core/objectives/worst_case.h"
+#include "core/stats/binomial.h"
 
 namespace trapwright::objectives {
 
@@ -79,9 +80,10 @@ std::string describeSum(const ObjectiveList& objectives) {
 }
 
 std::string shown(const Objective& objective, double value, int leastDecimals) {
+    const int decimals =
+        objective.unit == "%" ? stats::countPercentDecimals(std::clamp(value, 0.0, 1.0)) : objective.decimals;
     // Adding 0 makes a -0 a 0.
-    return fmt::format("{:.{}f}", value * objective.shownAs + 0.0,
-                       std::max(objective.decimals, leastDecimals));
+    return fmt::format("{:.{}f}", value * objective.shownAs + 0.0, std::max(decimals, leastDecimals));
 }
 
 const Score* findScore(const Fitness& fitness, std::string_view key) {

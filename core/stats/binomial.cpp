@@ -1,5 +1,6 @@
 #include "core/stats/binomial.h"
 
+#include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <cassert>
 
@@ -32,6 +33,17 @@ Interval calcClopperPearson(int successes, int trials, double confidence) {
 Interval calcEffectiveBounds(double share, double trials, double confidence) {
     assert(share >= 0.0 && share <= 1.0 && trials >= 0.0);
     return findBounds(share * trials, (1.0 - share) * trials, confidence);
+}
+
+int countPercentDecimals(double share) {
+    constexpr int kFewest = 1;
+    constexpr int kMost = 3;
+    constexpr double kPercent = 100.0;
+    const double rest = kPercent * std::min(share, 1.0 - share);
+    int decimals = kFewest;
+    for (double half = 0.05; decimals < kMost && rest > 0.0 && rest <= half; half *= 0.1)
+        ++decimals;
+    return decimals;
 }
 
 }  // namespace trapwright::stats

@@ -27,4 +27,8 @@ Interval calcClopperPearson(int successes, int trials, double confidence = 0.95)
 /// The same of numbers that need not be whole, as of trials that count unequally: share in [0, 1] of so many.
 Interval calcEffectiveBounds(double share, double trials, double confidence = 0.95);
 
+/// Decimals with which a share in [0, 1] is shown in percent: one, or up to two more where one would make
+/// nearly all look like all, or hardly any like none ("99.96 %").
+int countPercentDecimals(double share);
+
 }  // namespace trapwright::stats

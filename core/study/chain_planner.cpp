@@ -142,8 +142,7 @@ class ChainPlanner {
 
     base::Result<std::vector<search::Design>> run(std::size_t most) {
         if (const auto found = findWays(kTrialsOfWays); !found) return found.error();
-        if (search_.problem().ways == 0) return std::vector<search::Design>{};
-        if (const auto checked = trials_.checkWanted(); !checked) return checked.error();
+        if (const auto checked = trials_.checkWays(); !checked) return checked.error();
         const int inRound = static_cast<int>(kTrapsInRound);
         const int rounds = (settings().evolution.plannedTraps + inRound - 1) / inRound;
         const int plans = countPlans(settings().evolution);

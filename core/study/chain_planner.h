@@ -30,8 +30,8 @@ struct ChainAim {
 /// Whether the settings sum up the objective purity.
 bool seeksPurity(const EvolutionSettings& settings);
 
-/// The best designs of this chain, at most `most`, best first; none if parts come through no groove. The
-/// settings' chain is it. Errors: as of planDesigns.
+/// The best designs of this chain, at most `most`, best first. The settings' chain is it. Errors: as of
+/// planDesigns.
 base::Result<std::vector<search::Design>> planChain(const StudyInputs& inputs, const traps::TrapChain& chain,
                                                     const ChainAim& aim, std::size_t most,
                                                     std::function<void(const GenerationPlan&)> planned,

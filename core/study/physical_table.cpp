@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/base/csv.h"
+#include "core/stats/binomial.h"
 #include "core/stats/rates.h"
 #include "core/stats/stratified.h"
 
@@ -112,7 +113,8 @@ std::string probabilityText(double p) {
 }
 
 std::string shareText(const SuccessCount& count) {
-    return count.rate ? fmt::format("{:.1f} %", kPercent * *count.rate) : "-";
+    if (!count.rate) return "-";
+    return fmt::format("{:.{}f} %", kPercent * *count.rate, stats::countPercentDecimals(*count.rate));
 }
 
 /// Which way the compared poses differ, whatever share of the trials each of them has: above 0 if parts do

@@ -96,7 +96,7 @@ base::Result<std::vector<search::Design>> planLedgesBehind(
     };
     auto turning = planChain(first, before, aimBeforeLedges(inputs.settings.track, ledges), kJudgedChains,
                              tellFirst, control);
-    if (!turning || turning->empty()) return turning;
+    if (!turning) return turning;
     const auto second = inputsOfLedges(inputs, first, ledges, turning->front());
     if (!second) return second.error();
     const auto tellSecond = [&](GenerationPlan plan) {

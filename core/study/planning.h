@@ -27,13 +27,14 @@ std::string findPlanningProblem(const TrackSettings& settings);
 /// ends, or by the share that lies as it is wanted where parts lie so behind the grooves; if the settings sum
 /// up the objective sorting by that of those that stay on the track. A long chain of ledges for purity, eight
 /// or more, ends with its last planned one twice more. For purity and yield of 1000 traps or more two plans
-/// are made by themselves (decisions.md#returns). None if parts come through no groove.
+/// are made by themselves (decisions.md#returns).
 /// Where ledges follow grooves what is before them is planned first, with half of the traps, so that as
 /// many parts as can be come to one way, and then the ledges behind the best of it (decisions.md#ledges). The
 /// best of them are judged by trials of whole tracks in the end, in a race, by what the study maximises.
 /// About evolution.plannedTraps traps are tried; the same settings give the same designs. `planned` is told
-/// of the work as of generation 0. Errors: traps that cannot be planned, engine, cancelled, or stopped: there
-/// is no generation to wait for.
+/// of the work as of generation 0. Errors: traps that cannot be planned, parts that come to the
+/// first of them in no way more than once in 75 times or in none that is wanted (ErrorKind::unattainable),
+/// engine, cancelled, or stopped: there is no generation to wait for.
 base::Result<std::vector<search::Design>> planDesigns(
     const StudyInputs& inputs, std::size_t most, const std::function<void(const GenerationPlan&)>& planned,
     const LearningControl& control);

@@ -16,8 +16,8 @@ constexpr double kPercent = 100.0;
 
 /// "99.4 %   98.7 ... 99.8 %"
 std::string shareText(double share, const stats::Interval& bounds) {
-    return fmt::format("{:5.1f} %   {:>8.1f} ... {:5.1f} %", kPercent * share, kPercent * bounds.low,
-                       kPercent * bounds.high);
+    return fmt::format("{:5.{}f} %   {:>8.1f} ... {:5.1f} %", kPercent * share,
+                       stats::countPercentDecimals(share), kPercent * bounds.low, kPercent * bounds.high);
 }
 
 std::string shareText(int successes, int trials) {

@@ -252,8 +252,9 @@ std::vector<std::size_t> TrapTrials::listWanted() const {
     return wanted;
 }
 
-base::Status TrapTrials::checkWanted() const {
-    if (!settings().target.isSet() || !problem_.wanted.empty() || ends_.empty()) return base::success();
+base::Status TrapTrials::checkWays() const {
+    if (ways_.empty()) return tellNoWays();
+    if (!settings().target.isSet() || !problem_.wanted.empty()) return base::success();
     return base::Error{
         fmt::format(
             "Parts shall end {}, and none comes to the traps so, within {:g}°. Traps take them from "
@@ -268,6 +269,22 @@ base::Status TrapTrials::checkWanted() const {
                               "so (\"{}\").",
                               kRailsTraps)
                 : ""),
+        base::ErrorKind::unattainable};
+}
+
+/// What became of the parts of which none, or hardly two in the same way, came to the first trap.
+base::Error TrapTrials::tellNoWays() const {
+    constexpr double kPercent = 100.0;
+    const double fallen = kPercent * problem_.arriving[problem_.fallen()];
+    const double stuck = kPercent * problem_.arriving[problem_.stuck()];
+    return {
+        fmt::format(
+            "Traps are planned from the ways in which parts come to the first of them, and there is none in "
+            "which {:.1f} % do: {:.1f} % fall off before it, {:.1f} % get stuck, {:.1f} % come anyhow.\n"
+            "Give the track walls or more width (track.innerWall_mm, track.outerWall_mm, "
+            "track.segmentWidth_mm), or check the drive (simulation.drive); or learn without a plan "
+            "(evolution.firstGeneration graded).",
+            kPercent * kLeastOfWay / kTrialsOfWays, fallen, stuck, kPercent - fallen - stuck),
         base::ErrorKind::unattainable};
 }
 

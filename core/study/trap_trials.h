@@ -63,12 +63,12 @@ class TrapTrials {
 
     /// First of all: in which ways parts come to the first trap, by so many trials. That is the problem's
     /// ways, rows, arriving, mostFall and wanted, and, where something follows the chain, its then; where
-    /// nothing comes through the grooves its ways are none.
+    /// nothing comes to the trap, or hardly two parts alike, its ways are none.
     base::Status findWays(int trials, ChainProblem& problem);
 
-    /// ErrorKind::unattainable if something is wanted and none of those ways is: traps take parts from one of
-    /// them to another.
-    [[nodiscard]] base::Status checkWanted() const;
+    /// ErrorKind::unattainable if there are no such ways, or if something is wanted and none of them is:
+    /// traps take parts from one of them to another.
+    [[nodiscard]] base::Status checkWays() const;
 
     /// So many trials more of each trap, from each way; half of them with parts that followParts() met.
     base::Status measure(std::span<const Work> works);
@@ -91,6 +91,7 @@ class TrapTrials {
     base::Status findWaysThen(ChainProblem& problem, int each);
     [[nodiscard]] std::vector<std::size_t> listWanted() const;
     [[nodiscard]] std::string describeEnds() const;
+    [[nodiscard]] base::Error tellNoWays() const;
     [[nodiscard]] TrackSettings withoutGiven() const;
     [[nodiscard]] base::Result<std::shared_ptr<const track::Track>> build(const FixedTraps& traps,
                                                                           TrackSettings shortened) const;

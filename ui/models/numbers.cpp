@@ -17,6 +17,10 @@ constexpr double kPercent = 100.0;
 constexpr double kRounding = 1e-9;
 const QString kNothing = QStringLiteral("–");
 
+QString percentOf(double share) {
+    return fixed(kPercent * share, stats::countPercentDecimals(share));
+}
+
 }  // namespace
 
 QString fixed(double value, int decimals) {
@@ -28,7 +32,7 @@ QString fixed(double value, int decimals) {
 
 QString percent(int successes, int trials) {
     if (trials == 0) return kNothing;
-    return fixed(kPercent * successes / trials, 1);
+    return percentOf(static_cast<double>(successes) / trials);
 }
 
 QString boundsText(const stats::Interval& bounds, int trials) {
@@ -59,7 +63,7 @@ QString successWord(const std::optional<double>& rate) {
     // 99.96 % must not look like 100 %, but 95 % need not be 95.0 %.
     const double shown = kPercent * *rate;
     const bool whole = std::abs(shown - std::round(shown)) < kRounding;
-    return Text::tr("%1 %").arg(fixed(shown, whole ? 0 : 1));
+    return Text::tr("%1 %").arg(whole ? fixed(shown, 0) : percentOf(*rate));
 }
 
 QString shareText(const std::optional<stats::Count>& success) {
@@ -100,7 +104,7 @@ QString successHelp(const std::optional<stats::Count>& success) {
 }
 
 QString percent(const std::optional<double>& share) {
-    return share ? fixed(kPercent * *share, 1) : kNothing;
+    return share ? percentOf(*share) : kNothing;
 }
 
 QVariant percentValue(const std::optional<double>& share) {

@@ -91,7 +91,8 @@ EvolveSummary::EvolveSummary(QWidget* parent)
     setObjectName("evolve.summary");
     reason_->setWordWrap(true);
     reason_->setForegroundRole(QPalette::PlaceholderText);
-    reason_->setText(tr("Its tracks were learned with these settings, so a change makes a new study."));
+    reason_->setText(
+        tr("All tracks of a study are learned with the same settings, so a change makes a new study."));
     change_->setObjectName("evolve.change");
     connect(change_, &QPushButton::clicked, this, &EvolveSummary::changeWanted);
     auto* layout = new QVBoxLayout(this);

@@ -2,6 +2,7 @@
 
 #include "core/stats/binomial.h"
 #include "ui/charts/robustness_chart.h"
+#include "ui/models/numbers.h"
 #include "ui/pages/panel_head.h"
 
 namespace trapwright::pages {
@@ -18,7 +19,7 @@ QString linkOf(std::size_t link, const study::PlaceResult& result) {
     const stats::Interval bounds = stats::calcClopperPearson(tally.success, tally.trials());
     return QString("<a href=\"%1\"><b>%2 %</b></a> (%3 … %4)")
         .arg(link)
-        .arg(100.0 * tally.success / tally.trials(), 0, 'f', 1)
+        .arg(models::percent(tally.success, tally.trials()))
         .arg(100.0 * bounds.low, 0, 'f', 1)
         .arg(100.0 * bounds.high, 0, 'f', 1);
 }

@@ -160,7 +160,7 @@ QWidget* TrackPage::makeHead() {
 
     locked_ = new QWidget(head);
     locked_->setObjectName("track.locked");
-    auto* reason = new QLabel(tr("The tracks of this study were learned with these settings."), locked_);
+    auto* reason = new QLabel(tr("All tracks of a study are learned with the same settings."), locked_);
     reason->setWordWrap(true);
     auto* fork = new QPushButton(tr("Change in a new study"), locked_);
     fork->setObjectName("track.fork");

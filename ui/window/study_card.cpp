@@ -7,6 +7,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "core/stats/binomial.h"
 #include "ui/look/icon.h"
 #include "ui/look/text.h"
 
@@ -32,8 +33,8 @@ QString elided(const QLabel& label, const QString& text) {
                                           StudyCard::kPicture.width() - 2 * kTextMargin);
 }
 
-QString percent(double share) {
-    return QLocale().toString(100.0 * share, 'f', 1);
+QString percent(double share, int decimals = 1) {
+    return QLocale().toString(100.0 * share, 'f', decimals);
 }
 
 }  // namespace
@@ -122,7 +123,8 @@ void StudyCard::setCover(const StudyCover& cover) {
         const auto& [ofArriving, rate, bounds, count, finished] = *cover.success;
         success_->setText(
             (ofArriving ? tr("<b>%1 %</b> correct (%2 … %3)") : tr("<b>%1 %</b> success (%2 … %3)"))
-                .arg(percent(rate), percent(bounds.low), percent(bounds.high)));
+                .arg(percent(rate, stats::countPercentDecimals(rate)), percent(bounds.low),
+                     percent(bounds.high)));
         const QString told =
             ofArriving ? tr("%L1 of the %L2 parts that arrived are right, of %L3 that were fed; in brackets "
                             "the 95 % bounds.")

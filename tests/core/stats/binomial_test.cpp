@@ -9,6 +9,18 @@ class BinomialTest : public QObject {
     Q_OBJECT
 
  private slots:
+    // Where one of many fails, no table says that none did.
+    void decimalsOfPercent() {
+        QCOMPARE(stats::countPercentDecimals(1.0), 1);
+        QCOMPARE(stats::countPercentDecimals(0.0), 1);
+        QCOMPARE(stats::countPercentDecimals(0.5), 1);
+        QCOMPARE(stats::countPercentDecimals(0.9994), 1);
+        QCOMPARE(stats::countPercentDecimals(0.9996), 2);
+        QCOMPARE(stats::countPercentDecimals(0.0004), 2);
+        QCOMPARE(stats::countPercentDecimals(0.99997), 3);
+        QCOMPARE(stats::countPercentDecimals(1.0 - 1e-9), 3);
+    }
+
     void clopperPearson_data() {
         QTest::addColumn<int>("successes");
         QTest::addColumn<int>("trials");

@@ -386,6 +386,21 @@ class PlanningTest : public QObject {
         QVERIFY2(std::abs(*told - 0.25) < 0.05, qPrintable(QString::number(*told)));
     }
 
+    // A plan of nothing is no plan, and a first generation at random is not what was asked for.
+    void tellsThatNoPartComesToTheTraps() {
+        study::StudyInputs inputs = sieveInputs("sorting");
+        inputs.engine = std::make_shared<fake::FakeEngine>(
+            [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                return endOf(*batch.track, spec, true);
+            },
+            1);
+        const auto none = study::planDesigns(inputs, 3, {}, {});
+        QVERIFY(!none.ok());
+        QCOMPARE(none.error().kind, base::ErrorKind::unattainable);
+        const QString message = QString::fromStdString(none.error().message);
+        QVERIFY2(message.contains("100.0 % fall off before it, 0.0 % get stuck"), qPrintable(message));
+    }
+
     void stopsWhenCancelled() {
         study::LearningControl control;
         const auto designs = study::planDesigns(
