@@ -279,8 +279,9 @@ base::Error TrapTrials::tellNoWays() const {
     const double stuck = kPercent * problem_.arriving[problem_.stuck()];
     return {
         fmt::format(
-            "Traps are planned from the ways in which parts come to the first of them, and there is none in "
-            "which {:.1f} % do: {:.1f} % fall off before it, {:.1f} % get stuck, {:.1f} % come anyhow.\n"
+            "Traps are planned from the ways in which parts come to the first of them, and in no way do as "
+            "many as {:.1f} % of them: {:.1f} % fall off before it, {:.1f} % get stuck, {:.1f} % come, each "
+            "in a way of its own.\n"
             "Give the track walls or more width (track.innerWall_mm, track.outerWall_mm, "
             "track.segmentWidth_mm), or check the drive (simulation.drive); or learn without a plan "
             "(evolution.firstGeneration graded).",

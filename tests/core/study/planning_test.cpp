@@ -344,19 +344,6 @@ class PlanningTest : public QObject {
         VERIFY_OK(study::evolve(inputs, study::stateAfter(whole[0]), again, {}));
     }
 
-    void partsThatComeThroughNoGrooveGiveNoPlan() {
-        study::StudyInputs inputs = sieveInputs("sorting");
-        inputs.engine = std::make_shared<fake::FakeEngine>(
-            [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-                trial::PartOutcome outcome = sieveLaw(batch, spec);
-                outcome.ending = trial::Ending::stuck;
-                return outcome;
-            });
-        const auto designs = study::planDesigns(inputs, 3, {}, {});
-        VERIFY_OK(designs);
-        QVERIFY(designs->empty());
-    }
-
     // Nothing that is planned turns parts to lie as none of them comes.
     void tellsThatNoPartComesAsItIsWanted() {
         study::StudyInputs inputs = sieveInputs("sorting");
@@ -387,18 +374,29 @@ class PlanningTest : public QObject {
     }
 
     // A plan of nothing is no plan, and a first generation at random is not what was asked for.
+    void tellsThatNoPartComesToTheTraps_data() {
+        QTest::addColumn<int>("ending");
+        QTest::addColumn<QString>("told");
+        QTest::newRow("they fall off")
+            << static_cast<int>(trial::Ending::fellOff) << "100.0 % fall off before it, 0.0 % get stuck";
+        QTest::newRow("they get stuck")
+            << static_cast<int>(trial::Ending::stuck) << "0.0 % fall off before it, 100.0 % get stuck";
+    }
     void tellsThatNoPartComesToTheTraps() {
+        QFETCH(int, ending);
+        QFETCH(QString, told);
         study::StudyInputs inputs = sieveInputs("sorting");
         inputs.engine = std::make_shared<fake::FakeEngine>(
-            [](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
-                return endOf(*batch.track, spec, true);
-            },
-            1);
+            [ending](const trial::TrialBatch& batch, const trial::TrialSpec& spec) {
+                trial::PartOutcome outcome = sieveLaw(batch, spec);
+                outcome.ending = static_cast<trial::Ending>(ending);
+                return outcome;
+            });
         const auto none = study::planDesigns(inputs, 3, {}, {});
         QVERIFY(!none.ok());
         QCOMPARE(none.error().kind, base::ErrorKind::unattainable);
         const QString message = QString::fromStdString(none.error().message);
-        QVERIFY2(message.contains("100.0 % fall off before it, 0.0 % get stuck"), qPrintable(message));
+        QVERIFY2(message.contains(told), qPrintable(message));
     }
 
     void stopsWhenCancelled() {
