@@ -220,19 +220,24 @@ std::vector<Overhang> findOverhangs(const TriangleMesh& mesh, const PrintLimits&
     return overhangs;
 }
 
-PrintReport checkForPrinting(const TriangleMesh& mesh, const PrintLimits& limits) {
+PrintReport checkClosed(const TriangleMesh& mesh, const PrintLimits& limits) {
     PrintReport report;
-    const MeshReport found = checkMesh(mesh, true);
-    report.volume = found.volume;
-    report.closed = found.isSolid() && found.nonManifoldEdges == 0;
-    report.overlappingTriangles = found.overlappingTriangles;
     if (mesh.triangles.empty()) return report;
-    report.size = calcBoundingBox(mesh).size();
-    if (!report.closed) return report;
     const std::vector<SharpEdge> edges = findSharpEdges(mesh, kSharpestEdge);
     report.thinWalls = findThinWalls(mesh, limits.thinnestWall, edges);
     report.ridges = collectRidges(mesh, limits.thinnestWall, edges);
     report.overhangs = findOverhangs(mesh, limits);
+    return report;
+}
+
+PrintReport checkForPrinting(const TriangleMesh& mesh, const PrintLimits& limits) {
+    const MeshReport found = checkMesh(mesh, true);
+    const bool isClosed = found.isSolid() && found.nonManifoldEdges == 0;
+    PrintReport report = isClosed ? checkClosed(mesh, limits) : PrintReport{};
+    report.volume = found.volume;
+    report.closed = isClosed;
+    report.overlappingTriangles = found.overlappingTriangles;
+    if (!mesh.triangles.empty()) report.size = calcBoundingBox(mesh).size();
     return report;
 }
 

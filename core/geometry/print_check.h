@@ -65,8 +65,10 @@ inline constexpr double kSharpestEdge = 45.0 * base::kDegree;
 /// thin because it tapers to a ridge is told of as that ridge, with its angle, and is no thin wall.
 PrintReport checkForPrinting(const TriangleMesh& mesh, const PrintLimits& limits);
 
-/// What it tells of walls, ridges and overhangs alone, of a solid that is known to be closed: quick enough to
-/// judge tracks by while they are learned.
+/// What it tells of walls, ridges and overhangs, of a solid that is known to be closed, and nothing else:
+/// quick enough to judge tracks by while they are learned.
+PrintReport checkClosed(const TriangleMesh& mesh, const PrintLimits& limits);
+/// Each alone.
 std::vector<ThinWall> findThinWalls(const TriangleMesh& mesh, const PrintLimits& limits);
 std::vector<SharpRidge> findSharpRidges(const TriangleMesh& mesh, const PrintLimits& limits);
 std::vector<Overhang> findOverhangs(const TriangleMesh& mesh, const PrintLimits& limits);

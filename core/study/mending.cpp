@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "core/base/parallel.h"
@@ -57,13 +58,18 @@ double moveBy(const search::Dimension& dimension, double value, double step) {
     return search::roundToBits(std::clamp(value + share, 0.0, 1.0), dimension.bits);
 }
 
+/// Takes longer than to find out what cannot be printed.
+bool crossesItself(const track::Track& track) {
+    return geometry::countOverlappingTriangles(track.solid, track.surfaceTriangles) > 0;
+}
+
 /// Takes back of every number's move what is not needed for a track that has nothing left that cannot be
 /// printed: moves find their way at random, and what parts do may hang on tenths of a millimetre.
 void takeBack(const TrackSettings& settings, const search::Design& before, const search::DesignSpace& space,
               const MendingPlan& plan, const base::RunControl& control, search::Design& mended) {
     const auto isMended = [&] {
-        const auto left = measureUnprintable(settings, mended, plan.limits);
-        return left && *left == 0.0;
+        const auto track = decodeTrack(settings, mended);
+        return track && track::findPrintFlaws(*track, plan.limits).total() == 0.0 && !crossesItself(*track);
     };
     for (std::size_t i = 0; i < mended.size(); ++i) {
         double needed = mended[i];
@@ -98,7 +104,7 @@ base::Result<double> measureUnprintable(const TrackSettings& settings, const sea
                                         const geometry::PrintLimits& limits) {
     const auto track = decodeTrack(settings, design);
     if (!track) return track.error();
-    if (geometry::countOverlappingTriangles(track->solid, track->surfaceTriangles) > 0)
+    if (crossesItself(*track))
         return base::Error{"The track crosses itself, which mending does not cure. Choose another one."};
     return track::findPrintFlaws(*track, limits).total();
 }
@@ -123,13 +129,12 @@ base::Result<MendedDesign> mendDesign(const TrackSettings& settings, const searc
         const double kept = mended.design[number];
         mended.design[number] = moveBy(space.dimensions[number], kept, step * random.normal());
         if (mended.design[number] == kept) continue;
-        const auto left = measureUnprintable(settings, mended.design, plan.limits);
-        if (left && *left == mended.unprintable) {
-            weights[drawn] = std::max(kLeastWeight, kForget * weights[drawn]);
-        } else {
-            weights[drawn] = 1.0;
-        }
-        if (left && *left < mended.unprintable) {
+        const auto track = decodeTrack(settings, mended.design);
+        const std::optional<double> left =
+            track ? std::optional(track::findPrintFlaws(*track, plan.limits).total()) : std::nullopt;
+        const bool changesNothing = left == mended.unprintable;
+        weights[drawn] = changesNothing ? std::max(kLeastWeight, kForget * weights[drawn]) : 1.0;
+        if (left && *left < mended.unprintable && !crossesItself(*track)) {
             mended.unprintable = *left;
             idle = 0;
         } else {

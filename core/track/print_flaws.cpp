@@ -18,13 +18,13 @@ PrintFlaws findPrintFlaws(const Track& track, const geometry::PrintLimits& limit
     PrintOptions asLearned;
     asLearned.rim = limits.thinnestWall;
     const auto printed = buildPrintSolid(track, asLearned);
-    const geometry::TriangleMesh& solid = printed ? *printed : track.solid;
-    for (const geometry::ThinWall& wall : geometry::findThinWalls(solid, limits))
+    const geometry::PrintReport report = geometry::checkClosed(printed ? *printed : track.solid, limits);
+    for (const geometry::ThinWall& wall : report.thinWalls)
         flaws.thin += wall.area;
-    for (const geometry::SharpRidge& ridge : geometry::findSharpRidges(solid, limits)) {
+    for (const geometry::SharpRidge& ridge : report.ridges) {
         if (ridge.lost > kLeastLoss) flaws.ridges += ridge.length * ridge.lost;
     }
-    for (const geometry::Overhang& overhang : geometry::findOverhangs(solid, limits))
+    for (const geometry::Overhang& overhang : report.overhangs)
         flaws.overhang += overhang.area;
     return flaws;
 }
