@@ -220,7 +220,7 @@ std::vector<Overhang> findOverhangs(const TriangleMesh& mesh, const PrintLimits&
     return overhangs;
 }
 
-PrintReport checkClosed(const TriangleMesh& mesh, const PrintLimits& limits) {
+PrintReport checkClosedForPrinting(const TriangleMesh& mesh, const PrintLimits& limits) {
     PrintReport report;
     if (mesh.triangles.empty()) return report;
     const std::vector<SharpEdge> edges = findSharpEdges(mesh, kSharpestEdge);
@@ -233,7 +233,7 @@ PrintReport checkClosed(const TriangleMesh& mesh, const PrintLimits& limits) {
 PrintReport checkForPrinting(const TriangleMesh& mesh, const PrintLimits& limits) {
     const MeshReport found = checkMesh(mesh, true);
     const bool isClosed = found.isSolid() && found.nonManifoldEdges == 0;
-    PrintReport report = isClosed ? checkClosed(mesh, limits) : PrintReport{};
+    PrintReport report = isClosed ? checkClosedForPrinting(mesh, limits) : PrintReport{};
     report.volume = found.volume;
     report.closed = isClosed;
     report.overlappingTriangles = found.overlappingTriangles;

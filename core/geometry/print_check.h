@@ -67,7 +67,7 @@ PrintReport checkForPrinting(const TriangleMesh& mesh, const PrintLimits& limits
 
 /// What it tells of walls, ridges and overhangs, of a solid that is known to be closed, and nothing else:
 /// quick enough to judge tracks by while they are learned.
-PrintReport checkClosed(const TriangleMesh& mesh, const PrintLimits& limits);
+PrintReport checkClosedForPrinting(const TriangleMesh& mesh, const PrintLimits& limits);
 /// Each alone.
 std::vector<ThinWall> findThinWalls(const TriangleMesh& mesh, const PrintLimits& limits);
 std::vector<SharpRidge> findSharpRidges(const TriangleMesh& mesh, const PrintLimits& limits);

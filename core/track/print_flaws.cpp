@@ -18,7 +18,8 @@ PrintFlaws findPrintFlaws(const Track& track, const geometry::PrintLimits& limit
     PrintOptions asLearned;
     asLearned.rim = limits.thinnestWall;
     const auto printed = buildPrintSolid(track, asLearned);
-    const geometry::PrintReport report = geometry::checkClosed(printed ? *printed : track.solid, limits);
+    const geometry::PrintReport report =
+        geometry::checkClosedForPrinting(printed ? *printed : track.solid, limits);
     for (const geometry::ThinWall& wall : report.thinWalls)
         flaws.thin += wall.area;
     for (const geometry::SharpRidge& ridge : report.ridges) {
